@@ -1,0 +1,25 @@
+// Contact of a hyper-ellipsoid (a) with a triangle mesh (b): faces, convex edges and vertices; inner edges are not felt.
+#pragma once
+
+#include <vector>
+
+#include "engine/geometry/hyper_ellipsoid.h"
+#include "engine/geometry/surface_contact.h"
+#include "engine/geometry/triangle_mesh.h"
+
+namespace engine {
+
+/// Scratch of contacts_with_mesh, kept by the caller between steps (no allocation after warm-up), and last normal for hysteresis.
+struct MeshContactScratch {
+  std::vector<int> triangles;
+  std::vector<SurfaceContact> candidates;
+  Vec3 last_normal_M = Vec3::Zero();  // zero: none yet
+};
+
+/// Points with gap < margin [m] between the hyper-ellipsoid at X_WA and the mesh at X_WM; `out` is cleared first. Normals within
+/// 10 degrees are clustered; the deepest and up to three spread points stay. A part sliding over a flat sheet of many triangles
+/// gets the contacts of a plane. Deepest-axis separation is limited to half the smallest semi-axis beyond the surface.
+void contacts_with_mesh(const HyperEllipsoid&, const Pose& X_WA, const TriangleMesh&, const Pose& X_WM, double margin,
+                        MeshContactScratch&, ContactPoints& out);
+
+}  // namespace engine

@@ -1,0 +1,64 @@
+// A triangle mesh for contact: welded vertices, what its edges are, and a tree of bounding boxes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/math/types.h"
+
+namespace engine {
+
+using Triangle = std::array<std::int32_t, 3>;
+
+struct Aabb {
+  Vec3 lower = Vec3::Constant(1e300);
+  Vec3 upper = Vec3::Constant(-1e300);
+};
+
+/// Whether contact normals may leave the face at this edge: a convex edge may, a flat or concave one must not be felt.
+enum class EdgeKind : std::uint8_t { flat, convex, concave, open };
+
+/// Immutable after construction. Triangles are counter-clockwise seen from outside.
+class TriangleMesh {
+ public:
+  /// Welds vertices closer than 1e-5 m, drops degenerate (area/edge^2 < 1e-12) and duplicate triangles, builds adjacency and
+  /// the tree. Indices out of range assert; the loader has audited them.
+  TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles);
+
+  const std::vector<Vec3>& vertices() const { return vertices_; }
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  const std::vector<Vec3>& face_normals() const { return face_normals_; }
+  /// Edge i of triangle t runs from vertex i to vertex (i+1)%3.
+  EdgeKind edge_kind(int triangle, int edge) const { return edge_kinds_[index(triangle)][index(edge)]; }
+  /// Triangle on the other side of that edge, or -1.
+  int neighbour(int triangle, int edge) const { return neighbours_[index(triangle)][index(edge)]; }
+  const Aabb& bounds() const { return bounds_; }
+  int dropped_triangles() const { return dropped_; }
+
+  /// Appends to `out` the triangles whose boxes overlap `box` (mesh frame), in a fixed order. Returns nodes visited.
+  int query(const Aabb& box, std::vector<int>& out) const;
+
+  /// Nearest hit of the ray origin + s * direction, 0 <= s <= s_max: true, with s and the triangle. For wheels and cameras.
+  bool raycast(const Vec3& origin, const Vec3& direction, double s_max, double& s, int& triangle) const;
+
+ private:
+  struct Node {
+    Aabb box;
+    std::int32_t first = 0;   // leaf: first triangle in order_; inner: left child
+    std::int32_t count = 0;   // leaf: triangles; inner: 0 (right child is first + 1)
+  };
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  std::vector<Vec3> vertices_;
+  std::vector<Triangle> triangles_;
+  std::vector<Vec3> face_normals_;
+  std::vector<std::array<EdgeKind, 3>> edge_kinds_;
+  std::vector<std::array<int, 3>> neighbours_;
+  std::vector<Node> nodes_;
+  std::vector<int> order_;
+  Aabb bounds_;
+  int dropped_ = 0;
+};
+
+}  // namespace engine

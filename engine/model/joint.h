@@ -1,0 +1,43 @@
+// Joints between two bodies, or a body and the world.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+
+#include "engine/math/types.h"
+
+namespace engine {
+
+/// revolute: turns about the y axis of the joint frame. universal: y fixed in the parent and x fixed in the child stay
+/// perpendicular (cardan cross). spherical: all turns. ragdoll: spherical with limits, spring torque and damping per angle. fixed: none.
+enum class JointKind { revolute, universal, spherical, ragdoll, fixed };
+
+/// One articulation angle. The relative rotation R_FpFc is split into a swing (rotation vector with components x and y) and a
+/// twist about z; the three angles are swing x, swing y, twist z. A person's frames: x forward, y left, z up in the standing
+/// pose turned to the middle of the range, so that no angle comes near 180 deg, where the swing is singular.
+struct ArticulationAngle {
+  double lower = -std::numeric_limits<double>::infinity();  // [rad]
+  double upper = std::numeric_limits<double>::infinity();   // [rad]
+  double stiffness = 0;                                     // [N m/rad] resistive spring
+  double rest = 0;                                          // [rad] angle at which the spring is slack
+  double damping = 0;                                       // [N m s/rad]
+  double friction_torque = 0;                               // [N m] constant resistance against turning
+};
+
+/// Passive torque inside the range of motion (Riener & Edrich 1999), spec physics section 2.
+enum class PassiveTorque { none, hip, knee, ankle };
+
+struct Joint {
+  std::string name;
+  JointKind kind = JointKind::spherical;
+  int parent = -1;   // body index, -1: the world
+  int child = 0;     // body index
+  Pose X_PF;         // joint frame in the parent (in the world for parent -1)
+  Pose X_CF;         // joint frame in the child
+  std::array<ArticulationAngle, 3> angles;   // x, y, z as above; a revolute joint uses y only
+  PassiveTorque passive = PassiveTorque::none;
+  double breaking_force = std::numeric_limits<double>::infinity();  // [N] a grip or pedal lets go above it
+};
+
+}  // namespace engine

@@ -1,0 +1,53 @@
+// What a scene contains. Constant while it runs; plain structs with defaults, SI units, no behaviour.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/model/body.h"
+#include "engine/model/joint.h"
+#include "engine/model/person.h"
+#include "engine/model/vehicle.h"
+
+namespace engine {
+
+constexpr double kGravity = 9.81;  // [m/s^2] the value of the published cases the tests compare with
+
+struct Ground {
+  bool plane = true;                               // an infinite plane z = height
+  double height = 0;                               // [m]
+  std::shared_ptr<const TriangleMesh> terrain;     // world frame; in place of or besides the plane
+  SurfaceProperties surface{1.0, 1.0, 0.0, 0.0, 1e9};   // friction: the smaller of two surfaces acts, so 1.0 leaves it to the other
+};
+
+enum class Scheme { stepping, rk4, adaptive };
+enum class ContactLaw { default_auto, compliant };
+enum class Force { automatic, on, off };             // a scene's author may force an effect
+
+struct Settings {
+  double duration = 4.0;                 // [s]
+  double step = 1e-3;                    // [s]
+  double record_interval = 5e-3;         // [s] between snapshots; rounded to whole steps
+  Scheme scheme = Scheme::stepping;
+  ContactLaw contact_law = ContactLaw::default_auto;
+  Vec3 gravity{0, 0, -kGravity};         // [m/s^2]
+  double solver_tolerance = 1e-5;        // [m/s] residual of the contact solver
+  double adaptive_tolerance = 1e-5;      // [m] error of a step, scheme `adaptive`
+  bool locate_events = true;             // place restitution impacts inside the step
+  bool sleep = false;                    // bodies at rest stop costing
+  bool stop_at_rest = true;              // end the run when everything has come to rest
+  std::map<std::string, Force> effects;  // forced effects by name
+};
+
+struct Model {
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  std::vector<Person> persons;
+  std::vector<Vehicle> vehicles;
+  Ground ground;
+  Settings settings;
+};
+
+}  // namespace engine

@@ -1,0 +1,42 @@
+// The whole program after loading: Model + Stage + Output.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/model/model.h"
+#include "render/stage.h"
+#include "scenes/error.h"
+
+namespace scenes {
+
+/// What the scene file says of its pictures; the command line overrides.
+struct Output {
+  int width = 1280;
+  int height = 720;
+  double fps = 30;
+  std::string quality = "standard";
+  std::vector<std::pair<double, std::string>> stills;   // [s], camera: what snapshot tests draw
+};
+
+struct Scene {
+  std::string title;
+  std::filesystem::path path;
+  std::string sha256;                       // of the file's bytes and the overrides
+  std::vector<std::string> overrides;       // "path.to.key=value" as given
+  engine::Model model;
+  render::Stage stage;
+  Output output;
+  std::vector<std::string> warnings;        // file:line:column: what looked odd but loads
+  std::map<std::string, double> closed_form;   // expected measures the scene carries, SI, by metric key
+};
+
+/// Reads, checks and completes a scene. Overrides are applied before checking. Throws SceneErrors with everything found.
+Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// JSON Schema (draft 2020-12) of the scene format, from the table the loader reads.
+std::string json_schema();
+
+}  // namespace scenes
