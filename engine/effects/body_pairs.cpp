@@ -1,0 +1,72 @@
+#include "engine/effects/body_pairs.h"
+
+#include <algorithm>
+
+#include "engine/geometry/hyper_ellipsoid_pair.h"
+
+namespace engine {
+namespace {
+
+bool can_meet(const Model& model, int a, int b) {
+  const Body& A = model.bodies[a];
+  const Body& B = model.bodies[b];
+  if (!std::holds_alternative<HyperEllipsoid>(A.shape) || !std::holds_alternative<HyperEllipsoid>(B.shape)) return false;
+  if (A.fixed && B.fixed) return false;
+  return std::none_of(model.joints.begin(), model.joints.end(), [&](const Joint& j) {
+    return (j.parent == a && j.child == b) || (j.parent == b && j.child == a);
+  });
+}
+
+/// Segments of one person that stand inside each other in the start pose (upper arm in the side of the torso, thighs at the
+/// crotch) are so by the simplification of the figure: their contact would push the pose apart.
+bool overlaps_at_start(const Model& model, int a, int b) {
+  Vec3 guess = Vec3::Zero();
+  return contact_of_pair(std::get<HyperEllipsoid>(model.bodies[a].shape), model.bodies[a].X_WB,
+                         std::get<HyperEllipsoid>(model.bodies[b].shape), model.bodies[b].X_WB, 0.0, guess)
+      .has_value();
+}
+
+}  // namespace
+
+std::vector<BodyPair> pairs_within_persons(const Model& model, int effect) {
+  std::vector<BodyPair> pairs;
+  for (const Person& person : model.persons)
+    for (std::size_t i = 0; i < person.bodies.size(); ++i)
+      for (std::size_t k = i + 1; k < person.bodies.size(); ++k)
+        if (can_meet(model, person.bodies[i], person.bodies[k]) && !overlaps_at_start(model, person.bodies[i], person.bodies[k]))
+          pairs.push_back({effect, person.bodies[i], person.bodies[k], Vec3::Zero()});
+  return pairs;
+}
+
+std::vector<BodyPair> pairs_between_bodies(const Model& model, int effect) {
+  std::vector<BodyPair> pairs;
+  const int n = static_cast<int>(model.bodies.size());
+  for (int a = 0; a < n; ++a)
+    for (int b = a + 1; b < n; ++b) {
+      const bool same_person = model.bodies[a].person >= 0 && model.bodies[a].person == model.bodies[b].person;
+      if (!same_person && can_meet(model, a, b)) pairs.push_back({effect, a, b, Vec3::Zero()});
+    }
+  return pairs;
+}
+
+void find_pair_contacts(World& world, const State& state, int effect, ContactKind kind) {
+  for (BodyPair& pair : world.body_pairs) {
+    if (pair.effect != effect) continue;
+    if (!world.awake[pair.a] && !world.awake[pair.b]) continue;
+    const double margin = pair_margin(world, state, pair.a, pair.b);
+    const double apart = (state.X_WB[pair.a].p - state.X_WB[pair.b].p).norm();
+    if (apart > world.reach[pair.a] + world.reach[pair.b] + margin) continue;
+    const Body& A = world.model.bodies[pair.a];
+    const Body& B = world.model.bodies[pair.b];
+    const bool frozen = (!world.awake[pair.a] && !A.fixed) || (!world.awake[pair.b] && !B.fixed);
+    if (frozen) continue;   // in the zero condition: that effect watches
+    const auto touch = contact_of_pair(std::get<HyperEllipsoid>(A.shape), state.X_WB[pair.a], std::get<HyperEllipsoid>(B.shape),
+                                       state.X_WB[pair.b], margin, pair.normal_W);
+    if (!touch) continue;
+    const double mu = std::min(A.surface.friction_body.at(state.time), B.surface.friction_body.at(state.time));
+    const double e = std::max(A.surface.restitution_body.at(state.time), B.surface.restitution_body.at(state.time));
+    add_contact(world, state, *touch, pair.a, pair.b, effect, kind, mu, e);
+  }
+}
+
+}  // namespace engine

@@ -1,0 +1,34 @@
+// A physical effect: its name, what in a Model calls for it, and the hooks of the step it takes part in.
+// Adding one is one file in this folder and one line in table.cpp.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "engine/world.h"
+
+namespace engine {
+
+struct Effect {
+  const char* name = "";
+  /// The sentence shown as the reason, or nothing when the model does not call for it.
+  std::optional<std::string> (*called_for)(const Model&) = nullptr;
+  /// Once, before the first step: pairs, static loads. `self` is the effect's index in the plan.
+  void (*begin)(World&, const State&, int self) = nullptr;
+  /// Start of every step: inputs that follow the clock, dynamic pruning.
+  void (*before_step)(World&, State&, int self) = nullptr;
+  /// Appends constraints.
+  void (*find)(World&, const State&, int self) = nullptr;
+  /// Smooth forces at a stage of the integration: adds to `force` (6 per body).
+  void (*add_forces)(const World&, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& force) = nullptr;
+  /// Implicit joint resistance over the step: fills dampers and resistances.
+  void (*resist)(World&, const State&, int self) = nullptr;
+  /// End of every step.
+  void (*after_step)(World&, State&, int self) = nullptr;
+};
+
+/// Every effect there is, in the order of the step.
+std::span<const Effect* const> effect_table();
+
+}  // namespace engine

@@ -1,0 +1,21 @@
+// The effects by name, for the table. Each is defined in the file of its name.
+#pragma once
+
+#include "engine/effects/effect.h"
+
+namespace engine {
+
+extern const Effect kZeroConditionEffect;
+extern const Effect kGravityEffect;
+extern const Effect kJointsEffect;
+extern const Effect kJointLimitsEffect;
+extern const Effect kJointResistanceEffect;
+extern const Effect kJointLoopsEffect;
+extern const Effect kTyresEffect;
+extern const Effect kGroundContactEffect;
+extern const Effect kTerrainContactEffect;
+extern const Effect kMeshContactEffect;
+extern const Effect kSelfContactEffect;
+extern const Effect kBodyContactEffect;
+
+}  // namespace engine

@@ -1,0 +1,65 @@
+// Ends of the range of motion: one unilateral row per articulation angle near its end, restitution 0.
+#include <cmath>
+
+#include "engine/effects/effects.h"
+#include "engine/solver/joint_angles.h"
+
+namespace engine {
+namespace {
+
+constexpr double kNear = 0.12;        // [rad] a limit this close gets a row ...
+constexpr double kPerRate = 2.0;      // ... or one that 2 steps at the present rate would reach
+
+bool has_limit(const ArticulationAngle& angle) { return std::isfinite(angle.lower) || std::isfinite(angle.upper); }
+
+std::optional<std::string> called_for(const Model& model) {
+  int count = 0;
+  for (const Joint& joint : model.joints)
+    for (const ArticulationAngle& angle : joint.angles) count += has_limit(angle);
+  if (count == 0) return std::nullopt;
+  return std::to_string(count) + " articulation angles have a limit";
+}
+
+void add_limit(World& world, const Joint& joint, int joint_index, int angle, bool upper, double gap, const Vec3& gradient_W,
+               int self) {
+  Constraint c;
+  c.kind = ConstraintKind::limit;
+  c.rows = 1;
+  auto moving = [&](int body) { return body >= 0 && !world.model.bodies[body].fixed ? body : -1; };
+  c.body_a = moving(joint.child);
+  c.body_b = moving(joint.parent);
+  c.J_a.setZero();
+  c.J_b.setZero();
+  const double sign = upper ? -1 : 1;
+  c.J_a.row(0).tail<3>() = sign * gradient_W.transpose();
+  c.J_b.row(0).tail<3>() = -sign * gradient_W.transpose();
+  c.gap = gap;
+  c.key = (static_cast<std::uint64_t>(self) << 56) | (static_cast<std::uint64_t>(joint_index) << 8) |
+          static_cast<std::uint64_t>(2 * angle + upper);
+  c.effect = self;
+  world.constraints.push_back(c);
+}
+
+void find(World& world, const State& state, int self) {
+  for (int j = 0; j < static_cast<int>(world.model.joints.size()); ++j) {
+    const Joint& joint = world.model.joints[j];
+    if (!world.awake[joint.child] && (joint.parent < 0 || !world.awake[joint.parent])) continue;
+    if (!has_limit(joint.angles[0]) && !has_limit(joint.angles[1]) && !has_limit(joint.angles[2])) continue;
+    const JointAngles now = joint_angles(joint, joint.parent < 0 ? Pose{} : state.X_WB[joint.parent], state.X_WB[joint.child]);
+    const Vec3 w_PC = state.V_WB[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : state.V_WB[joint.parent].w);
+    for (int i = 0; i < 3; ++i) {
+      if (!now.free[i]) continue;
+      const ArticulationAngle& range = joint.angles[i];
+      const double near = kNear + kPerRate * world.step * std::abs(now.gradient_W.col(i).dot(w_PC));
+      const double above = now.angle[i] - range.lower, below = range.upper - now.angle[i];
+      if (above < near) add_limit(world, joint, j, i, false, above, now.gradient_W.col(i), self);
+      if (below < near) add_limit(world, joint, j, i, true, below, now.gradient_W.col(i), self);
+    }
+  }
+}
+
+}  // namespace
+
+const Effect kJointLimitsEffect{.name = "joint_limits", .called_for = called_for, .find = find};
+
+}  // namespace engine

@@ -1,0 +1,46 @@
+// Joints that close a ring (a rider's hands on a bar): bilateral rows solved with the contacts.
+#include "engine/effects/effects.h"
+#include "engine/solver/joint_rows.h"
+
+namespace engine {
+namespace {
+
+constexpr double kCorrection = 0.2;   // [-] share of the ring's gap taken out per step
+
+std::optional<std::string> called_for(const Model& model) {
+  const std::size_t count = build_topology(model, {}).loops.size();
+  if (count == 0) return std::nullopt;
+  return std::to_string(count) + " joints close a loop";
+}
+
+void find(World& world, const State& state, int self) {
+  for (const int j : world.topology.loops) {
+    const Joint& joint = world.model.joints[j];
+    auto moving = [&](int body) { return body >= 0 && !world.model.bodies[body].fixed ? body : -1; };
+    const bool live = (joint.child >= 0 && world.awake[joint.child]) || (joint.parent >= 0 && world.awake[joint.parent]);
+    if (!live) continue;
+    JointRows rows;
+    joint_rows(joint, joint.parent < 0 ? Pose{} : state.X_WB[joint.parent], state.X_WB[joint.child], rows);
+    for (int k = 0; k < rows.count; ++k) {
+      Constraint c;
+      c.kind = ConstraintKind::bilateral;
+      c.rows = 1;
+      c.body_a = moving(joint.child);
+      c.body_b = moving(joint.parent);
+      c.J_a.setZero();
+      c.J_b.setZero();
+      c.J_a.row(0) = rows.J_C.row(k);
+      c.J_b.row(0) = rows.J_P.row(k);
+      c.target = -kCorrection * rows.error[k] / world.step;
+      c.key = (static_cast<std::uint64_t>(self) << 56) | (static_cast<std::uint64_t>(j) << 8) | static_cast<std::uint64_t>(k);
+      c.effect = self;
+      world.constraints.push_back(c);
+    }
+  }
+}
+
+}  // namespace
+
+const Effect kJointLoopsEffect{.name = "joint_loops", .called_for = called_for, .find = find};
+
+}  // namespace engine

@@ -1,0 +1,44 @@
+// Segments and free bodies on a terrain mesh.
+#include <algorithm>
+
+#include "engine/effects/effects.h"
+
+namespace engine {
+namespace {
+
+bool has_surface(const Body& body) { return !body.fixed && std::holds_alternative<HyperEllipsoid>(body.shape); }
+
+std::optional<std::string> called_for(const Model& model) {
+  const auto count = std::count_if(model.bodies.begin(), model.bodies.end(), has_surface);
+  if (!model.ground.terrain || count == 0) return std::nullopt;
+  return "a terrain of " + std::to_string(model.ground.terrain->triangles().size()) + " triangles and " + std::to_string(count) +
+         " hyper-ellipsoids that can reach it";
+}
+
+void begin(World& world, const State&, int self) {
+  if (!world.model.ground.terrain) return;
+  for (int b = 0; b < static_cast<int>(world.model.bodies.size()); ++b)
+    if (has_surface(world.model.bodies[b])) world.mesh_pairs.push_back({self, b, -1, world.model.ground.terrain.get(), {}});
+}
+
+void find(World& world, const State& state, int self) {
+  ContactPoints touches;
+  for (MeshPair& pair : world.mesh_pairs) {
+    if (pair.effect != self || !world.awake[pair.body]) continue;
+    const Body& body = world.model.bodies[pair.body];
+    const auto& shape = std::get<HyperEllipsoid>(body.shape);
+    contacts_with_mesh(shape, state.X_WB[pair.body], *pair.mesh, Pose{}, contact_margin(world, state, pair.body), pair.scratch,
+                       touches);
+    const SurfaceProperties& ground = world.model.ground.surface;
+    const double mu = std::min(body.surface.friction_ground.at(state.time), ground.friction_ground.at(state.time));
+    const double e = std::max(body.surface.restitution_ground.at(state.time), ground.restitution_ground.at(state.time));
+    for (const SurfaceContact& touch : touches)
+      add_contact(world, state, touch, pair.body, -1, self, ContactKind::terrain, mu, e);
+  }
+}
+
+}  // namespace
+
+const Effect kTerrainContactEffect{.name = "terrain_contact", .called_for = called_for, .begin = begin, .find = find};
+
+}  // namespace engine

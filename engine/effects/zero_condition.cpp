@@ -1,0 +1,81 @@
+// Until the first external impact gravity and joint forces of a person balance: it keeps its pose, stands or walks on as one, and
+// costs a bounding test a step. The first touch by anything but its support releases it (source 000, "zero condition").
+#include <algorithm>
+
+#include "engine/effects/effects.h"
+#include "engine/geometry/hyper_ellipsoid_pair.h"
+
+namespace engine {
+namespace {
+
+std::optional<std::string> called_for(const Model& model) {
+  const auto count = std::count_if(model.persons.begin(), model.persons.end(), [](const Person& p) { return p.zero_condition; });
+  if (count == 0) return std::nullopt;
+  return std::to_string(count) + " persons keep their pose until the first external impact";
+}
+
+bool waits(const World& world, const State& state, int body) {
+  const int person = world.model.bodies[body].person;
+  return person >= 0 && !state.released[person];
+}
+
+void release(World& world, State& state, int body, int by, const Vec3& point) {
+  const int person = world.model.bodies[body].person;
+  if (state.released[person]) return;
+  state.released[person] = 1;
+  world.events.push_back({state.time, "release", body, by, point, 0});
+}
+
+/// Would the two close their gap within this step?
+bool touches(const World& world, const State& state, const SurfaceContact& touch, int a, int b) {
+  auto velocity_at = [&](int body) -> Vec3 {
+    if (body < 0) return Vec3::Zero();
+    return state.V_WB[body].v + state.V_WB[body].w.cross(touch.p_a - state.X_WB[body].p);
+  };
+  const double closing = -touch.normal.dot(velocity_at(a) - velocity_at(b));
+  return touch.gap - closing * world.step <= 0 && closing > 0;
+}
+
+void before_step(World& world, State& state, int) {
+  if (std::all_of(state.released.begin(), state.released.end(), [](char r) { return r != 0; })) return;
+  ContactPoints found;
+  for (MeshPair& pair : world.mesh_pairs) {
+    if (pair.mesh_body < 0 || !waits(world, state, pair.body)) continue;
+    const auto& mesh = std::get<MeshShape>(world.model.bodies[pair.mesh_body].shape);
+    contacts_with_mesh(std::get<HyperEllipsoid>(world.model.bodies[pair.body].shape), state.X_WB[pair.body], *pair.mesh,
+                       state.X_WB[pair.mesh_body] * mesh.X_BM, pair_margin(world, state, pair.body, pair.mesh_body), pair.scratch,
+                       found);
+    for (const SurfaceContact& touch : found)
+      if (touches(world, state, touch, pair.body, pair.mesh_body)) release(world, state, pair.body, pair.mesh_body, touch.p_a);
+  }
+  for (BodyPair& pair : world.body_pairs) {
+    if (world.model.bodies[pair.a].person >= 0 && world.model.bodies[pair.a].person == world.model.bodies[pair.b].person) continue;
+    if (!waits(world, state, pair.a) && !waits(world, state, pair.b)) continue;
+    const double margin = pair_margin(world, state, pair.a, pair.b);
+    if ((state.X_WB[pair.a].p - state.X_WB[pair.b].p).norm() > world.reach[pair.a] + world.reach[pair.b] + margin) continue;
+    const auto touch = contact_of_pair(std::get<HyperEllipsoid>(world.model.bodies[pair.a].shape), state.X_WB[pair.a],
+                                       std::get<HyperEllipsoid>(world.model.bodies[pair.b].shape), state.X_WB[pair.b], margin,
+                                       pair.normal_W);
+    if (!touch || !touches(world, state, *touch, pair.a, pair.b)) continue;
+    if (waits(world, state, pair.a)) release(world, state, pair.a, pair.b, touch->p_a);
+    if (waits(world, state, pair.b)) release(world, state, pair.b, pair.a, touch->p_b);
+  }
+}
+
+/// Walks on as one.
+void after_step(World& world, State& state, int) {
+  for (std::size_t p = 0; p < world.model.persons.size(); ++p) {
+    if (state.released[p]) continue;
+    for (const int b : world.model.persons[p].bodies) {
+      if (world.awake[b]) continue;
+      state.X_WB[b].p += world.step * state.V_WB[b].v;
+    }
+  }
+}
+
+}  // namespace
+
+const Effect kZeroConditionEffect{
+    .name = "zero_condition", .called_for = called_for, .before_step = before_step, .after_step = after_step};
+
+}  // namespace engine

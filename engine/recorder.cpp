@@ -1,0 +1,155 @@
+#include "engine/recorder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace engine {
+namespace {
+
+constexpr double kStillSpeed = 0.05;    // [m/s]
+constexpr double kStillTurn = 0.3;      // [rad/s]
+constexpr double kStillTime = 0.25;     // [s] that long below both: at rest
+constexpr double kAirborne = 0.05;      // [s] off the ground that long: the next touch is a ground contact, even by a foot
+
+ContactState state_of(const Constraint& c, double gap_speed) {
+  if (c.impulse[0] <= 0) return gap_speed < 0 ? ContactState::approach : ContactState::separate;
+  if (c.u_before[0] < -0.1) return ContactState::impact;
+  const double slip = std::hypot(c.u_after[1], c.u_after[2]);
+  return slip > 1e-3 ? ContactState::slide : ContactState::stick;
+}
+
+}  // namespace
+
+Recorder::Recorder(const World& world, const State& state)
+    : still_since_(world.topology.trees.size(), -1),
+      hit_vehicle_(world.model.persons.size(), 0),
+      hit_head_(world.model.persons.size(), 0),
+      hit_ground_(world.model.persons.size(), 0),
+      support_(world.model.bodies.size(), 0),
+      last_ground_(world.model.persons.size(), 0) {
+  initial_energy_ = kinetic_energy(world.model, state) + potential_energy(world.model, state) + world.spring_energy;
+  last_energy_ = initial_energy_;
+  // what stands within 2 cm of the ground at the start carries its person
+  for (std::size_t b = 0; b < world.model.bodies.size(); ++b) {
+    const auto* shape = std::get_if<HyperEllipsoid>(&world.model.bodies[b].shape);
+    if (!shape || world.model.bodies[b].person < 0) continue;
+    const double lowest = state.X_WB[b].p.z() - aabb_half_widths(*shape, state.X_WB[b].q).z();
+    support_[b] = lowest - world.model.ground.height < 0.02;
+  }
+}
+
+void Recorder::watch_events(const World& world, const Constraint& c, double time) {
+  const int person = c.record_a >= 0 ? world.model.bodies[c.record_a].person : -1;
+  if (person < 0 || c.impulse[0] <= 0) return;
+  const double closing = std::max(0.0, -c.u_before[0]);
+  auto note = [&](const char* kind) { events_.push_back({time, kind, c.record_a, c.record_b, c.point, closing}); };
+  if (c.contact_kind == ContactKind::vehicle) {
+    if (!hit_vehicle_[person]) note("first_contact");
+    hit_vehicle_[person] = 1;
+    if (c.record_a == world.model.persons[person].head && !hit_head_[person]) {
+      note("head_impact");
+      hit_head_[person] = 1;
+    }
+  }
+  if (c.contact_kind == ContactKind::ground || c.contact_kind == ContactKind::terrain) {
+    const bool airborne = time - last_ground_[person] > kAirborne;
+    if (!hit_ground_[person] && (!support_[c.record_a] || airborne)) {
+      note("ground_contact");
+      hit_ground_[person] = 1;
+    }
+    last_ground_[person] = time;
+  }
+}
+
+void Recorder::tally(const World& world, double time, double duration) {
+  for (const Constraint& c : world.constraints) {
+    if (c.kind != ConstraintKind::contact) continue;
+    watch_events(world, c, time);
+    if (c.impulse[0] <= 0 && c.gap > 0) continue;
+    auto at = std::lower_bound(tallies_.begin(), tallies_.end(), c.key, [](const Tally& t, std::uint64_t k) { return t.key < k; });
+    if (at == tallies_.end() || at->key != c.key) at = tallies_.insert(at, Tally{c.key, {}, 0, Vec3::Zero()});
+    ContactRecord& r = at->record;
+    r.kind = c.contact_kind;
+    r.body_a = c.record_a;
+    r.body_b = c.record_b;
+    r.point = c.point;
+    r.normal = c.frame.col(0);
+    r.depth = -c.gap;
+    r.slip = std::hypot(c.u_after[1], c.u_after[2]);
+    const ContactState state = state_of(c, c.u_before[0]);
+    if (r.state != ContactState::impact || r.normal_impulse == 0) r.state = state;
+    r.normal_impulse += c.impulse[0];
+    r.tangential_impulse += std::hypot(c.impulse[1], c.impulse[2]);
+    at->impulse += c.frame * c.impulse;
+    at->duration += duration;
+  }
+}
+
+void Recorder::watch_rest(const World& world, const State& state) {
+  for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
+    bool still = true;
+    for (int l = world.topology.trees[t].begin; l < world.topology.trees[t].end; ++l) {
+      const Twist& V = state.V_WB[world.topology.links[l].body];
+      still = still && V.v.norm() < kStillSpeed && V.w.norm() < kStillTurn;
+    }
+    if (!still) still_since_[t] = -1;
+    else if (still_since_[t] < 0) still_since_[t] = state.time;
+  }
+}
+
+bool Recorder::all_at_rest(const World& world, const State& state) const {
+  for (std::size_t t = 0; t < world.topology.trees.size(); ++t)
+    if (still_since_[t] < 0 || state.time - still_since_[t] < kStillTime) return false;
+  return !world.topology.trees.empty();
+}
+
+void Recorder::snapshot(const World& world, const State& state, Recording& recording) {
+  Snapshot s;
+  s.time = state.time;
+  s.bodies.reserve(state.X_WB.size());
+  for (std::size_t b = 0; b < state.X_WB.size(); ++b) s.bodies.push_back({state.X_WB[b], state.V_WB[b]});
+  const double since = recording.snapshots.empty() ? 0 : s.time - recording.snapshots.back().time;
+  for (Tally& t : tallies_) {
+    // an exchange at an instant has no force of its own: its mean over the recorded interval is what an arrow can show
+    const double over = t.duration > 0 ? t.duration : since;
+    if (over > 0) {
+      t.record.force = t.impulse / over;
+      t.record.normal_force = t.record.normal_impulse / over;
+      t.record.tangential_force = t.record.tangential_impulse / over;
+    }
+    s.contacts.push_back(t.record);
+  }
+  tallies_.clear();
+  for (std::size_t i = 0; i < world.wheels.size(); ++i) {
+    const WheelState& w = world.wheels[i];
+    const double h = world.step > 0 ? world.step : 1;
+    s.wheels.push_back({w.vehicle, w.wheel, w.hub, w.contact, w.steer, state.wheel_spin[i], w.impulse[0] / h,
+                        w.impulse[1] / h + w.drive, w.impulse[2] / h, w.slip});
+  }
+  s.energies.kinetic = kinetic_energy(world.model, state);
+  s.energies.potential = potential_energy(world.model, state) + world.spring_energy;
+  s.energies.dissipated = world.dissipated;
+  s.energies.added = world.added;
+  s.energies.residual = s.energies.kinetic + s.energies.potential - initial_energy_ - world.added;
+  for (const double d : world.dissipated) s.energies.residual += d;
+  recording.snapshots.push_back(std::move(s));
+  watch_rest(world, state);
+}
+
+void Recorder::finish(const World& world, const State& state, Recording& recording) {
+  for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
+    if (still_since_[t] < 0 || state.time - still_since_[t] < 0.9 * kStillTime) continue;
+    const int root = world.topology.links[world.topology.trees[t].end - 1].body;
+    const int person = world.model.bodies[root].person;
+    if (person >= 0 && !state.released[person]) continue;
+    events_.push_back({still_since_[t], "rest", root, -1, state.X_WB[root].p, 0});
+  }
+  recording.events = world.events;
+  recording.events.insert(recording.events.end(), events_.begin(), events_.end());
+  std::stable_sort(recording.events.begin(), recording.events.end(), [](const Event& a, const Event& b) { return a.time < b.time; });
+  recording.diagnostics = world.diagnostics;
+  for (const ContactRecord& c : recording.snapshots.back().contacts)
+    recording.diagnostics.rest_penetration = std::max(recording.diagnostics.rest_penetration, c.depth);
+}
+
+}  // namespace engine

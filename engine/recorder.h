@@ -1,0 +1,47 @@
+// Collects what happens between snapshots, so that no impulse is lost between two rows of contacts.csv.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/world.h"
+
+namespace engine {
+
+class Recorder {
+ public:
+  Recorder(const World&, const State&);
+
+  /// Adds the impulses of the constraints just solved. `duration` [s] of the step, 0 for an instantaneous exchange.
+  void tally(const World&, double time, double duration);
+
+  /// Writes a snapshot with everything tallied since the one before.
+  void snapshot(const World&, const State&, Recording&);
+
+  /// Events that only the whole run tells (who came to rest when), and the closing diagnostics.
+  void finish(const World&, const State&, Recording&);
+
+  /// True once everything that can move has been still for a while.
+  bool all_at_rest(const World&, const State&) const;
+
+ private:
+  struct Tally {
+    std::uint64_t key;
+    ContactRecord record;
+    double duration = 0;
+    Vec3 impulse = Vec3::Zero();
+  };
+  void watch_rest(const World&, const State&);
+  void watch_events(const World&, const Constraint&, double time);
+
+  std::vector<Tally> tallies_;             // sorted by key
+  std::vector<double> still_since_;        // [s] per tree, negative: moving
+  std::vector<Event> events_;
+  std::vector<char> hit_vehicle_, hit_head_, hit_ground_;   // per person
+  std::vector<char> support_;              // per body: carried its person when that was released
+  std::vector<double> last_ground_;        // [s] per person: last time on the ground
+  double initial_energy_ = 0;
+  double last_energy_ = 0;
+};
+
+}  // namespace engine

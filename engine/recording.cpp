@@ -1,0 +1,99 @@
+#include "engine/recording.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace engine {
+namespace {
+
+struct Fnv {
+  std::uint64_t value = 1469598103934665603ull;
+  void add(double x) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &x, sizeof bits);
+    for (int i = 0; i < 8; ++i) value = (value ^ ((bits >> (8 * i)) & 0xff)) * 1099511628211ull;
+  }
+  void add(const Vec3& v) {
+    for (int i = 0; i < 3; ++i) add(v[i]);
+  }
+};
+
+/// Cubic through two places with their velocities.
+Vec3 hermite(const Vec3& p0, const Vec3& v0, const Vec3& p1, const Vec3& v1, double interval, double s) {
+  const double s2 = s * s, s3 = s2 * s;
+  return (2 * s3 - 3 * s2 + 1) * p0 + (s3 - 2 * s2 + s) * interval * v0 + (-2 * s3 + 3 * s2) * p1 + (s3 - s2) * interval * v1;
+}
+
+}  // namespace
+
+const char* name_of(ContactKind kind) {
+  switch (kind) {
+    case ContactKind::ground: return "ground";
+    case ContactKind::vehicle: return "vehicle";
+    case ContactKind::self: return "self";
+    case ContactKind::person: return "person";
+    case ContactKind::terrain: return "terrain";
+    case ContactKind::vehicle_pair: return "vehicle_pair";
+  }
+  return "";
+}
+
+const char* name_of(ContactState state) {
+  switch (state) {
+    case ContactState::approach: return "approach";
+    case ContactState::separate: return "separate";
+    case ContactState::slide: return "slide";
+    case ContactState::stick: return "stick";
+    case ContactState::impact: return "impact";
+  }
+  return "";
+}
+
+Snapshot Recording::at(double time) const {
+  if (time <= snapshots.front().time) return snapshots.front();
+  if (time >= snapshots.back().time) return snapshots.back();
+  const auto later = std::lower_bound(snapshots.begin(), snapshots.end(), time, [](const Snapshot& s, double t) { return s.time < t; });
+  if (later->time == time) return *later;
+  const Snapshot& a = *(later - 1);
+  Snapshot out = *later;
+  const double span = later->time - a.time;
+  const double s = (time - a.time) / span;
+  out.time = time;
+  for (std::size_t b = 0; b < out.bodies.size(); ++b) {
+    const BodyState& from = a.bodies[b];
+    const BodyState& to = later->bodies[b];
+    out.bodies[b].X_WB.p = hermite(from.X_WB.p, from.V_WB.v, to.X_WB.p, to.V_WB.v, span, s);
+    out.bodies[b].X_WB.q = from.X_WB.q.slerp(s, to.X_WB.q);
+    out.bodies[b].V_WB.v = (1 - s) * from.V_WB.v + s * to.V_WB.v;
+    out.bodies[b].V_WB.w = (1 - s) * from.V_WB.w + s * to.V_WB.w;
+  }
+  for (std::size_t w = 0; w < out.wheels.size() && w < a.wheels.size(); ++w) {
+    WheelRecord& r = out.wheels[w];
+    r.hub = (1 - s) * a.wheels[w].hub + s * r.hub;
+    r.contact = (1 - s) * a.wheels[w].contact + s * r.contact;
+    r.steer = (1 - s) * a.wheels[w].steer + s * r.steer;
+    r.spin = (1 - s) * a.wheels[w].spin + s * r.spin;
+  }
+  return out;
+}
+
+std::uint64_t hash(const Recording& recording) {
+  Fnv fnv;
+  for (const Snapshot& s : recording.snapshots) {
+    fnv.add(s.time);
+    for (const BodyState& b : s.bodies) {
+      fnv.add(b.X_WB.p);
+      for (int i = 0; i < 4; ++i) fnv.add(b.X_WB.q.coeffs()[i]);
+      fnv.add(b.V_WB.v);
+      fnv.add(b.V_WB.w);
+    }
+    for (const ContactRecord& c : s.contacts) {
+      fnv.add(c.point);
+      fnv.add(c.normal_impulse);
+      fnv.add(c.tangential_impulse);
+    }
+  }
+  return fnv.value;
+}
+
+}  // namespace engine

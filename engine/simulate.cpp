@@ -1,0 +1,108 @@
+#include "engine/simulate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/effects/effect.h"
+#include "engine/recorder.h"
+#include "engine/step.h"
+
+namespace engine {
+namespace {
+
+constexpr double kFastest = 2e3;   // [m/s], [rad/s] * 10: nothing in a traffic accident moves like this; the run has diverged
+constexpr int kAskEvery = 100;     // steps between two calls of the caller's progress
+
+State initial_state(const Model& model) {
+  State state;
+  for (const Body& body : model.bodies) {
+    state.X_WB.push_back(body.X_WB);
+    state.V_WB.push_back(body.fixed ? Twist{} : body.V_WB);
+  }
+  for (const Person& person : model.persons) state.released.push_back(!person.zero_condition);
+  state.broken.assign(model.joints.size(), 0);
+  for (const Vehicle& vehicle : model.vehicles) state.wheel_spin.resize(state.wheel_spin.size() + vehicle.wheels.size(), 0);
+  return state;
+}
+
+/// The body that moves as nothing can, -1 if all is well.
+int diverged_body(const State& state) {
+  for (std::size_t b = 0; b < state.X_WB.size(); ++b) {
+    const double speed = state.V_WB[b].v.norm() + state.V_WB[b].w.norm() / 10;
+    if (!(speed < kFastest) || !state.X_WB[b].p.allFinite() || !state.X_WB[b].q.coeffs().allFinite()) return static_cast<int>(b);
+  }
+  return -1;
+}
+
+std::string effect_at(const World& world, int body) {
+  double largest = -1;
+  std::string name = "joints";
+  for (const Constraint& c : world.constraints)
+    if ((c.body_a == body || c.body_b == body) && !(c.impulse.norm() <= largest)) {
+      largest = c.impulse.norm();
+      name = world.plan.active[c.effect]->name;
+    }
+  return name;
+}
+
+void describe(const Model& model, const Plan& plan, Recording& recording) {
+  for (const Body& body : model.bodies) recording.body_names.push_back(body.name);
+  for (const Vehicle& vehicle : model.vehicles) recording.vehicle_names.push_back(vehicle.name);
+  for (const Effect* effect : plan.active) recording.effect_names.push_back(effect->name);
+  recording.plan = plan.lines;
+}
+
+}  // namespace
+
+Recording simulate(const Model& model, const Plan& plan, const RunOptions& options) {
+  Recording recording;
+  describe(model, plan, recording);
+  World world(model, plan, options);
+  State state = initial_state(model);
+  world.step = model.settings.step;
+  world.dissipated.assign(plan.active.size(), 0);
+  for (const Effect* effect : plan.active) world.costs.push_back({effect->name, 0, 0});
+  for (std::size_t e = 0; e < plan.active.size(); ++e)
+    if (plan.active[e]->begin) plan.active[e]->begin(world, state, static_cast<int>(e));
+  for (std::size_t e = 0; e < plan.active.size(); ++e)   // once, so that suspensions know their compression at t = 0
+    if (plan.active[e]->find) plan.active[e]->find(world, state, static_cast<int>(e));
+  world.constraints.clear();
+  std::fill(world.dissipated.begin(), world.dissipated.end(), 0.0);
+
+  const double h = model.settings.step;
+  const long steps = std::lround(std::ceil(model.settings.duration / h - 1e-9));
+  const long per_snapshot = std::max(1L, std::lround(model.settings.record_interval / h));
+  recording.interval = static_cast<double>(per_snapshot) * h;
+  Recorder recorder(world, state);
+  recorder.snapshot(world, state, recording);
+  Stepper stepper(model);
+  stepper.on_impulses = [&](double time, double duration) { recorder.tally(world, time, duration); };
+  double energy = kinetic_energy(model, state) + potential_energy(model, state);
+
+  for (long k = 0; k < steps; ++k) {
+    double left = h;
+    while (left > 1e-9 * h) left -= stepper.advance(world, state, left);
+    state.time = static_cast<double>(k + 1) * h;
+    ++recording.steps;
+    const double now = kinetic_energy(model, state) + potential_energy(model, state);
+    if (world.wheels.empty()) world.diagnostics.max_energy_rise = std::max(world.diagnostics.max_energy_rise, now - energy);
+    energy = now;
+    if (const int body = diverged_body(state); body >= 0) {
+      recording.failure = Failure{state.time, model.bodies[body].name, effect_at(world, body),
+                                  "the motion left every physical bound: a smaller step or other properties may help"};
+      break;
+    }
+    if ((k + 1) % per_snapshot == 0 || k + 1 == steps) {
+      recorder.snapshot(world, state, recording);
+      if (model.settings.stop_at_rest && recorder.all_at_rest(world, state)) break;
+    }
+    if (options.progress && (k + 1) % kAskEvery == 0 && !options.progress(state.time)) break;
+  }
+  recorder.finish(world, state, recording);
+  recording.costs = world.costs;
+  return recording;
+}
+
+Recording simulate(const Model& model, const RunOptions& options) { return simulate(model, compile(model), options); }
+
+}  // namespace engine

@@ -1,0 +1,175 @@
+#include "engine/solver/smooth_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/effects/effect.h"
+
+namespace engine {
+namespace {
+
+/// 1/2 (0, w) q as coefficients (x, y, z, w) of Eigen's quaternion.
+Eigen::Vector4d quaternion_rate(const Eigen::Vector4d& q, const Vec3& w) {
+  Eigen::Vector4d rate;
+  rate.head<3>() = 0.5 * (q[3] * w + w.cross(q.head<3>()));
+  rate[3] = -0.5 * w.dot(q.head<3>());
+  return rate;
+}
+
+}  // namespace
+
+void displace(Pose& X, const Vec3& dp, const Vec3& rotation) {
+  X.p += dp;
+  X.q.coeffs() += quaternion_rate(X.q.coeffs(), rotation);
+  X.q.normalize();
+}
+
+SmoothMotion::SmoothMotion(const Model& model) : X_(model.bodies.size()), force_(model.bodies.size()) {
+  for (Stage& stage : stages_) {
+    stage.a.resize(model.bodies.size());
+    stage.dq.resize(model.bodies.size());
+    stage.V.resize(model.bodies.size());
+  }
+}
+
+void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const std::vector<Twist>& V, std::vector<Vec6>& a) {
+  const Model& model = world.model;
+  for (const int tree : world.active_trees) {
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      const int b = world.topology.links[l].body;
+      const Vec3 w_B = X[b].q.conjugate() * V[b].w;
+      force_[b] << 0, 0, 0, -V[b].w.cross(X[b].q * (model.bodies[b].inertia_B * w_B));
+    }
+  }
+  for (const Effect* effect : world.plan.active)
+    if (effect->add_forces) effect->add_forces(world, X, V, force_);
+  for (const int tree : world.active_trees) {
+    world.smooth.factor(world.topology, tree, X, nullptr);
+    world.smooth.set_bias(world.topology, tree, X, V);
+    world.smooth.solve(world.topology, tree, force_, a, Articulation::Bias::from_rows);
+  }
+}
+
+void SmoothMotion::advance(World& world, const State& state, double h, std::vector<Pose>& X, std::vector<Twist>& V) {
+  constexpr double kNode[4] = {0, 0.5, 0.5, 1};
+  X_ = state.X_WB;
+  for (int s = 0; s < 4; ++s) {
+    Stage& stage = stages_[s];
+    if (s == 0) stage.V = state.V_WB;
+    for (const int tree : world.active_trees) {
+      for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+        const int b = world.topology.links[l].body;
+        Eigen::Vector4d q = state.X_WB[b].q.coeffs();
+        if (s > 0) {
+          const Stage& before = stages_[s - 1];
+          const double c = kNode[s] * h;
+          X_[b].p = state.X_WB[b].p + c * before.V[b].v;
+          q += c * before.dq[b];
+          X_[b].q.coeffs() = q.normalized();
+          stage.V[b].v = state.V_WB[b].v + c * before.a[b].head<3>();
+          stage.V[b].w = state.V_WB[b].w + c * before.a[b].tail<3>();
+        }
+        stage.dq[b] = quaternion_rate(q, stage.V[b].w);
+      }
+    }
+    accelerations(world, X_, stage.V, stage.a);
+  }
+  const auto& [k1, k2, k3, k4] = stages_;
+  for (const int tree : world.active_trees) {
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      const int b = world.topology.links[l].body;
+      X[b].p = state.X_WB[b].p + h / 6 * (k1.V[b].v + 2 * k2.V[b].v + 2 * k3.V[b].v + k4.V[b].v);
+      X[b].q.coeffs() = (state.X_WB[b].q.coeffs() + h / 6 * (k1.dq[b] + 2 * k2.dq[b] + 2 * k3.dq[b] + k4.dq[b])).normalized();
+      const Vec6 dV = h / 6 * (k1.a[b] + 2 * k2.a[b] + 2 * k3.a[b] + k4.a[b]);
+      V[b].v = state.V_WB[b].v + dV.head<3>();
+      V[b].w = state.V_WB[b].w + dV.tail<3>();
+    }
+  }
+}
+
+namespace {
+
+/// Rows and error of all joints of a tree at X; returns the largest error.
+double joint_errors(World& world, int tree, const std::vector<Pose>& X, double& largest_gap) {
+  const Topology::Tree& range = world.topology.trees[tree];
+  double largest = 0;
+  for (int l = range.begin; l < range.end; ++l) {
+    const Topology::Link& link = world.topology.links[l];
+    if (link.joint < 0) continue;
+    const Joint& joint = world.model.joints[link.joint];
+    static const Pose kWorld;
+    JointRows& rows = world.smooth.of_link(l).rows;
+    joint_rows(joint, joint.parent < 0 ? kWorld : X[joint.parent], X[joint.child], rows);
+    largest_gap = std::max(largest_gap, rows.error.head<3>().norm());
+    for (int k = 0; k < rows.count; ++k) largest = std::max(largest, std::abs(rows.error[k]));
+  }
+  return largest;
+}
+
+double joint_velocity_errors(World& world, int tree, const std::vector<Twist>& V) {
+  const Topology::Tree& range = world.topology.trees[tree];
+  double largest = 0;
+  for (int l = range.begin; l < range.end; ++l) {
+    const Topology::Link& link = world.topology.links[l];
+    if (link.joint < 0) continue;
+    const Joint& joint = world.model.joints[link.joint];
+    JointRows& rows = world.smooth.of_link(l).rows;
+    for (int k = 0; k < rows.count; ++k) {
+      double u = rows.J_C.row(k).head<3>().dot(V[joint.child].v) + rows.J_C.row(k).tail<3>().dot(V[joint.child].w);
+      if (joint.parent >= 0)
+        u += rows.J_P.row(k).head<3>().dot(V[joint.parent].v) + rows.J_P.row(k).tail<3>().dot(V[joint.parent].w);
+      rows.bias[k] = -u;
+      largest = std::max(largest, std::abs(u));
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+double project_joints(World& world, std::vector<Pose>& X, std::vector<Twist>& V, std::vector<Vec6>& force,
+                      std::vector<Vec6>& result) {
+  constexpr double kTight = 1e-11;   // [m] and [-]: below it rounding is all there is to remove
+  constexpr double kGood = 1e-8;     // [m] what one Newton step leaves is usually far below
+  const Topology& topology = world.topology;
+  double left = 0;
+  for (const int tree : world.active_trees) {
+    const Topology::Tree& range = topology.trees[tree];
+    if (range.end - range.begin == 1 && topology.links[range.begin].joint < 0) continue;
+    double gap = 0;
+    double error = joint_errors(world, tree, X, gap);
+    bool factored = false;
+    for (int k = 0; k < 4 && error > (k == 0 ? kTight : kGood); ++k) {
+      world.smooth.factor(topology, tree, X, nullptr);
+      factored = true;
+      for (int l = range.begin; l < range.end; ++l) {
+        force[topology.links[l].body].setZero();
+        JointRows& rows = world.smooth.of_link(l).rows;
+        rows.bias = -rows.error;
+      }
+      world.smooth.solve(topology, tree, force, result, Articulation::Bias::from_rows);
+      for (int l = range.begin; l < range.end; ++l) {
+        const int b = topology.links[l].body;
+        displace(X[b], result[b].head<3>(), result[b].tail<3>());
+      }
+      gap = 0;
+      error = joint_errors(world, tree, X, gap);
+    }
+    left = std::max(left, gap);
+    if (joint_velocity_errors(world, tree, V) < kTight) continue;
+    if (!factored) {
+      world.smooth.factor(topology, tree, X, nullptr);
+      joint_velocity_errors(world, tree, V);
+    }
+    for (int l = range.begin; l < range.end; ++l) force[topology.links[l].body].setZero();
+    world.smooth.solve(topology, tree, force, result, Articulation::Bias::from_rows);
+    for (int l = range.begin; l < range.end; ++l) {
+      const int b = topology.links[l].body;
+      V[b].v += result[b].head<3>();
+      V[b].w += result[b].tail<3>();
+    }
+  }
+  return left;
+}
+
+}  // namespace engine

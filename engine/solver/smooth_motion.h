@@ -1,0 +1,41 @@
+// Motion under smooth forces and joints: classic fourth-order Runge-Kutta with full re-evaluation in each stage.
+//
+// The quaternion is integrated as a vector of four, dq/dt = 1/2 (0, w) q, and normalised once at the end: that keeps order four
+// (an exponential map per stage with a summed w does not). Joint multipliers are solved anew in each stage with g = -Jdot V.
+#pragma once
+
+#include <vector>
+
+#include "engine/world.h"
+
+namespace engine {
+
+/// Buffers of one Runge-Kutta step, sized once.
+class SmoothMotion {
+ public:
+  explicit SmoothMotion(const Model&);
+
+  /// Advances the awake bodies by h from `state` under the plan's forces; results for awake bodies only.
+  void advance(World&, const State&, double h, std::vector<Pose>& X, std::vector<Twist>& V);
+
+ private:
+  struct Stage {
+    std::vector<Vec6> a;                     // dv, dw
+    std::vector<Eigen::Vector4d> dq;
+    std::vector<Twist> V;
+  };
+  void accelerations(World&, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& a);
+
+  Stage stages_[4];
+  std::vector<Pose> X_;
+  std::vector<Vec6> force_;
+};
+
+/// Takes the drift out of joints after a step: Newton on C(q) = 0 in the mass metric, then J V = 0 (eq. (63) with F = 0).
+/// Returns largest joint gap [m] left.
+double project_joints(World&, std::vector<Pose>& X, std::vector<Twist>& V, std::vector<Vec6>& force, std::vector<Vec6>& result);
+
+/// Turns a pose by a small rotation vector (world) and normalises.
+void displace(Pose&, const Vec3& dp, const Vec3& rotation);
+
+}  // namespace engine

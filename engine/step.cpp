@@ -1,0 +1,423 @@
+// The step, scheme `stepping`:
+//   1 contacts and limits at the start of the step, with the distance bodies can travel as margin
+//   2 an impact with restitution: cut the step where surfaces touch, exchange impulses there at all touching points at once
+//   3 smooth motion by RK4 through the joints: x', V'
+//   4 joint resistance and impulses L of all conditions in one solve: V+ = V' + K^-1 (J^T L + resistance)
+//   5 displacement that goes with them: all of the step for an impact, half of it for a force that acts all through the step, so
+//     that constant friction stops a body exactly where v^2/(2 mu g) says and a body held on a slope does not creep
+//   6 joint drift projected out
+#include "engine/step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/effects/effect.h"
+
+namespace engine {
+namespace {
+
+constexpr double kTouching = 2e-5;        // [m] surfaces nearer than this exchange impulses
+constexpr double kSlop = 2e-5;            // [m] penetration that is let be: pushing it out would make resting bodies hum
+constexpr double kRecovery = 0.2;         // [-] share of the penetration beyond it taken out in one step
+constexpr double kRecoverySpeed = 0.2;    // [m/s] at most
+constexpr double kLimitRecoverySpeed = 2; // [rad/s] at most
+constexpr double kLimitSlop = 2e-5;       // [rad]
+constexpr int kMaxCuts = 8;               // of one step; then impulses act where the bodies are
+constexpr int kMaxSweeps = 200;
+
+bool is_contact(const Constraint& c) { return c.kind == ConstraintKind::contact; }
+
+/// Closing speed above which restitution acts and a touch counts as an impact; below, things come to rest.
+double impact_speed(const World& world) {
+  return std::max(2 * world.model.settings.gravity.norm() * world.step, 0.01);
+}
+
+}  // namespace
+
+Stepper::Stepper(const Model& model)
+    : smooth_(model),
+      X_(model.bodies.size()),
+      V_(model.bodies.size()),
+      force_(model.bodies.size(), Vec6::Zero()),
+      result_(model.bodies.size(), Vec6::Zero()),
+      damping_(model.bodies.size(), Vec6::Zero()) {}
+
+void Stepper::choose_trees(World& world, const State& state) {
+  world.active_trees.clear();
+  for (int tree = 0; tree < static_cast<int>(world.topology.trees.size()); ++tree) {
+    const int person = world.topology.trees[tree].person;
+    const bool asleep = person >= 0 && !state.released[person];
+    const auto& range = world.topology.trees[tree];
+    for (int l = range.begin; l < range.end; ++l) world.awake[world.topology.links[l].body] = static_cast<char>(!asleep);
+    if (!asleep) world.active_trees.push_back(tree);
+  }
+}
+
+void Stepper::find_contacts(World& world, State& state, double h) {
+  world.step = h;
+  world.constraints.clear();
+  for (std::size_t e = 0; e < world.plan.active.size(); ++e) {
+    const Effect* effect = world.plan.active[e];
+    if (!effect->find) continue;
+    const double start = world.options.clock ? world.options.clock() : 0;
+    effect->find(world, state, static_cast<int>(e));
+    ++world.costs[e].calls;
+    if (world.options.clock) world.costs[e].wall_s += world.options.clock() - start;
+  }
+  for (Constraint& c : world.constraints) c.u_before = row_velocity(c, state.V_WB);
+}
+
+double Stepper::time_to_impact(World& world, double h) const {
+  double first = h;
+  const double v_impact = impact_speed(world);
+  for (const Constraint& c : world.constraints) {
+    if (!is_contact(c) || c.restitution <= 0 || c.gap <= kTouching || c.u_before[0] > -v_impact) continue;
+    first = std::min(first, (c.gap - 0.5 * kTouching) / -c.u_before[0]);
+  }
+  return first;
+}
+
+void Stepper::form_islands(World& world) {
+  // trees joined by a constraint form an island; union by smallest index
+  const int trees = static_cast<int>(world.topology.trees.size());
+  island_of_tree_.resize(trees);
+  for (int t = 0; t < trees; ++t) island_of_tree_[t] = t;
+  auto find = [&](int t) {
+    while (island_of_tree_[t] != t) t = island_of_tree_[t] = island_of_tree_[island_of_tree_[t]];
+    return t;
+  };
+  auto tree_of = [&](int body) { return body < 0 ? -1 : world.topology.tree_of_body[body]; };
+  for (const Constraint& c : world.constraints) {
+    const int a = tree_of(c.body_a), b = tree_of(c.body_b);
+    if (a < 0 || b < 0) continue;
+    const int ra = find(a), rb = find(b);
+    if (ra != rb) island_of_tree_[std::max(ra, rb)] = std::min(ra, rb);
+  }
+  for (auto& island : islands_) island.clear();
+  islands_.resize(trees);
+  for (int i = 0; i < static_cast<int>(world.constraints.size()); ++i) {
+    const Constraint& c = world.constraints[i];
+    islands_[find(tree_of(c.body_a >= 0 ? c.body_a : c.body_b))].push_back(i);
+  }
+}
+
+void Stepper::factor_for_impulses(World& world, const State& state, const std::vector<JointDamper>* dampers) {
+  for (const int tree : world.active_trees) world.impulse.factor(world.topology, tree, state.X_WB, dampers);
+}
+
+bool Stepper::impact(World& world, State& state) {
+  const double v_impact = impact_speed(world);
+  bool any = false;
+  for (const Constraint& c : world.constraints)
+    any = any || (is_contact(c) && c.restitution > 0 && c.gap <= kTouching && c.u_before[0] < -v_impact);
+  if (!any) return false;
+
+  factor_for_impulses(world, state, nullptr);
+  form_islands(world);
+  std::vector<int> members;
+  for (const auto& island : islands_) {
+    members.clear();
+    bool has_impact = false;
+    for (const int i : island) {
+      Constraint& c = world.constraints[i];
+      if (c.kind == ConstraintKind::wheel || c.gap > kTouching) continue;
+      members.push_back(i);
+      const bool closing = is_contact(c) && c.u_before[0] < -v_impact;
+      has_impact = has_impact || (closing && c.restitution > 0);
+      c.target = closing ? -c.restitution * c.u_before[0] : 0;
+      c.u_free = c.u_smooth = c.u_before;
+      c.impulse.setZero();
+    }
+    if (!has_impact) continue;
+    double energy_change = 0;
+    exchange_impulses(world, state, members, energy_change);
+    world.diagnostics.max_energy_rise = std::max(world.diagnostics.max_energy_rise, energy_change);
+    for (const int i : members) {
+      const Constraint& c = world.constraints[i];
+      world.dissipated[c.effect] -= c.impulse.dot(0.5 * (c.u_before + c.u_after));
+    }
+  }
+  if (on_impulses) on_impulses(state.time, 0);
+  return true;
+}
+
+void Stepper::exchange_impulses(World& world, State& state, const std::vector<int>& members, double& energy_change) {
+  world.response.clear();
+  for (const int i : members) {
+    const Constraint& c = world.constraints[i];
+    if (c.body_a >= 0) world.response.touch(world.topology, c.body_a);
+    if (c.body_b >= 0) world.response.touch(world.topology, c.body_b);
+  }
+  world.response.compute(world.topology, world.impulse);
+  world.solver.assemble(world.topology, world.response, world.constraints, members);
+  SolveReport report = world.solver.solve(world.constraints, members, 1e-3 * world.model.settings.solver_tolerance, kMaxSweeps);
+  energy_change = world.solver.kinetic_energy_change(world.constraints, members);
+
+  // Newton's rule at several points with friction can create energy (Kane 1984): scale all restitutions until it does not
+  double energy_before = 0;
+  for (const int i : members)
+    for (int r = 0; r < world.constraints[i].rows; ++r)
+      energy_before += std::abs(world.constraints[i].impulse[r] * world.constraints[i].u_free[r]);
+  if (energy_change > 1e-12 * energy_before) {
+    std::vector<double> targets;
+    for (const int i : members) targets.push_back(world.constraints[i].target);
+    double low = 0, high = 1;
+    for (int k = 0; k < 30; ++k) {
+      const double share = k == 29 ? low : 0.5 * (low + high);
+      for (std::size_t i = 0; i < members.size(); ++i) world.constraints[members[i]].target = share * targets[i];
+      report = world.solver.solve(world.constraints, members, 1e-3 * world.model.settings.solver_tolerance, kMaxSweeps);
+      energy_change = world.solver.kinetic_energy_change(world.constraints, members);
+      (energy_change > 0 ? high : low) = share;
+    }
+    ++world.diagnostics.restitution_scaled;
+  }
+  world.diagnostics.max_solver_residual = std::max(world.diagnostics.max_solver_residual, report.residual);
+  world.diagnostics.contact_sweeps += report.sweeps;
+
+  for (const int tree : world.active_trees)
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l)
+      force_[world.topology.links[l].body].setZero();
+  for (const int i : members) {
+    const Constraint& c = world.constraints[i];
+    for (int r = 0; r < c.rows; ++r) {
+      if (c.body_a >= 0) force_[c.body_a] += c.J_a.row(r).transpose() * c.impulse[r];
+      if (c.body_b >= 0) force_[c.body_b] += c.J_b.row(r).transpose() * c.impulse[r];
+    }
+  }
+  for (const int tree : world.active_trees) {
+    world.impulse.solve(world.topology, tree, force_, result_, Articulation::Bias::zero);
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      const int b = world.topology.links[l].body;
+      state.V_WB[b].v += result_[b].head<3>();
+      state.V_WB[b].w += result_[b].tail<3>();
+    }
+  }
+}
+
+void Stepper::prepare_resistance(World& world, const State& state, double h) {
+  world.any_damper = false;
+  world.step = h;
+  for (std::size_t e = 0; e < world.plan.active.size(); ++e)
+    if (world.plan.active[e]->resist) world.plan.active[e]->resist(world, state, static_cast<int>(e));
+}
+
+void Stepper::set_targets(World& world, double h) {
+  const double v_impact = impact_speed(world);
+  weight_.assign(world.constraints.size(), 0.5);
+  island_has_impact_.assign(islands_.size(), 0);
+  for (std::size_t k = 0; k < islands_.size(); ++k) {
+    bool impact = false;
+    for (const int i : islands_[k]) {
+      const Constraint& c = world.constraints[i];
+      const double threshold = c.kind == ConstraintKind::limit ? 0.5 : v_impact;   // [rad/s], [m/s]
+      const bool hard = c.kind == ConstraintKind::contact || c.kind == ConstraintKind::limit;
+      impact = impact || (hard && c.u_before[0] < -threshold && c.gap + h * std::min(c.u_before[0], c.u_free[0]) < 0);
+    }
+    island_has_impact_[k] = impact;
+    for (const int i : islands_[k]) {
+      Constraint& c = world.constraints[i];
+      if (c.kind == ConstraintKind::wheel || c.kind == ConstraintKind::bilateral) continue;   // their effect set it
+      weight_[i] = impact ? 1.0 : 0.5;
+      const double slop = c.kind == ConstraintKind::limit ? kLimitSlop : kSlop;
+      const double fastest = c.kind == ConstraintKind::limit ? kLimitRecoverySpeed : kRecoverySpeed;
+      if (c.gap < -slop) {
+        c.target = std::min(kRecovery * (-c.gap - slop) / h, fastest);
+      } else if (impact) {
+        c.target = -std::max(0.0, c.gap) / h;
+      } else {
+        c.target = -std::max(0.0, 2 * c.gap / h + c.u_before[0]);
+      }
+    }
+  }
+}
+
+void Stepper::solve_islands(World& world, State& state) {
+  for (auto& island : islands_) {
+    if (island.empty()) continue;
+    // what stays open whatever the others do needs no row; keep those that could close
+    for (const int i : island) {
+      Constraint& c = world.constraints[i];
+      const auto found = std::lower_bound(state.warm.begin(), state.warm.end(), c.key,
+                                          [](const WarmStart& w, std::uint64_t key) { return w.key < key; });
+      if (found == state.warm.end() || found->key != c.key) continue;
+      if (c.rows == 3) {
+        c.impulse = c.frame.transpose() * found->impulse_W;
+        if (is_contact(c)) c.impulse = project_to_cone(c.impulse, c.friction);
+      } else {
+        c.impulse[0] = found->impulse_W[0];
+      }
+    }
+    world.response.clear();
+    for (const int i : island) {
+      const Constraint& c = world.constraints[i];
+      if (c.body_a >= 0) world.response.touch(world.topology, c.body_a);
+      if (c.body_b >= 0) world.response.touch(world.topology, c.body_b);
+    }
+    world.response.compute(world.topology, world.impulse);
+    world.solver.assemble(world.topology, world.response, world.constraints, island);
+    const SolveReport report = world.solver.solve(world.constraints, island, world.model.settings.solver_tolerance, kMaxSweeps);
+    world.diagnostics.contact_sweeps += report.sweeps;
+    world.diagnostics.max_solver_residual = std::max(world.diagnostics.max_solver_residual, report.residual);
+  }
+  state.warm.clear();
+  for (const Constraint& c : world.constraints) {
+    if (c.impulse.squaredNorm() == 0) continue;
+    state.warm.push_back({c.key, c.rows == 3 ? Vec3(c.frame * c.impulse) : c.impulse});
+  }
+  std::sort(state.warm.begin(), state.warm.end(), [](const WarmStart& a, const WarmStart& b) { return a.key < b.key; });
+}
+
+void Stepper::apply(World& world, double h) {
+  // velocities take the whole impulse, displacements its weighted share
+  auto push = [&](bool displacement) {
+    for (const int tree : world.active_trees)
+      for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l)
+        force_[world.topology.links[l].body].setZero();
+    for (std::size_t i = 0; i < world.constraints.size(); ++i) {
+      const Constraint& c = world.constraints[i];
+      const double share = displacement ? weight_[i] * h : 1;
+      for (int r = 0; r < c.rows; ++r) {
+        if (c.impulse[r] == 0) continue;
+        if (c.body_a >= 0) force_[c.body_a] += c.J_a.row(r).transpose() * (share * c.impulse[r]);
+        if (c.body_b >= 0) force_[c.body_b] += c.J_b.row(r).transpose() * (share * c.impulse[r]);
+      }
+    }
+    for (const int tree : world.active_trees) world.impulse.solve(world.topology, tree, force_, result_, Articulation::Bias::zero);
+  };
+  push(false);
+  for (const int tree : world.active_trees)
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      const int b = world.topology.links[l].body;
+      V_[b].v += result_[b].head<3>();
+      V_[b].w += result_[b].tail<3>();
+    }
+  push(true);
+  for (const int tree : world.active_trees)
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      const int b = world.topology.links[l].body;
+      displace(X_[b], result_[b].head<3>(), result_[b].tail<3>());
+    }
+}
+
+void Stepper::book(World& world) {
+  for (std::size_t i = 0; i < world.constraints.size(); ++i) {
+    const Constraint& c = world.constraints[i];
+    const Vec3 mean = 0.5 * (c.u_smooth + c.u_after) - weight_[i] * (c.u_smooth - c.u_before);
+    double work = 0;
+    for (int r = 0; r < c.rows; ++r) work += c.impulse[r] * mean[r];
+    world.dissipated[c.effect] -= work;
+    if (is_contact(c)) world.diagnostics.max_penetration = std::max(world.diagnostics.max_penetration, -c.gap);
+    if (c.kind == ConstraintKind::limit)
+      world.diagnostics.max_joint_angle_error = std::max(world.diagnostics.max_joint_angle_error, -c.gap);
+  }
+}
+
+/// Rows that cannot close within the step are let go before anything is assembled.
+void Stepper::drop_open_rows(World& world, double h) {
+  std::erase_if(world.constraints, [&](Constraint& c) {
+    c.impulse.setZero();
+    c.u_smooth = row_velocity(c, V_);
+    if (c.kind == ConstraintKind::wheel || c.kind == ConstraintKind::bilateral) return false;
+    const double spare = c.kind == ConstraintKind::limit ? 0.02 + 5 * h : 1e-3 + h;   // [rad], [m]: what other impulses may add
+    return c.gap + h * std::min(c.u_before[0], c.u_smooth[0]) > spare;
+  });
+}
+
+/// Springs, dampers and dry friction of the joints, linearly implicit: their work goes to the books at once.
+void Stepper::apply_resistance(World& world, double h) {
+  const Topology& topology = world.topology;
+  for (const int tree : world.active_trees) {
+    const Topology::Tree& range = topology.trees[tree];
+    for (int l = range.begin; l < range.end; ++l) force_[topology.links[l].body].setZero();
+    for (int l = range.begin; l < range.end; ++l) {
+      const int j = topology.links[l].joint;
+      if (j < 0 || !world.dampers[j].present) continue;
+      const Joint& joint = world.model.joints[j];
+      Vec3 w_PC = V_[joint.child].w;
+      if (joint.parent >= 0) w_PC -= V_[joint.parent].w;
+      world.resistances[j].w_PC = w_PC;
+      const Vec3 twist = world.resistances[j].torque_W * h - world.dampers[j].matrix * w_PC;
+      force_[joint.child].tail<3>() += twist;
+      if (joint.parent >= 0) force_[joint.parent].tail<3>() -= twist;
+    }
+    world.impulse.solve(topology, tree, force_, result_, Articulation::Bias::zero);
+    for (int l = range.begin; l < range.end; ++l) {
+      const int b = topology.links[l].body;
+      V_[b].v += result_[b].head<3>();
+      V_[b].w += result_[b].tail<3>();
+      displace(X_[b], 0.5 * h * result_[b].head<3>(), 0.5 * h * result_[b].tail<3>());
+    }
+  }
+}
+
+/// Work of the joint resistance, once the velocities at the end of the step are known.
+void Stepper::book_resistance(World& world, double h) {
+  for (const int tree : world.active_trees) {
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      const int j = world.topology.links[l].joint;
+      if (j < 0 || !world.dampers[j].present) continue;
+      const Joint& joint = world.model.joints[j];
+      const Resistance& resistance = world.resistances[j];
+      Vec3 w_PC = V_[joint.child].w;
+      if (joint.parent >= 0) w_PC -= V_[joint.parent].w;
+      const Vec3 twist = resistance.torque_W * h - world.dampers[j].matrix * w_PC;
+      world.dissipated[resistance.effect] -= 0.5 * twist.dot(w_PC + resistance.w_PC);
+    }
+  }
+}
+
+double Stepper::advance(World& world, State& state, double h) {
+  choose_trees(world, state);
+  world.step = h;
+  for (std::size_t e = 0; e < world.plan.active.size(); ++e)
+    if (world.plan.active[e]->before_step) world.plan.active[e]->before_step(world, state, static_cast<int>(e));
+  choose_trees(world, state);
+  find_contacts(world, state, h);
+  if (impact(world, state))
+    for (Constraint& c : world.constraints) c.u_before = row_velocity(c, state.V_WB);
+
+  // cut the step where the next impact with restitution happens
+  double taken = h;
+  if (world.model.settings.locate_events && cuts_ < kMaxCuts) taken = std::max(time_to_impact(world, h), 1e-3 * h);
+  if (taken < h) {
+    ++cuts_;
+    ++world.diagnostics.substeps;
+  } else {
+    cuts_ = 0;
+  }
+  world.step = taken;
+  prepare_resistance(world, state, taken);
+  smooth_.advance(world, state, taken, X_, V_);
+
+  drop_open_rows(world, taken);
+  const bool impulses = world.any_damper || !world.constraints.empty();
+  if (impulses) {
+    factor_for_impulses(world, state, world.any_damper ? &world.dampers : nullptr);
+    if (world.any_damper) apply_resistance(world, taken);
+    for (Constraint& c : world.constraints) c.u_free = row_velocity(c, V_);
+    form_islands(world);
+    set_targets(world, taken);
+    solve_islands(world, state);
+    apply(world, taken);
+    book(world);
+    if (world.any_damper) book_resistance(world, taken);
+    if (on_impulses) on_impulses(state.time + taken, taken);
+  } else {
+    state.warm.clear();
+  }
+  const double gap = project_joints(world, X_, V_, force_, result_);
+  world.diagnostics.max_joint_gap = std::max(world.diagnostics.max_joint_gap, gap);
+
+  for (const int tree : world.active_trees)
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      const int b = world.topology.links[l].body;
+      state.X_WB[b] = X_[b];
+      state.V_WB[b] = V_[b];
+    }
+  state.time += taken;
+  for (std::size_t e = 0; e < world.plan.active.size(); ++e)
+    if (world.plan.active[e]->after_step) world.plan.active[e]->after_step(world, state, static_cast<int>(e));
+  return taken;
+}
+
+}  // namespace engine

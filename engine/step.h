@@ -1,0 +1,52 @@
+// One step of scheme `stepping`, eq. (62) to (66): engine/README.md walks through it.
+#pragma once
+
+#include <functional>
+
+#include "engine/solver/smooth_motion.h"
+#include "engine/world.h"
+
+namespace engine {
+
+/// Buffers of a step, sized once.
+class Stepper {
+ public:
+  Stepper(const Model&);
+
+  /// Advances by at most h; returns the time taken, which is shorter when the step was cut to place an impact.
+  double advance(World&, State&, double h);
+
+  /// Called whenever impulses have been exchanged, with the time and the length of the step (0: an instant).
+  std::function<void(double time, double duration)> on_impulses;
+
+ private:
+  void choose_trees(World&, const State&);
+  void find_contacts(World&, State&, double h);
+  double time_to_impact(World&, double h) const;
+  void exchange_impulses(World&, State&, const std::vector<int>& members, double& energy_change);
+  bool impact(World&, State&);
+  void prepare_resistance(World&, const State&, double h);
+  void factor_for_impulses(World&, const State&, const std::vector<JointDamper>* dampers);
+  void set_targets(World&, double h);
+  void form_islands(World&);
+  void solve_islands(World&, State&);
+  void apply(World&, double h);
+  void book(World&);
+  void apply_resistance(World&, double h);
+  void book_resistance(World&, double h);
+  void drop_open_rows(World&, double h);
+
+
+  SmoothMotion smooth_;
+  std::vector<Pose> X_;              // at the end of the step
+  std::vector<Twist> V_;
+  std::vector<Vec6> force_, result_;
+  std::vector<std::vector<int>> islands_;
+  std::vector<char> island_has_impact_;
+  std::vector<int> island_of_tree_;
+  std::vector<double> weight_;       // per constraint: share of the step its displacement acts
+  int cuts_ = 0;                     // of the step under way
+  std::vector<Vec6> damping_;        // dV by joint resistance, per body
+};
+
+}  // namespace engine

@@ -1,0 +1,119 @@
+#include "engine/world.h"
+
+#include <algorithm>
+
+namespace engine {
+
+World::World(const Model& m, const Plan& p, const RunOptions& o)
+    : model(m), plan(p), options(o), topology(build_topology(m, {})), smooth(m), impulse(m) {
+  smooth.reset(topology);
+  impulse.reset(topology);
+  response.reset(topology);
+  const std::size_t n = m.bodies.size();
+  reach.assign(n, 0);
+  awake.assign(n, 1);
+  for (std::size_t b = 0; b < n; ++b) {
+    const Body& body = m.bodies[b];
+    if (body.fixed) awake[b] = 0;
+    if (const auto* shape = std::get_if<HyperEllipsoid>(&body.shape)) reach[b] = shape->semi_axes.norm();
+    if (const auto* shape = std::get_if<MeshShape>(&body.shape)) {
+      const Aabb& box = shape->mesh->bounds();
+      const Vec3 far = box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs());
+      reach[b] = far.norm() + shape->X_BM.p.norm();
+    }
+  }
+  dampers.resize(m.joints.size());
+  resistances.resize(m.joints.size());
+  constraints.reserve(256);
+}
+
+namespace {
+constexpr double kSpare = 2e-3;   // [m] so that a contact is known before it is needed
+}
+
+double contact_margin(const World& world, const State& state, int body) {
+  const Twist& V = state.V_WB[body];
+  const double g = world.model.settings.gravity.norm();
+  return kSpare + world.step * (V.v.norm() + V.w.norm() * world.reach[body] + g * world.step);
+}
+
+double pair_margin(const World& world, const State& state, int a, int b) {
+  const double g = world.model.settings.gravity.norm();
+  const double apart = (state.X_WB[a].p - state.X_WB[b].p).norm();
+  // a point of one body within reach of the other moves with either rotation
+  const double turning = (state.V_WB[a].w.norm() * world.reach[a]) + state.V_WB[b].w.norm() * std::min(world.reach[b], apart + world.reach[a]);
+  return kSpare + world.step * ((state.V_WB[a].v - state.V_WB[b].v).norm() + turning + g * world.step);
+}
+
+void add_contact(World& world, const State& state, const SurfaceContact& touch, int a, int b, int effect, ContactKind kind,
+                 double friction, double restitution) {
+  Constraint c;
+  c.kind = ConstraintKind::contact;
+  c.rows = 3;
+  auto moving = [&](int body) { return body >= 0 && !world.model.bodies[body].fixed ? body : -1; };
+  c.body_a = moving(a);
+  c.body_b = moving(b);
+  if (c.body_a < 0 && c.body_b < 0) return;
+  c.record_a = a;
+  c.record_b = b;
+  c.point = 0.5 * (touch.p_a + touch.p_b);
+  const Vec3 t1 = touch.normal.unitOrthogonal();
+  c.frame << touch.normal, t1, touch.normal.cross(t1);
+  auto rows = [&](int body, double sign) {
+    Eigen::Matrix<double, 3, 6> J;
+    const Vec3 r = c.point - state.X_WB[body].p;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 d = sign * c.frame.col(k);
+      J.row(k) << d.transpose(), r.cross(d).transpose();
+    }
+    return J;
+  };
+  if (c.body_a >= 0) c.J_a = rows(c.body_a, 1);
+  if (c.body_b >= 0) c.J_b = rows(c.body_b, -1);
+  c.gap = touch.gap;
+  c.friction = friction;
+  c.restitution = restitution;
+  c.key = (static_cast<std::uint64_t>(effect) << 56) | (static_cast<std::uint64_t>(a & 0xffff) << 40) |
+          (static_cast<std::uint64_t>(b & 0xffff) << 24) | (touch.key & 0xffffffu);
+  c.effect = effect;
+  c.contact_kind = kind;
+  world.constraints.push_back(c);
+}
+
+Vec6 velocity_of(const State& state, int body) {
+  Vec6 V = Vec6::Zero();
+  if (body >= 0) V << state.V_WB[body].v, state.V_WB[body].w;
+  return V;
+}
+
+Vec3 row_velocity(const Constraint& c, const std::vector<Twist>& V_WB) {
+  Vec3 u = Vec3::Zero();
+  auto add = [&](int body, const Eigen::Matrix<double, 3, 6>& J) {
+    if (body < 0) return;
+    const Twist& V = V_WB[body];
+    for (int r = 0; r < c.rows; ++r) u[r] += J.row(r).head<3>().dot(V.v) + J.row(r).tail<3>().dot(V.w);
+  };
+  add(c.body_a, c.J_a);
+  add(c.body_b, c.J_b);
+  return u;
+}
+
+double kinetic_energy(const Model& model, const State& state) {
+  double energy = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    if (body.fixed) continue;
+    const Vec3 w_B = state.X_WB[b].q.conjugate() * state.V_WB[b].w;
+    energy += 0.5 * body.mass * state.V_WB[b].v.squaredNorm() + 0.5 * w_B.dot(body.inertia_B * w_B);
+  }
+  return energy;
+}
+
+double potential_energy(const Model& model, const State& state) {
+  double energy = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (!model.bodies[b].fixed) energy -= model.bodies[b].mass * model.settings.gravity.dot(state.X_WB[b].p);
+  return energy;
+}
+
+}  // namespace engine

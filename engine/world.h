@@ -1,0 +1,114 @@
+// Everything one run works with besides its State: the topology, the factorisations, this step's constraints. One workspace,
+// allocated once, so that the step allocates nothing.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/geometry/hyper_ellipsoid_mesh.h"
+#include "engine/model/model.h"
+#include "engine/plan.h"
+#include "engine/simulate.h"
+#include "engine/solver/articulation.h"
+#include "engine/solver/constraint.h"
+#include "engine/solver/contact_solver.h"
+#include "engine/solver/response.h"
+#include "engine/state.h"
+
+namespace engine {
+
+/// A segment that may touch a mesh (of a vehicle, of any other body, or the terrain).
+struct MeshPair {
+  int effect = 0;
+  int body = 0;
+  int mesh_body = -1;            // -1: terrain
+  const TriangleMesh* mesh = nullptr;
+  MeshContactScratch scratch;
+};
+
+/// Two segments that may touch each other.
+struct BodyPair {
+  int effect = 0;
+  int a = 0, b = 0;
+  Vec3 normal_W = Vec3::Zero();  // of the last step, zero: none yet
+};
+
+/// What the wheel effect keeps between steps.
+struct WheelState {
+  int vehicle = 0, wheel = 0;
+  double static_load = 0;        // [N]
+  double compression = 0;        // [m] from static ride, positive: compressed
+  double brake = 0;              // [N] asked for now
+  Vec3 contact = Vec3::Zero();   // [m] world
+  Vec3 hub = Vec3::Zero();       // [m] world
+  Vec3 impulse = Vec3::Zero();   // [N s] last step: load, longitudinal, lateral
+  double slip = 0;               // [m/s]
+  double drive = 0;              // [N] of the engine at this wheel now
+  double steer = 0;              // [rad]
+  bool locked = false;
+};
+
+/// What a joint's resistance does over one step.
+struct Resistance {
+  Vec3 torque_W = Vec3::Zero();  // [N m] on the child at the start of the step, for springs
+  Vec3 w_PC = Vec3::Zero();      // [rad/s] relative angular velocity under smooth forces alone
+  int effect = 0;
+};
+
+struct World {
+  World(const Model&, const Plan&, const RunOptions&);
+
+  const Model& model;
+  const Plan& plan;
+  const RunOptions& options;
+  Topology topology;
+  Articulation smooth;           // of the stage at hand, undamped
+  Articulation impulse;          // at the start of the step, with joint resistance
+  Response response;
+  ContactSolver solver;
+
+  std::vector<double> reach;     // [m] per body: radius of its shape about the centre, 0 without
+  std::vector<char> awake;       // per body: takes part in this step
+  std::vector<int> active_trees;
+  std::vector<MeshPair> mesh_pairs;
+  std::vector<BodyPair> body_pairs;
+  std::vector<WheelState> wheels;
+
+  // this step
+  double step = 0;               // [s] its length
+  std::vector<Constraint> constraints;
+  std::vector<JointDamper> dampers;      // per joint
+  std::vector<Resistance> resistances;   // per joint
+  bool any_damper = false;
+
+  // for the books, per effect of the plan
+  std::vector<double> dissipated;        // [J]
+  std::vector<EffectCost> costs;
+  double added = 0;                      // [J]
+  double spring_energy = 0;              // [J] in the suspensions now
+  Diagnostics diagnostics;
+  std::vector<Event> events;
+  std::optional<Failure> failure;
+};
+
+/// Largest distance [m] body `b` can travel towards anything in this step, with a little to spare.
+double contact_margin(const World&, const State&, int body);
+
+/// The same between two bodies, from their relative motion.
+double pair_margin(const World&, const State&, int a, int b);
+
+/// Appends a contact of body `a` with `b` (-1: the ground), rows and all. `b` may be a fixed body.
+void add_contact(World&, const State&, const SurfaceContact&, int a, int b, int effect, ContactKind, double friction,
+                 double restitution);
+
+/// Velocity (6) of a body; zero for the world.
+Vec6 velocity_of(const State&, int body);
+
+/// Relative velocity of a against b along the rows of a constraint.
+Vec3 row_velocity(const Constraint&, const std::vector<Twist>& V_WB);
+
+/// Kinetic and gravitational energy [J] of all bodies that move.
+double kinetic_energy(const Model&, const State&);
+double potential_energy(const Model&, const State&);
+
+}  // namespace engine
