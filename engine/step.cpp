@@ -314,10 +314,13 @@ void Stepper::book(World& world) {
 
 /// Rows that cannot close within the step are let go before anything is assembled.
 void Stepper::drop_open_rows(World& world, double h) {
+  const double v_impact = impact_speed(world);
   std::erase_if(world.constraints, [&](Constraint& c) {
     c.impulse.setZero();
     c.u_smooth = row_velocity(c, V_);
     if (c.kind == ConstraintKind::wheel || c.kind == ConstraintKind::bilateral) return false;
+    // an impact that the cut step ends at: a row would brake the approach
+    if (locating_ && is_contact(c) && c.restitution > 0 && c.gap > 0 && c.u_before[0] < -v_impact) return true;
     const double spare = c.kind == ConstraintKind::limit ? 0.02 + 5 * h : 1e-3 + h;   // [rad], [m]: what other impulses may add
     return c.gap + h * std::min(c.u_before[0], c.u_smooth[0]) > spare;
   });
@@ -378,7 +381,8 @@ double Stepper::advance(World& world, State& state, double h) {
 
   // cut the step where the next impact with restitution happens
   double taken = h;
-  if (world.model.settings.locate_events && cuts_ < kMaxCuts) taken = std::max(time_to_impact(world, h), 1e-3 * h);
+  locating_ = world.model.settings.locate_events && cuts_ < kMaxCuts;
+  if (locating_) taken = std::max(time_to_impact(world, h), 1e-3 * h);
   if (taken < h) {
     ++cuts_;
     ++world.diagnostics.substeps;

@@ -46,6 +46,7 @@ class Stepper {
   std::vector<int> island_of_tree_;
   std::vector<double> weight_;       // per constraint: share of the step its displacement acts
   int cuts_ = 0;                     // of the step under way
+  bool locating_ = false;            // impacts are still placed inside this step
   std::vector<Vec6> damping_;        // dV by joint resistance, per body
 };
 
