@@ -1,0 +1,144 @@
+// [[body]]: a free body of any shape, and what bodies of all sections share.
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "scenes/loader/builder.h"
+#include "scenes/loader/mesh.h"
+
+namespace scenes {
+namespace {
+
+const Key kKeys[] = {
+    {"name", Type::text, Dimension::none, kRequired, "Name in every output."},
+    {"mass", Type::number, Dimension::mass, "", "Mass; needed unless the body is fixed.", kPositive},
+    {"axes", Type::vector3, Dimension::length, "", "Semi-axes a, b, c of a hyper-ellipsoid, eq. (60).", kPositive},
+    {"exponent", Type::number, Dimension::none, "2", "Its exponent n: 2 an ellipsoid, 30 almost a box.", between(2, 100), {}, nullptr,
+     "a hyper-ellipsoid needs n >= 2"},
+    {"mesh", Type::path, Dimension::none, "", "A mesh file in place of axes; its origin is the centre of mass."},
+    {"inertia", Type::inertia, Dimension::inertia, "", "About the centre of mass in body axes. Left out: that of the even hyper-ellipsoid."},
+    {"position", Type::vector3, Dimension::length, "'0 0 0 m'", "Centre of mass at the start."},
+    {"attitude", Type::vector3, Dimension::angle, "'0 0 0 deg'", "Roll, pitch, yaw at the start: turned about x, then y, then z of the world."},
+    {"quaternion", Type::numbers, Dimension::none, "", "Attitude as [w, x, y, z] in place of roll, pitch, yaw."},
+    {"velocity", Type::vector3, Dimension::speed, "'0 0 0 m/s'", "Of the centre of mass, world axes."},
+    {"angular_velocity", Type::vector3, Dimension::angular_speed, "", "In world axes."},
+    {"angular_velocity_body", Type::vector3, Dimension::angular_speed, "", "In body axes, in place of angular_velocity."},
+    CRASHREEL_SURFACE_KEYS,
+    {"fixed", Type::boolean, Dimension::none, "false", "Part of the world: never moves."},
+    {"collision", Type::choice, Dimension::none, "'default_auto'", "Collision model the body asks for.", kAny, "default_auto|kudlich_slibar"},
+    {"colour", Type::colour, Dimension::none, "'#c87838'", "Colour in pictures."},
+    {"material", Type::choice, Dimension::none, "'matte'", "Surface in pictures.", kAny, "matte|paint|glass|lamp|rubber|metal|skin|cloth"},
+};
+
+void read_shape(Builder& builder, Reader& r, engine::Body& body) {
+  const auto axes = r.vector_if("axes");
+  if (axes && r.has("mesh")) r.fail("mesh", "must not be given together with axes; a body has one shape");
+  if (axes) {
+    body.shape = engine::HyperEllipsoid{*axes, std::max(2.0, r.number("exponent"))};
+  } else if (r.has("mesh")) {
+    if (const auto mesh = import_mesh(builder, r, "mesh")) body.shape = engine::MeshShape{mesh->solid, {}};
+  }
+}
+
+void read_inertia(Reader& r, engine::Body& body) {
+  if (r.has("inertia")) {
+    body.inertia_B = r.inertia("inertia");
+    check_inertia(r, "inertia", body.inertia_B);
+  } else if (const auto* ellipsoid = std::get_if<engine::HyperEllipsoid>(&body.shape); ellipsoid && (ellipsoid->semi_axes.array() > 0).all()) {
+    body.inertia_B = engine::principal_inertia(*ellipsoid, body.mass).asDiagonal();
+  } else if (!body.fixed && !r.has("axes")) {
+    r.fail("inertia", "is missing; a body without axes needs its inertia, like inertia = \"1 2 2 kg m^2\"");
+  }
+}
+
+}  // namespace
+
+const Section kBodySection{"body", "[[body]]", "A free rigid body: a hyper-ellipsoid, a mesh, or a shapeless mass.", kKeys};
+
+int Builder::body_index(const std::string& name) const {
+  const auto& bodies = scene.model.bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].name == name) return static_cast<int>(i);
+  return -1;
+}
+
+std::vector<std::string> Builder::body_names() const {
+  std::vector<std::string> out;
+  for (const engine::Body& body : scene.model.bodies) out.push_back(body.name);
+  return out;
+}
+
+engine::Quat read_attitude(Reader& r) {
+  if (r.has("quaternion")) {
+    if (r.has("attitude")) r.fail("quaternion", "must not be given together with attitude");
+    const std::vector<double> q = r.numbers("quaternion");
+    const engine::Quat out = q.size() == 4 ? engine::Quat(q[0], q[1], q[2], q[3]) : engine::Quat(0, 0, 0, 0);
+    // four digits are what people copy from a printout
+    if (std::abs(out.norm() - 1) < 1e-3) return out.normalized();
+    r.fail("quaternion", "must be four numbers [w, x, y, z] whose squares sum to 1");
+    return engine::Quat::Identity();
+  }
+  const engine::Vec3 rpy = r.vector("attitude");
+  if (rpy.isZero()) return engine::Quat::Identity();
+  return engine::Quat(Eigen::AngleAxisd(rpy.z(), engine::Vec3::UnitZ()) * Eigen::AngleAxisd(rpy.y(), engine::Vec3::UnitY()) *
+                      Eigen::AngleAxisd(rpy.x(), engine::Vec3::UnitX()));
+}
+
+engine::SurfaceProperties read_surface(Reader& r, engine::SurfaceProperties out) {
+  if (r.has("friction")) out.friction_body = out.friction_ground = r.schedule("friction");
+  if (r.has("friction_body")) out.friction_body = r.schedule("friction_body");
+  if (r.has("friction_ground")) out.friction_ground = r.schedule("friction_ground");
+  if (r.has("restitution")) out.restitution_body = out.restitution_ground = r.schedule("restitution");
+  if (r.has("restitution_body")) out.restitution_body = r.schedule("restitution_body");
+  if (r.has("restitution_ground")) out.restitution_ground = r.schedule("restitution_ground");
+  if (r.has("stiffness")) out.stiffness = r.schedule("stiffness");
+  return out;
+}
+
+void check_inertia(Reader& r, std::string_view key, const engine::Mat3& inertia) {
+  const engine::Vec3 moments = Eigen::SelfAdjointEigenSolver<engine::Mat3>(inertia).eigenvalues();
+  if (moments[0] <= 0) {
+    r.fail(key, fmt::format("must be positive definite; its smallest principal moment is {:.6g} kg m^2", moments[0]));
+    // rounding of a tensor that is exactly flat must pass
+  } else if (moments[0] + moments[1] < moments[2] * (1 - 1e-9)) {
+    r.fail(key, fmt::format("must be physically possible; of its principal moments {:.6g} + {:.6g} is less than {:.6g} kg m^2", moments[0],
+                            moments[1], moments[2]));
+  }
+}
+
+render::MaterialKind read_material_kind(Reader& r, std::string_view key) { return static_cast<render::MaterialKind>(r.choice(key)); }
+
+void read_body(Builder& builder, Reader r) {
+  engine::Body body;
+  body.name = r.text("name");
+  if (body.name.empty()) r.fail("name", "must not be empty");
+  if (body.name == "world" || builder.body_index(body.name) >= 0) r.fail("name", "is taken; every body needs a name of its own");
+  body.fixed = r.boolean("fixed");
+  if (!r.has("mass") && !body.fixed) r.fail("mass", "is missing; write like mass = \"78 kg\", or fixed = true");
+  if (r.has("mass")) body.mass = r.number("mass");
+  const std::size_t errors_before = builder.errors.lines.size();
+  read_shape(builder, r, body);
+  if (body.mass > 0 && builder.errors.lines.size() == errors_before) read_inertia(r, body);
+  body.surface = read_surface(r, {});
+  body.collision_model = static_cast<engine::CollisionModel>(r.choice("collision"));
+  body.X_WB = {r.vector("position"), read_attitude(r)};
+  body.V_WB.v = r.vector("velocity");
+  if (const auto w = r.vector_if("angular_velocity")) body.V_WB.w = *w;
+  if (const auto w_B = r.vector_if("angular_velocity_body")) {
+    if (r.has("angular_velocity")) r.fail("angular_velocity_body", "must not be given together with angular_velocity");
+    body.V_WB.w = body.X_WB.q * *w_B;
+  }
+
+  const int index = static_cast<int>(builder.scene.model.bodies.size());
+  render::Stage& stage = builder.scene.stage;
+  const render::Material material{body.name, read_material_kind(r, "material"), r.colour("colour"), 0.5f, 1.0f};
+  if (const auto* ellipsoid = std::get_if<engine::HyperEllipsoid>(&body.shape)) {
+    stage.ellipsoids.push_back({body.name, index, *ellipsoid, material});
+  } else if (r.has("mesh")) {
+    if (const auto mesh = import_mesh(builder, r, "mesh")) stage.meshes.push_back({body.name, index, {}, mesh->look, {}});
+  }
+  if (!body.fixed) stage.speeds.emplace_back(index, body.name);
+  builder.scene.model.bodies.push_back(std::move(body));
+}
+
+}  // namespace scenes

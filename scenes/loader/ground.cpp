@@ -1,0 +1,37 @@
+// [ground]: the plane, a terrain mesh, or nothing.
+#include "scenes/loader/builder.h"
+#include "scenes/loader/mesh.h"
+
+namespace scenes {
+namespace {
+
+const Key kKeys[] = {
+    {"kind", Type::choice, Dimension::none, "'plane'", "An infinite plane z = height, or none (free fall, or terrain only).", kAny, "plane|none"},
+    {"height", Type::number, Dimension::length, "'0 m'", "Height of the plane."},
+    {"friction", Type::schedule, Dimension::none, "1", "Coulomb coefficient of the ground. Of two objects the smaller acts, so 1 leaves it to the other.", kNotNegative},
+    {"restitution", Type::schedule, Dimension::none, "0", "Restitution of the ground. Of two objects the larger acts.", kShare},
+    {"stiffness", Type::schedule, Dimension::stiffness, "'1e6 kN/m'", "S of the compliant law; stiff, so that the other object yields.", kPositive},
+    {"terrain", Type::path, Dimension::none, "", "A mesh file in world axes (z up), besides or in place of the plane."},
+};
+
+}  // namespace
+
+const Section kGroundSection{"ground", "[ground]", "What everything stands on.", kKeys};
+
+void read_ground(Builder& builder, std::optional<Reader> reader) {
+  Reader r = reader ? *reader : Reader(empty_table(), kGroundSection, "ground", builder.errors);
+  engine::Ground& ground = builder.scene.model.ground;
+  ground.plane = r.choice("kind") == 0;
+  ground.height = r.number("height");
+  ground.surface.friction_body = ground.surface.friction_ground = r.schedule("friction");
+  ground.surface.restitution_body = ground.surface.restitution_ground = r.schedule("restitution");
+  ground.surface.stiffness = r.schedule("stiffness");
+  if (r.has("terrain")) {
+    if (const auto mesh = import_mesh(builder, r, "terrain")) {
+      ground.terrain = mesh->solid;
+      builder.scene.stage.road.terrain = mesh->look;
+    }
+  }
+}
+
+}  // namespace scenes

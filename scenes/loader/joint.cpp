@@ -1,0 +1,103 @@
+// [[joint]]: between two bodies, or a body and the world.
+#include <fmt/format.h>
+
+#include "scenes/loader/builder.h"
+
+namespace scenes {
+namespace {
+
+#define CRASHREEL_ANGLE_KEYS                                                                                                        \
+  {"range", Type::range, Dimension::angle, "", "Lower and upper limit of the angle. Left out: free."},                              \
+      {"stiffness", Type::number, Dimension::angular_stiffness, "", "Resistive spring torque per angle.", kNotNegative},            \
+      {"rest", Type::number, Dimension::angle, "", "Angle at which the spring is slack."},                                          \
+      {"damping", Type::number, Dimension::angular_damping, "", "Resistance per angular speed.", kNotNegative},                     \
+      {"friction_torque", Type::number, Dimension::torque, "", "Constant resistance against turning.", kNotNegative}
+
+const Key kAngleKeys[] = {CRASHREEL_ANGLE_KEYS};
+const Section kAngleSection{"joint.angle", "[joint.x]",
+                            "One articulation angle, also [joint.y], [joint.z]: swing about x, swing about y, twist about z of the joint frame. "
+                            "What is not given here is taken from the joint.", kAngleKeys};
+
+const Key kKeys[] = {
+    {"name", Type::text, Dimension::none, "''", "Name in messages; left out: parent-child."},
+    {"kind", Type::choice, Dimension::none, "'spherical'", "Which turns it leaves: about axis; a cardan cross; all; all with limits; none.", kAny,
+     "revolute|universal|spherical|ragdoll|fixed"},
+    {"parent", Type::text, Dimension::none, "'world'", "A body, or the world."},
+    {"child", Type::text, Dimension::none, kRequired, "The body that hangs on the parent."},
+    {"at", Type::vector3, Dimension::length, "", "The joint's centre at the start, in the world. Left out: the child's centre."},
+    {"axis", Type::vector3, Dimension::none, "[0, 1, 0]",
+     "World direction of the joint frame's y at the start: the axis of a revolute, the parent's arm of a cardan cross."},
+    {"second_axis", Type::vector3, Dimension::none, "", "World direction of the joint frame's x, at right angles to axis: the child's arm of a cardan cross."},
+    CRASHREEL_ANGLE_KEYS,
+    {"x", Type::table, Dimension::none, "", "The first swing angle.", kAny, {}, &kAngleSection},
+    {"y", Type::table, Dimension::none, "", "The second swing angle; the angle of a revolute.", kAny, {}, &kAngleSection},
+    {"z", Type::table, Dimension::none, "", "The twist.", kAny, {}, &kAngleSection},
+    {"breaking_force", Type::number, Dimension::force, "", "The joint lets go above this force. Left out: never.", kPositive},
+};
+
+int find_body(Builder& builder, Reader& r, std::string_view key) {
+  const std::string name = r.text(key);
+  if (name == "world" && key == "parent") return -1;
+  const int index = builder.body_index(name);
+  if (index < 0) {
+    const std::string guess = nearest(name, builder.body_names());
+    r.fail(key, guess.empty() ? "is no body of the scene" : fmt::format("is no body of the scene; did you mean \"{}\"?", guess));
+  }
+  return index;
+}
+
+engine::Quat read_frame(Reader& r) {
+  const engine::Vec3 y = r.vector("axis");
+  if (y.norm() < 1e-9) {
+    r.fail("axis", "must have a direction");
+    return engine::Quat::Identity();
+  }
+  const engine::Vec3 y_W = y.normalized();
+  // any direction across will do when none is asked for: the world axis farthest from y
+  engine::Vec3 x = std::abs(y_W.x()) < 0.9 ? engine::Vec3::UnitX() : engine::Vec3(0, -1, 0);
+  if (const auto given = r.vector_if("second_axis")) {
+    if (std::abs(given->normalized().dot(y_W)) > 1e-6 || given->norm() < 1e-9) r.fail("second_axis", "must stand at right angles to axis");
+    x = *given;
+  }
+  engine::Mat3 frame;
+  const engine::Vec3 x_W = (x - y_W * x.dot(y_W)).normalized();
+  frame << x_W, y_W, x_W.cross(y_W);
+  return engine::Quat(frame).normalized();
+}
+
+}  // namespace
+
+const Section kJointSection{"joint", "[[joint]]", "Ties a body to another or to the world. All angles are zero in the pose at the start.", kKeys};
+
+engine::ArticulationAngle read_angle(Reader& r, engine::ArticulationAngle out) {
+  if (r.has("range")) std::tie(out.lower, out.upper) = [](std::array<double, 2> a) { return std::pair{a[0], a[1]}; }(r.range("range"));
+  if (r.has("stiffness")) out.stiffness = r.number("stiffness");
+  if (r.has("rest")) out.rest = r.number("rest");
+  if (r.has("damping")) out.damping = r.number("damping");
+  if (r.has("friction_torque")) out.friction_torque = r.number("friction_torque");
+  return out;
+}
+
+void read_joint(Builder& builder, Reader r) {
+  engine::Joint joint;
+  joint.kind = static_cast<engine::JointKind>(r.choice("kind"));
+  joint.parent = find_body(builder, r, "parent");
+  joint.child = find_body(builder, r, "child");
+  joint.name = r.has("name") ? r.text("name") : r.text("parent") + "-" + r.text("child");
+  if (joint.child >= 0 && joint.child == joint.parent) r.fail("child", "must be another body than the parent");
+  if (joint.child >= 0) {
+    const engine::Body& child = builder.scene.model.bodies[static_cast<std::size_t>(joint.child)];
+    const engine::Pose X_WF{r.vector_if("at").value_or(child.X_WB.p), read_frame(r)};
+    joint.X_CF = child.X_WB.inverse() * X_WF;
+    joint.X_PF = joint.parent < 0 ? X_WF : builder.scene.model.bodies[static_cast<std::size_t>(joint.parent)].X_WB.inverse() * X_WF;
+  }
+  joint.angles.fill(read_angle(r, {}));
+  const std::array<std::string_view, 3> kNames{"x", "y", "z"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (auto angle = r.table(kNames[i])) joint.angles[i] = read_angle(*angle, joint.angles[i]);
+  }
+  if (r.has("breaking_force")) joint.breaking_force = r.number("breaking_force");
+  if (joint.child >= 0) builder.scene.model.joints.push_back(std::move(joint));
+}
+
+}  // namespace scenes

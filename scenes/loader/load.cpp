@@ -1,0 +1,119 @@
+// The scene file as a whole: reading order, library, hash.
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "scenes/loader/builder.h"
+#include "scenes/loader/sha256.h"
+
+#ifndef CRASHREEL_HOME_DEFAULT
+#define CRASHREEL_HOME_DEFAULT "."
+#endif
+
+namespace scenes {
+namespace {
+
+const Key kClosedFormKeys[] = {
+    {"*", Type::number, Dimension::none, "", "The value of the metric of this name in summary.json, in the unit of its name."},
+};
+const Section kClosedFormSection{"closed_form", "[closed_form]", "Answers known in closed form; `crashreel study` measures errors against them.", kClosedFormKeys};
+
+const Key kSceneKeys[] = {
+    {"title", Type::text, Dimension::none, "'Untitled scene'", "Shown in pictures and files."},
+    {"description", Type::text, Dimension::none, "''", "What the scene shows and where its numbers come from."},
+    {"simulation", Type::table, Dimension::none, "", "How the motion is computed.", kAny, {}, &kSimulationSection},
+    {"ground", Type::table, Dimension::none, "", "What everything stands on.", kAny, {}, &kGroundSection},
+    {"vehicle", Type::tables, Dimension::none, "", "Vehicles.", kAny, {}, &kVehicleSection},
+    {"person", Type::tables, Dimension::none, "", "Persons.", kAny, {}, &kPersonSection},
+    {"body", Type::tables, Dimension::none, "", "Free bodies.", kAny, {}, &kBodySection},
+    {"joint", Type::tables, Dimension::none, "", "Joints between bodies.", kAny, {}, &kJointSection},
+    {"camera", Type::tables, Dimension::none, "", "Cameras.", kAny, {}, &kCameraSection},
+    {"shot", Type::tables, Dimension::none, "", "The film, shot by shot.", kAny, {}, &kShotSection},
+    {"overlays", Type::table, Dimension::none, "", "What is drawn over the picture.", kAny, {}, &kOverlaysSection},
+    {"output", Type::table, Dimension::none, "", "Size and rate of pictures.", kAny, {}, &kOutputSection},
+    {"road", Type::table, Dimension::none, "", "What the ground looks like.", kAny, {}, &kRoadSection},
+    {"sky", Type::table, Dimension::none, "", "Sun and air.", kAny, {}, &kSkySection},
+    {"closed_form", Type::table, Dimension::none, "", "Answers known in closed form.", kAny, {}, &kClosedFormSection},
+};
+const Section kSceneSection{"", "(top of the file)", "A scene.", kSceneKeys};
+
+std::string hash_of(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  std::string all = bytes.str();
+  for (const std::string& text : overrides) all += '\0' + text;
+  return sha256(all);
+}
+
+void read_closed_form(Builder& builder, std::optional<Reader> reader) {
+  if (!reader) return;
+  for (const Entry& entry : reader->value().entries) builder.scene.closed_form[entry.key] = reader->number(entry.key);
+}
+
+}  // namespace
+
+SceneErrors::SceneErrors(std::vector<std::string> found) : std::runtime_error(fmt::format("{}", fmt::join(found, "\n"))), lines(std::move(found)) {}
+
+const Section& scene_section() { return kSceneSection; }
+
+std::filesystem::path home_folder() {
+  const char* home = std::getenv("CRASHREEL_HOME");
+  return home && *home ? std::filesystem::path(home) : std::filesystem::path(CRASHREEL_HOME_DEFAULT);
+}
+
+std::filesystem::path library_file(const Builder& builder, const std::string& kind, const std::string& name) {
+  if (name.empty() || name.find('/') != std::string::npos) return {};
+  std::error_code ignored;
+  for (const auto& folder : {builder.folder, builder.folder / kind, home_folder() / "scenes/library" / kind}) {
+    const auto file = folder / (name + ".toml");
+    if (std::filesystem::is_regular_file(file, ignored)) return file;
+  }
+  return {};
+}
+
+std::vector<std::string> library_names(const Builder& builder, const std::string& kind) {
+  std::vector<std::string> out;
+  std::error_code ignored;
+  for (const auto& folder : {builder.folder / kind, home_folder() / "scenes/library" / kind}) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+      if (entry.path().extension() == ".toml") out.push_back(entry.path().stem().string());
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  Value root = parse_file(file);
+  for (const std::string& text : overrides) apply_override(root, text);
+
+  Builder builder;
+  builder.folder = file.parent_path();
+  Reader r(root, kSceneSection, "", builder.errors);
+  builder.scene.title = r.text("title");
+  builder.scene.path = file;
+  builder.scene.overrides = overrides;
+  builder.scene.sha256 = hash_of(file, overrides);
+  r.text("description");
+
+  // joints and cameras name bodies, so those come first
+  read_settings(builder, r.table("simulation"));
+  read_ground(builder, r.table("ground"));
+  for (Reader& vehicle : r.tables("vehicle")) read_vehicle(builder, vehicle);
+  for (Reader& person : r.tables("person")) read_person(builder, person);
+  for (Reader& body : r.tables("body")) read_body(builder, body);
+  for (Reader& joint : r.tables("joint")) read_joint(builder, joint);
+  read_film(builder, r);
+  read_closed_form(builder, r.table("closed_form"));
+
+  if (!builder.errors.lines.empty()) throw SceneErrors(std::move(builder.errors.lines));
+  builder.scene.warnings = std::move(builder.errors.warnings);
+  builder.scene.stage.title = builder.scene.title;
+  builder.scene.stage.provenance = fmt::format("scene {}", builder.scene.sha256.substr(0, 12));
+  return std::move(builder.scene);
+}
+
+}  // namespace scenes

@@ -1,0 +1,171 @@
+// From the cage's arrays to the engine's mesh and the renderer's, with an audit of what looks wrong.
+#include "scenes/loader/mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+namespace scenes {
+namespace {
+
+constexpr std::array<std::string_view, 11> kFormats{".obj", ".stl", ".gltf", ".glb", ".dae", ".3ds", ".ac", ".fbx", ".off", ".ply", ".x"};
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+struct MaterialLine {
+  std::string_view word;          // in the material's name
+  render::MaterialKind kind;
+  float roughness;
+};
+
+/// What a surface is, by its name: meshes carry colours, rarely how they shine.
+constexpr MaterialLine kMaterials[] = {
+    {"glass", render::MaterialKind::glass, 0.05f},  {"window", render::MaterialKind::glass, 0.05f}, {"lamp", render::MaterialKind::lamp, 0.15f},
+    {"light", render::MaterialKind::lamp, 0.15f},   {"tyre", render::MaterialKind::rubber, 0.9f},   {"tire", render::MaterialKind::rubber, 0.9f},
+    {"rubber", render::MaterialKind::rubber, 0.9f}, {"trim", render::MaterialKind::rubber, 0.7f},   {"chrome", render::MaterialKind::metal, 0.15f},
+    {"rim", render::MaterialKind::metal, 0.35f},    {"metal", render::MaterialKind::metal, 0.35f},  {"paint", render::MaterialKind::paint, 0.25f},
+    {"body", render::MaterialKind::paint, 0.25f}};
+
+render::Material material_of(const RawPart& part) {
+  // colours in mesh files are meant for the screen (sRGB); the stage wants light
+  const auto linear = [](float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); };
+  render::Material out{part.material, render::MaterialKind::matte, {linear(part.colour[0]), linear(part.colour[1]), linear(part.colour[2])},
+                       0.7f, std::clamp(part.opacity, 0.05f, 1.0f)};
+  const std::string name = lower_case(part.material);
+  for (const MaterialLine& line : kMaterials) {
+    if (name.find(line.word) == std::string::npos) continue;
+    out.kind = line.kind;
+    out.roughness = line.roughness;
+    break;
+  }
+  return out;
+}
+
+std::shared_ptr<const render::Mesh> look_of(const std::vector<RawPart>& parts) {
+  auto out = std::make_shared<render::Mesh>();
+  for (const RawPart& part : parts) {
+    const auto base = static_cast<std::uint32_t>(out->positions.size() / 3);
+    out->parts.push_back({static_cast<std::uint32_t>(out->indices.size()), static_cast<std::uint32_t>(part.indices.size()), static_cast<int>(out->materials.size())});
+    out->materials.push_back(material_of(part));
+    out->positions.insert(out->positions.end(), part.positions.begin(), part.positions.end());
+    out->normals.insert(out->normals.end(), part.normals.begin(), part.normals.end());
+    out->normals.resize(out->positions.size(), 0.0f);
+    for (std::uint32_t i : part.indices) out->indices.push_back(base + i);
+  }
+  return out;
+}
+
+std::shared_ptr<const engine::TriangleMesh> solid_of(const std::vector<RawPart>& parts) {
+  std::vector<engine::Vec3> vertices;
+  std::vector<engine::Triangle> triangles;
+  for (const RawPart& part : parts) {
+    const auto base = static_cast<std::int32_t>(vertices.size());
+    for (std::size_t i = 0; i < part.positions.size(); i += 3) vertices.emplace_back(part.positions[i], part.positions[i + 1], part.positions[i + 2]);
+    for (std::size_t i = 0; i < part.indices.size(); i += 3) {
+      triangles.push_back({base + static_cast<std::int32_t>(part.indices[i]), base + static_cast<std::int32_t>(part.indices[i + 1]),
+                           base + static_cast<std::int32_t>(part.indices[i + 2])});
+    }
+  }
+  return std::make_shared<engine::TriangleMesh>(std::move(vertices), std::move(triangles));
+}
+
+/// glTF says y up, z forward (its specification, 3.4); the collada reader turns everything to that as well. We are x forward, z up.
+void turn_upright(std::vector<RawPart>& parts, const std::string& extension) {
+  if (extension != ".gltf" && extension != ".glb" && extension != ".dae") return;
+  for (RawPart& part : parts) {
+    for (auto* array : {&part.positions, &part.normals}) {
+      for (std::size_t i = 0; i + 2 < array->size(); i += 3) std::rotate(array->begin() + static_cast<long>(i), array->begin() + static_cast<long>(i) + 2, array->begin() + static_cast<long>(i) + 3);
+    }
+  }
+}
+
+/// Triangles with a corner that is not finite cannot be drawn or touched.
+int drop_not_finite(std::vector<RawPart>& parts) {
+  int dropped = 0;
+  for (RawPart& part : parts) {
+    std::vector<std::uint32_t> kept;
+    for (std::size_t i = 0; i < part.indices.size(); i += 3) {
+      bool finite = true;
+      for (std::size_t k = 0; k < 9; ++k) finite = finite && std::isfinite(part.positions[3 * part.indices[i + k / 3] + k % 3]);
+      if (finite) {
+        kept.insert(kept.end(), part.indices.begin() + static_cast<long>(i), part.indices.begin() + static_cast<long>(i) + 3);
+      } else {
+        ++dropped;
+      }
+    }
+    part.indices = std::move(kept);
+    for (float& x : part.positions) if (!std::isfinite(x)) x = 0;
+  }
+  return dropped;
+}
+
+}  // namespace
+
+std::vector<std::string> audit(const std::vector<RawPart>& parts, const std::string& file) {
+  int degenerate = 0;
+  int duplicates = 0;
+  double volume = 0;
+  double extent = 0;
+  std::set<std::array<std::array<float, 3>, 3>> seen;
+  for (const RawPart& part : parts) {
+    const auto corner = [&](std::uint32_t i) { return std::array<float, 3>{part.positions[3 * i], part.positions[3 * i + 1], part.positions[3 * i + 2]}; };
+    for (std::size_t i = 0; i < part.indices.size(); i += 3) {
+      std::array<std::array<float, 3>, 3> t{corner(part.indices[i]), corner(part.indices[i + 1]), corner(part.indices[i + 2])};
+      const auto vec = [](const std::array<float, 3>& a) { return engine::Vec3(a[0], a[1], a[2]); };
+      const engine::Vec3 a = vec(t[0]), b = vec(t[1]), c = vec(t[2]);
+      const double edge2 = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+      if ((b - a).cross(c - a).norm() < 1e-12 * edge2 || edge2 == 0) ++degenerate;
+      volume += a.dot(b.cross(c)) / 6;
+      extent = std::max(extent, a.norm());
+      std::sort(t.begin(), t.end());
+      if (!seen.insert(t).second) ++duplicates;
+    }
+  }
+  std::vector<std::string> out;
+  if (degenerate > 0) out.push_back(fmt::format("{} has {} degenerate triangles; they are left out of contact", file, degenerate));
+  if (duplicates > 0) out.push_back(fmt::format("{} has {} duplicate triangles; they are left out of contact", file, duplicates));
+  // a clearly negative volume means faces turned inwards; sheets and open terrain have none to speak of
+  if (volume < -1e-3 * extent * extent * extent) out.push_back(fmt::format("{} is inside out: its triangles run clockwise seen from outside", file));
+  return out;
+}
+
+std::shared_ptr<const ImportedMesh> import_mesh(Builder& builder, Reader& r, std::string_view key) {
+  const std::string name = r.text(key);
+  if (name.empty()) return nullptr;
+  const auto extension = lower_case(std::filesystem::path(name).extension().string());
+  if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end()) {
+    r.fail(key, fmt::format("must be a mesh file of a known kind: {}", fmt::join(kFormats, " ")));
+    return nullptr;
+  }
+  std::error_code ignored;
+  std::filesystem::path file = builder.folder / name;
+  if (!std::filesystem::is_regular_file(file, ignored)) file = home_folder() / name;
+  if (!std::filesystem::is_regular_file(file, ignored)) {
+    r.fail(key, fmt::format("must be a mesh file; there is no {} and no {}", (builder.folder / name).string(), file.string()));
+    return nullptr;
+  }
+  auto& cached = builder.meshes[file.string()];
+  if (cached) return cached;
+  CageResult result = import_in_cage(file, file.parent_path());
+  if (!result.problem.empty()) {
+    r.fail(key, fmt::format("could not be imported: {}", result.problem));
+    return nullptr;
+  }
+  turn_upright(result.parts, extension);
+  const int dropped = drop_not_finite(result.parts);
+  if (dropped > 0) r.warn(key, fmt::format("has {} triangles with coordinates that are not finite; they are left out", dropped));
+  for (const std::string& warning : audit(result.parts, file.filename().string())) r.errors().warn(r.place(key), warning);
+  auto imported = std::make_shared<ImportedMesh>();
+  imported->look = look_of(result.parts);
+  imported->solid = solid_of(result.parts);
+  cached = imported;
+  return cached;
+}
+
+}  // namespace scenes

@@ -1,0 +1,252 @@
+// [[person]]: a figure of the library, sized, posed, set on the ground and given its walking velocity.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/loader/figure.h"
+
+namespace scenes {
+
+namespace {
+
+const Key kSegmentKeys[] = {
+    {"axes", Type::vector3, Dimension::length, "", "Semi-axes.", kPositive},
+    {"exponent", Type::number, Dimension::none, "", "Exponent n.", between(2, 100), {}, nullptr, "a hyper-ellipsoid needs n >= 2"},
+    {"mass", Type::number, Dimension::mass, "", "Mass; the other parts keep theirs.", kPositive},
+    {"inertia", Type::inertia, Dimension::inertia, "", "About the part's centre, in its axes."},
+    CRASHREEL_SURFACE_KEYS,
+    {"colour", Type::colour, Dimension::none, "", "Colour in pictures."},
+};
+const Section kSegmentSection{"person.segment", "[person.segment.NAME]", "Changes to one part: head, neck, torso, hips, left_thigh ...", kSegmentKeys};
+
+const Key kRangeKeys[] = {{"*", Type::range, Dimension::angle, "", "Range of motion of the angle of this name, like flexion."}};
+const Section kRangesSection{"person.joint.ranges", "[person.joint.NAME.ranges]", "Other ranges of motion.", kRangeKeys};
+
+const Key kJointKeys[] = {
+    {"damping", Type::number, Dimension::angular_damping, "", "Resistance per angular speed.", kNotNegative},
+    {"friction_torque", Type::number, Dimension::torque, "", "Constant resistance against turning.", kNotNegative},
+    {"stiffness", Type::number, Dimension::angular_stiffness, "", "Resistive spring towards standing.", kNotNegative},
+    {"ranges", Type::table, Dimension::none, "", "Ranges of motion.", kAny, {}, &kRangesSection},
+};
+const Section kJointSectionOfPerson{"person.joint", "[person.joint.NAME]", "Changes to one joint: trunk, neck, head, left_hip, left_knee ...", kJointKeys};
+
+const Key kKeys[] = {
+    {"name", Type::text, Dimension::none, kRequired, "Name; its parts are NAME/head, NAME/left_thigh ..."},
+    {"figure", Type::text, Dimension::none, "'person-14'", "A person of the library or of the scene's folder."},
+    {"sex", Type::choice, Dimension::none, "'male'", "Which regression gives the masses of the parts.", kAny, "male|female"},
+    {"stature", Type::number, Dimension::length, "'1.75 m'", "Height standing.", between(1.3, 2.3), {}, nullptr,
+     "smaller persons need a figure with a child's proportions"},
+    {"mass", Type::number, Dimension::mass, "'78 kg'", "Mass of the whole person.", between(25, 250)},
+    {"pose", Type::text, Dimension::none, "'standing'", "A pose of the library or of the scene's folder."},
+    {"angles", Type::table, Dimension::none, "", "Changes to the pose.", kAny, {}, &kAnglesSection},
+    {"position", Type::vector2, Dimension::length, "'0 0 m'", "World x, y of the centre of the hips."},
+    {"heading", Type::number, Dimension::angle, "'0 deg'", "Where the person faces, from +x towards +y."},
+    {"speed", Type::number, Dimension::speed, "'0 m/s'", "Walking velocity along the heading."},
+    {"velocity", Type::vector3, Dimension::speed, "", "Velocity in world axes, in place of speed."},
+    {"angular_velocity", Type::vector3, Dimension::angular_speed, "", "Of the whole person about its centre of gravity, world axes."},
+    {"height", Type::number, Dimension::length, "'0 m'", "Of the lowest point above the ground."},
+    {"cg_height", Type::number, Dimension::length, "", "Of the centre of gravity above z = 0, in place of height."},
+    {"zero_condition", Type::boolean, Dimension::none, "true", "Keeps pose and velocity at no cost until something touches it."},
+    {"appearance", Type::choice, Dimension::none, "'skin'", "Ellipsoids, one skin over them, or their wire grid.", kAny, "segments|skin|raster"},
+    {"collision", Type::choice, Dimension::none, "'default_auto'", "Collision model the person asks for.", kAny, "default_auto|kudlich_slibar"},
+    CRASHREEL_SURFACE_KEYS,
+    {"segment", Type::map, Dimension::none, "", "Changes to single parts.", kAny, {}, &kSegmentSection},
+    {"joint", Type::map, Dimension::none, "", "Changes to single joints.", kAny, {}, &kJointSectionOfPerson},
+};
+
+void change_segments(Reader& r, Figure& figure, std::vector<engine::SurfaceProperties>& surfaces) {
+  for (auto& [name, change] : r.map("segment")) {
+    const auto at = std::find_if(figure.segments.begin(), figure.segments.end(), [&n = name](const Segment& s) { return s.name == n; });
+    if (at == figure.segments.end()) {
+      std::vector<std::string> names;
+      for (const Segment& s : figure.segments) names.push_back(s.name);
+      const std::string guess = nearest(name, names);
+      change.fail_here(guess.empty() ? "is no part of this person" : fmt::format("is no part of this person; did you mean \"{}\"?", guess));
+      continue;
+    }
+    if (const auto axes = change.vector_if("axes")) at->shape.semi_axes = *axes;
+    if (change.has("exponent")) at->shape.exponent = std::max(2.0, change.number("exponent"));
+    if (change.has("mass")) at->mass = change.number("mass");
+    if (change.has("colour")) at->material.colour = change.colour("colour");
+    if (change.has("inertia")) {
+      at->inertia = change.inertia("inertia");
+      check_inertia(change, "inertia", at->inertia);
+    } else if (at->mass > 0 && (at->shape.semi_axes.array() > 0).all()) {
+      at->inertia = engine::principal_inertia(at->shape, at->mass).asDiagonal();
+    }
+    auto& surface = surfaces[static_cast<std::size_t>(at - figure.segments.begin())];
+    surface = read_surface(change, surface);
+  }
+}
+
+void change_ranges(Reader& ranges, FigureJoint& joint) {
+  for (const Entry& entry : ranges.value().entries) {
+    const auto angle = std::find_if(joint.angles.begin(), joint.angles.end(), [&](const AnatomicalAngle& a) { return a.name == entry.key; });
+    const auto [lower, upper] = ranges.range(entry.key);
+    if (angle == joint.angles.end()) {
+      ranges.fail(entry.key, fmt::format("is no angle of joint {}", joint.name));
+    } else {
+      angle->lower = lower;
+      angle->upper = upper;
+    }
+  }
+}
+
+void change_joints(Reader& r, Figure& figure) {
+  for (auto& [name, change] : r.map("joint")) {
+    const auto at = std::find_if(figure.joints.begin(), figure.joints.end(), [&n = name](const FigureJoint& j) { return j.name == n; });
+    if (at == figure.joints.end()) {
+      std::vector<std::string> names;
+      for (const FigureJoint& j : figure.joints) names.push_back(j.name);
+      const std::string guess = nearest(name, names);
+      change.fail_here(guess.empty() ? "is no joint of this person" : fmt::format("is no joint of this person; did you mean \"{}\"?", guess));
+      continue;
+    }
+    if (change.has("damping")) at->damping = change.number("damping");
+    if (change.has("friction_torque")) at->friction_torque = change.number("friction_torque");
+    if (change.has("stiffness")) at->stiffness = change.number("stiffness");
+    if (auto ranges = change.table("ranges")) change_ranges(*ranges, *at);
+  }
+}
+
+/// Attitudes and centres of all segments with the hips' centre at the origin.
+std::vector<engine::Pose> placed(const Figure& figure, const Pose& pose, const engine::Quat& q_root) {
+  std::vector<engine::Pose> out(figure.segments.size());
+  out[0].q = q_root;
+  for (std::size_t i = 0; i < figure.joints.size(); ++i) {
+    const FigureJoint& j = figure.joints[i];
+    const engine::Pose& X_WP = out[static_cast<std::size_t>(j.parent)];
+    const engine::Vec3 p_WJ = X_WP * (j.at - figure.segments[static_cast<std::size_t>(j.parent)].centre);
+    const engine::Quat q = (X_WP.q * articulation(j, pose.angles[i])).normalized();
+    out[static_cast<std::size_t>(j.child)] = {p_WJ - q * (j.at - figure.segments[static_cast<std::size_t>(j.child)].centre), q};
+  }
+  return out;
+}
+
+/// Height of what carries a person at x, y.
+double ground_height(const engine::Ground& ground, double x, double y) {
+  double height = ground.plane ? ground.height : (ground.terrain ? -1e9 : 0);
+  if (ground.terrain) {
+    const double top = ground.terrain->bounds().upper.z() + 1;
+    double s = 0;
+    int triangle = -1;
+    if (ground.terrain->raycast({x, y, top}, -engine::Vec3::UnitZ(), 1e6, s, triangle)) height = std::max(height, top - s);
+  }
+  return height > -1e8 ? height : 0;
+}
+
+/// How far the lowest support point stands above the ground.
+double clearance(const engine::Ground& ground, const Figure& figure, const std::vector<engine::Pose>& X_WB) {
+  double least = 1e300;
+  for (std::size_t i = 0; i < X_WB.size(); ++i) {
+    const engine::Vec3 p = X_WB[i] * engine::support_point(figure.segments[i].shape, X_WB[i].q.conjugate() * -engine::Vec3::UnitZ());
+    least = std::min(least, p.z() - ground_height(ground, p.x(), p.y()));
+  }
+  return least;
+}
+
+engine::Vec3 centre_of_gravity(const Figure& figure, const std::vector<engine::Pose>& X_WB) {
+  engine::Vec3 sum = engine::Vec3::Zero();
+  double mass = 0;
+  for (std::size_t i = 0; i < X_WB.size(); ++i) {
+    sum += figure.segments[i].mass * X_WB[i].p;
+    mass += figure.segments[i].mass;
+  }
+  return sum / mass;
+}
+
+void set_down(Reader& r, const engine::Ground& ground, const Figure& figure, std::vector<engine::Pose>& X_WB) {
+  const engine::Vec3 position = r.vector("position");
+  for (engine::Pose& X : X_WB) X.p += position;
+  double up = r.number("height") - clearance(ground, figure, X_WB);
+  if (r.has("cg_height")) {
+    if (r.has("height")) r.fail("cg_height", "must not be given together with height");
+    up = r.number("cg_height") - centre_of_gravity(figure, X_WB).z();
+  }
+  for (engine::Pose& X : X_WB) X.p.z() += up;
+}
+
+void add_actor(Builder& builder, const std::string& name, int look, int first_body, const Figure& figure, const std::vector<engine::Pose>& X_WB) {
+  render::PersonActor actor;
+  actor.name = name;
+  actor.look = static_cast<render::PersonLook>(look);
+  for (std::size_t i = 0; i < figure.segments.size(); ++i) {
+    const Segment& s = figure.segments[i];
+    actor.segments.push_back({s.name, first_body + static_cast<int>(i), -1, engine::Vec3::Zero(), s.shape, X_WB[i], s.material});
+  }
+  for (const FigureJoint& j : figure.joints) {
+    auto& segment = actor.segments[static_cast<std::size_t>(j.child)];
+    segment.parent = j.parent;
+    segment.joint_P = j.at - figure.segments[static_cast<std::size_t>(j.parent)].centre;
+  }
+  builder.scene.stage.persons.push_back(std::move(actor));
+}
+
+}  // namespace
+
+const Section kPersonSection{"person", "[[person]]", "A person: parts joined by joints. Angles in words, sizes by stature and mass.", kKeys};
+
+void read_person(Builder& builder, Reader r) {
+  engine::Model& model = builder.scene.model;
+  engine::Person person;
+  person.name = r.text("name");
+  if (person.name.empty() || person.name.find('/') != std::string::npos) r.fail("name", "must be a name without a slash");
+  for (const engine::Person& other : model.persons)
+    if (other.name == person.name) r.fail("name", "is taken; every person needs a name of its own");
+  const PersonSize size{r.number("stature"), r.number("mass"), r.choice("sex") == 1};
+  if (!(size.stature > 0) || !(size.mass > 0)) return;
+  Figure figure = read_figure(builder, r, size);
+  if (figure.segments.empty()) return;
+
+  std::vector<engine::SurfaceProperties> surfaces(figure.segments.size(), read_surface(r, {}));
+  change_segments(r, figure, surfaces);
+  change_joints(r, figure);
+  const Pose pose = read_pose(builder, r, figure);
+  const double heading = r.number("heading");
+  const engine::Quat q_root(Eigen::AngleAxisd(heading, engine::Vec3::UnitZ()) * Eigen::AngleAxisd(pose.pitch, engine::Vec3::UnitY()) *
+                            Eigen::AngleAxisd(pose.roll, engine::Vec3::UnitX()));
+  std::vector<engine::Pose> X_WB = placed(figure, pose, q_root);
+  set_down(r, model.ground, figure, X_WB);
+
+  if (r.has("velocity") && r.has("speed")) r.fail("velocity", "must not be given together with speed");
+  const engine::Vec3 v = r.vector_if("velocity").value_or(r.number("speed") * engine::Vec3(std::cos(heading), std::sin(heading), 0));
+  const engine::Vec3 w = r.vector("angular_velocity");
+  const engine::Vec3 cg = centre_of_gravity(figure, X_WB);
+  const auto collision = static_cast<engine::CollisionModel>(r.choice("collision"));
+
+  const int first = static_cast<int>(model.bodies.size());
+  for (std::size_t i = 0; i < figure.segments.size(); ++i) {
+    const Segment& s = figure.segments[i];
+    engine::Body body;
+    body.name = person.name + "/" + s.name;
+    body.mass = s.mass;
+    body.inertia_B = s.inertia;
+    body.shape = s.shape;
+    body.surface = surfaces[i];
+    body.collision_model = collision;
+    body.X_WB = X_WB[i];
+    body.V_WB = {v + w.cross(X_WB[i].p - cg), w};
+    body.person = static_cast<int>(model.persons.size());
+    const int index = first + static_cast<int>(i);
+    person.bodies.push_back(index);
+    if (s.name == "head") person.head = index;
+    if (s.name == "torso") person.torso = index;
+    model.bodies.push_back(std::move(body));
+  }
+  for (std::size_t i = 0; i < figure.joints.size(); ++i) {
+    engine::Joint joint = engine_joint(figure, figure.joints[i], pose.angles[i]);
+    joint.name = person.name + "/" + joint.name;
+    joint.parent = first + figure.joints[i].parent;
+    joint.child = first + figure.joints[i].child;
+    model.joints.push_back(std::move(joint));
+  }
+  person.hips = first;
+  person.stature = size.stature;
+  person.zero_condition = r.boolean("zero_condition");
+  add_actor(builder, person.name, r.choice("appearance"), first, figure, X_WB);
+  builder.scene.stage.speeds.emplace_back(first, person.name);
+  model.persons.push_back(std::move(person));
+}
+
+}  // namespace scenes

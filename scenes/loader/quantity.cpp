@@ -1,0 +1,186 @@
+#include "scenes/loader/quantity.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "engine/model/model.h"
+
+namespace scenes {
+namespace {
+
+/// Powers of metre, kilogram, second, radian.
+struct Powers {
+  int m = 0, kg = 0, s = 0, rad = 0;
+  bool operator==(const Powers&) const = default;
+};
+
+struct DimensionLine {
+  std::string_view name, si, usual, second;   // `second`: the other way to write it, for the remedy
+  Powers powers;
+};
+
+constexpr std::array<DimensionLine, 15> kDimensions{{
+    {"a plain number", "", "", "", {}},
+    {"a length", "m", "m", "cm", {1, 0, 0, 0}},
+    {"a mass", "kg", "kg", "lb", {0, 1, 0, 0}},
+    {"a time", "s", "s", "ms", {0, 0, 1, 0}},
+    {"an angle", "rad", "deg", "rad", {0, 0, 0, 1}},
+    {"a speed", "m/s", "km/h", "m/s", {1, 0, -1, 0}},
+    {"an angular speed", "rad/s", "rad/s", "deg/s", {0, 0, -1, 1}},
+    {"an acceleration", "m/s^2", "m/s^2", "g", {1, 0, -2, 0}},
+    {"a force", "N", "N", "kN", {1, 1, -2, 0}},
+    {"a stiffness", "N/m", "N/m", "kN/m", {0, 1, -2, 0}},
+    {"a damping", "N s/m", "N s/m", "kN s/m", {0, 1, -1, 0}},
+    {"a torque", "N m", "N m", "kN m", {2, 1, -2, 0}},
+    {"an angular stiffness", "N m/rad", "N m/rad", "N m/deg", {2, 1, -2, -1}},
+    {"an angular damping", "N m s/rad", "N m s/rad", "N m s/deg", {2, 1, -1, -1}},
+    {"a moment of inertia", "kg m^2", "kg m^2", "g cm^2", {2, 1, 0, 0}},
+}};
+
+const DimensionLine& line(Dimension d) { return kDimensions[static_cast<std::size_t>(d)]; }
+
+struct Unit {
+  std::string_view symbol;
+  double factor;
+  Powers powers;
+};
+
+constexpr double kPound = 0.45359237;   // [kg] international pound, exact since 1959
+constexpr double kInch = 0.0254;        // [m] exact
+
+constexpr Unit kUnits[] = {
+    {"m", 1, {1, 0, 0, 0}}, {"km", 1e3, {1, 0, 0, 0}}, {"cm", 1e-2, {1, 0, 0, 0}}, {"mm", 1e-3, {1, 0, 0, 0}}, {"um", 1e-6, {1, 0, 0, 0}},
+    {"in", kInch, {1, 0, 0, 0}}, {"ft", 12 * kInch, {1, 0, 0, 0}}, {"yd", 36 * kInch, {1, 0, 0, 0}}, {"mi", 63360 * kInch, {1, 0, 0, 0}},
+    {"kg", 1, {0, 1, 0, 0}}, {"g", 1e-3, {0, 1, 0, 0}}, {"t", 1e3, {0, 1, 0, 0}}, {"lb", kPound, {0, 1, 0, 0}},
+    {"slug", kPound * 9.80665 / (12 * kInch), {0, 1, 0, 0}},
+    {"s", 1, {0, 0, 1, 0}}, {"ms", 1e-3, {0, 0, 1, 0}}, {"us", 1e-6, {0, 0, 1, 0}}, {"min", 60, {0, 0, 1, 0}}, {"h", 3600, {0, 0, 1, 0}},
+    {"rad", 1, {0, 0, 0, 1}}, {"deg", std::numbers::pi / 180, {0, 0, 0, 1}}, {"°", std::numbers::pi / 180, {0, 0, 0, 1}},
+    {"rev", 2 * std::numbers::pi, {0, 0, 0, 1}}, {"rpm", 2 * std::numbers::pi / 60, {0, 0, -1, 1}},
+    {"kph", 1 / 3.6, {1, 0, -1, 0}}, {"mph", 63360 * kInch / 3600, {1, 0, -1, 0}},
+    {"N", 1, {1, 1, -2, 0}}, {"kN", 1e3, {1, 1, -2, 0}}, {"MN", 1e6, {1, 1, -2, 0}}, {"lbf", kPound * 9.80665, {1, 1, -2, 0}},
+    {"Hz", 1, {0, 0, -1, 0}}, {"%", 0.01, {}},
+};
+
+bool is_space(char c) { return c == ' ' || c == '\t'; }
+bool is_number_start(std::string_view t) {
+  return !t.empty() && ((t[0] >= '0' && t[0] <= '9') || t[0] == '.' || ((t[0] == '-' || t[0] == '+') && t.size() > 1));
+}
+
+void skip_spaces(std::string_view& t) {
+  while (!t.empty() && is_space(t.front())) t.remove_prefix(1);
+}
+
+std::optional<double> take_number(std::string_view& t) {
+  if (!is_number_start(t)) return std::nullopt;
+  std::string_view digits = t;
+  if (digits.front() == '+') digits.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  // "0x10" stops at the x and would read as zero; an exponent too large is an error of from_chars
+  if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
+  t.remove_prefix(static_cast<std::size_t>(end - t.data()));
+  if (!t.empty() && (t.front() == 'x' || t.front() == 'X' || t.front() == ',' || t.front() == '_')) return std::nullopt;
+  return value;
+}
+
+struct UnitValue {
+  double factor = 1;
+  Powers powers;
+  std::string unknown;   // the symbol that is not a unit
+};
+
+/// Product of units: "N m s/rad", "kg*m^2", "m/s^2". One slash divides by what directly follows it.
+UnitValue take_unit(std::string_view& t, Dimension wanted) {
+  UnitValue out;
+  bool divide = false;
+  for (;;) {
+    skip_spaces(t);
+    if (t.empty() || is_number_start(t)) return out;
+    if (t.front() == '*') { t.remove_prefix(1); continue; }
+    if (t.front() == '/') { divide = true; t.remove_prefix(1); continue; }
+    std::size_t length = 0;
+    while (length < t.size() && !is_space(t[length]) && t[length] != '/' && t[length] != '*' && t[length] != '^' &&
+           !(t[length] >= '0' && t[length] <= '9')) ++length;
+    const std::string_view symbol = t.substr(0, length);
+    t.remove_prefix(length);
+    int power = 1;
+    if (!t.empty() && t.front() == '^') t.remove_prefix(1);
+    if (!t.empty() && (t.front() == '2' || t.front() == '3')) { power = t.front() - '0'; t.remove_prefix(1); }
+    if (divide) power = -power;
+    divide = false;
+    const Unit* unit = nullptr;
+    for (const Unit& candidate : kUnits) if (candidate.symbol == symbol) unit = &candidate;
+    constexpr Unit kGravityUnit{"g", engine::kGravity, {1, 0, -2, 0}};
+    if (symbol == "g" && wanted == Dimension::acceleration) unit = &kGravityUnit;
+    if (!unit) { out.unknown = symbol.empty() ? std::string(t.substr(0, 1)) : std::string(symbol); return out; }
+    out.factor *= std::pow(unit->factor, power);
+    out.powers.m += power * unit->powers.m;
+    out.powers.kg += power * unit->powers.kg;
+    out.powers.s += power * unit->powers.s;
+    out.powers.rad += power * unit->powers.rad;
+  }
+}
+
+std::string must_be(Dimension d) {
+  if (d == Dimension::none) return "must be a plain number without a unit";
+  return fmt::format("must be {}; write it like \"{} {}\"", line(d).name, 1, line(d).usual);
+}
+
+}  // namespace
+
+std::string_view name_of(Dimension d) { return line(d).name; }
+std::string_view si_unit(Dimension d) { return line(d).si; }
+std::string_view usual_unit(Dimension d) { return line(d).usual; }
+
+Quantity parse_quantity(std::string_view text, Dimension wanted) {
+  Quantity out;
+  std::string_view t = text;
+  skip_spaces(t);
+  int terms = 0;
+  bool negative = false;
+  while (!t.empty()) {
+    const auto number = take_number(t);
+    if (!number) return {0, fmt::format("{}", must_be(wanted))};
+    const UnitValue unit = take_unit(t, wanted);
+    if (!unit.unknown.empty()) return {0, fmt::format("\"{}\" is not a unit; {}", unit.unknown, must_be(wanted))};
+    if (unit.powers == Powers{} && unit.factor == 1 && wanted != Dimension::none) {
+      return {0, fmt::format("needs a unit: write {}", unit_examples(*number, wanted))};
+    }
+    if (!(unit.powers == line(wanted).powers)) return {0, must_be(wanted)};
+    // "-5 ft 9 in" means -(5 ft 9 in)
+    if (terms++ == 0) negative = std::signbit(*number);
+    out.value += (negative && terms > 1 ? -1 : 1) * *number * unit.factor;
+    skip_spaces(t);
+  }
+  if (terms == 0) return {0, must_be(wanted)};
+  return out;
+}
+
+Quantities parse_quantities(std::string_view text, Dimension wanted) {
+  Quantities out;
+  std::string_view t = text;
+  for (skip_spaces(t); is_number_start(t); skip_spaces(t)) {
+    const auto number = take_number(t);
+    if (!number) return {{}, must_be(wanted)};
+    out.values.push_back(*number);
+  }
+  const UnitValue unit = take_unit(t, wanted);
+  if (!unit.unknown.empty()) return {{}, fmt::format("\"{}\" is not a unit; {}", unit.unknown, must_be(wanted))};
+  if (!(unit.powers == line(wanted).powers) || !t.empty()) {
+    return {{}, wanted == Dimension::none ? "must be plain numbers" : fmt::format("must end in a unit of {}, like \"1 2 3 {}\"", line(wanted).name.substr(line(wanted).name.find(' ') + 1), line(wanted).usual)};
+  }
+  for (double& value : out.values) value *= unit.factor;
+  return out;
+}
+
+std::string unit_examples(double number, Dimension d) {
+  const auto factor = [&](std::string_view unit) { return take_unit(unit, d).factor; };
+  const double second = number * factor(line(d).usual) / factor(line(d).second);
+  return fmt::format("\"{} {}\" or \"{:.3g} {}\"", number, line(d).usual, second, line(d).second);
+}
+
+}  // namespace scenes

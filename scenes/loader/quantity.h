@@ -1,0 +1,39 @@
+// "40 km/h", "5 ft 9 in", "25 N/mm": a number with a unit, checked for its dimension, in SI.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace scenes {
+
+enum class Dimension {
+  none, length, mass, time, angle, speed, angular_speed, acceleration, force, stiffness, damping,
+  torque, angular_stiffness, angular_damping, inertia
+};
+
+/// The name of a dimension ("speed"), its SI unit ("m/s"), and the unit people write ("km/h").
+std::string_view name_of(Dimension);
+std::string_view si_unit(Dimension);
+std::string_view usual_unit(Dimension);
+
+struct Quantity {
+  double value = 0;          // SI
+  std::string problem;       // empty: understood. Else what is wrong, to follow "key is VALUE, "
+};
+
+/// Reads `text` as a quantity of the dimension. "g" is the acceleration of gravity (9.81 m/s^2) where an acceleration is asked for, else grams.
+Quantity parse_quantity(std::string_view text, Dimension);
+
+/// "1 2 3 m": several numbers that share one unit. `problem` as above.
+struct Quantities {
+  std::vector<double> values;
+  std::string problem;
+};
+Quantities parse_quantities(std::string_view text, Dimension);
+
+/// What to write in place of the bare number: `"40 km/h" or "11.1 m/s"`.
+std::string unit_examples(double number, Dimension);
+
+}  // namespace scenes

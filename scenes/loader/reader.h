@@ -1,0 +1,80 @@
+// Reads one table of a scene file by its value table, collecting what is wrong.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/math/types.h"
+#include "engine/model/schedule.h"
+#include "scenes/loader/table.h"
+#include "scenes/loader/value.h"
+
+namespace scenes {
+
+/// What was found so far. Loading goes on after an error so that several are told at once.
+struct Errors {
+  std::vector<std::string> lines;
+  std::vector<std::string> warnings;
+  void add(const Place& place, const std::string& what) { lines.push_back(place.text() + ": " + what); }
+  void warn(const Place& place, const std::string& what) { warnings.push_back(place.text() + ": " + what); }
+};
+
+/// Every getter returns a usable value: after an error, the key's default or a harmless one. The key must be in the section's table.
+class Reader {
+ public:
+  /// Reports keys the section does not know and required ones that are missing.
+  Reader(const Value& table, const Section& section, std::string path, Errors& errors);
+
+  bool has(std::string_view key) const { return table_->find(key) != nullptr; }
+  bool boolean(std::string_view key);
+  int integer(std::string_view key);
+  double number(std::string_view key);
+  std::optional<double> number_if(std::string_view key);
+  std::string text(std::string_view key);
+  /// Index of the chosen word in the key's list of choices.
+  int choice(std::string_view key);
+  engine::Vec3 vector(std::string_view key);                      // of a vector2 the third is zero
+  std::optional<engine::Vec3> vector_if(std::string_view key);
+  std::vector<double> numbers(std::string_view key);
+  std::array<double, 2> range(std::string_view key);
+  std::vector<std::string> texts(std::string_view key);
+  engine::Schedule schedule(std::string_view key);
+  engine::Mat3 inertia(std::string_view key);
+  std::array<float, 3> colour(std::string_view key);              // linear RGB
+
+  std::optional<Reader> table(std::string_view key);
+  std::vector<Reader> tables(std::string_view key);
+  /// Tables or values of a map, by name.
+  std::vector<std::pair<std::string, Reader>> map(std::string_view key);
+
+  /// "path.key is VALUE, what" at the value's place, or at the table's when the key is not there.
+  void fail(std::string_view key, const std::string& what);
+  void fail_here(const std::string& what);
+  void warn(std::string_view key, const std::string& what);
+  const Place& place() const { return table_->place; }
+  const Place& place(std::string_view key) const;
+  const std::string& path() const { return path_; }
+  std::string path(std::string_view key) const { return path_.empty() ? std::string(key) : path_ + "." + std::string(key); }
+  const Value& value() const { return *table_; }
+  const Section& section() const { return *section_; }
+  Errors& errors() const { return *errors_; }
+
+ private:
+  const Value* get(std::string_view key, const Key*& line) const;
+  double read_number(const Value&, const Key&, const std::string& path);
+  bool read_numbers(const Value&, const Key&, const std::string& path, std::vector<double>& out);
+  void bad(const Value&, const std::string& path, const std::string& what);
+
+  const Value* table_;
+  const Section* section_;
+  std::string path_;
+  Errors* errors_;
+};
+
+/// The path of an element of a list of tables: its name when it has one, else its number.
+std::string element_path(const std::string& list_path, const Value& element, std::size_t number);
+
+}  // namespace scenes

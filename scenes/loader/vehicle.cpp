@@ -1,0 +1,219 @@
+// [[vehicle]]: a rigid body on wheels, from the library or the user's own mesh and figures.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/loader/builder.h"
+#include "scenes/loader/mesh.h"
+
+namespace scenes {
+namespace {
+
+const Key kWheelKeys[] = {
+    {"name", Type::text, Dimension::none, kRequired, "Name, like front_left."},
+    {"at", Type::vector3, Dimension::length, kRequired, "Its centre at static load, in the mesh frame."},
+    {"radius", Type::number, Dimension::length, "'0.31 m'", "Radius of the loaded tyre.", kPositive},
+    {"width", Type::number, Dimension::length, "'0.2 m'", "Width of the tyre.", kPositive},
+    {"spring", Type::number, Dimension::stiffness, "'25 kN/m'", "Suspension, at the wheel.", kPositive},
+    {"damper", Type::number, Dimension::damping, "'2.5 kN s/m'", "Suspension, at the wheel.", kNotNegative},
+    {"travel", Type::number, Dimension::length, "'0.1 m'", "Each way to the stop.", kPositive},
+    {"friction", Type::number, Dimension::none, "0.8", "Tyre on the road; the ground's own friction limits it too.", kNotNegative},
+    {"brake_share", Type::number, Dimension::none, "0.25", "Share of the brake force; the shares sum to 1.", kShare},
+    {"steered", Type::boolean, Dimension::none, "false", "Turns with steer."},
+    {"driven", Type::boolean, Dimension::none, "false", "Takes its part of drive_force."},
+};
+const Section kWheelSection{"vehicle.wheel", "[[vehicle.wheel]]", "A wheel.", kWheelKeys};
+
+const Key kBrakeKeys[] = {
+    {"from", Type::number, Dimension::time, "'0 s'", "When the pedal is pressed; may be negative: before the scene begins."},
+    {"lag", Type::number, Dimension::time, "'0 s'", "Until the first force.", kNotNegative},
+    {"build_up", Type::number, Dimension::time, "'0.2 s'", "From the first force to the full one.", kNotNegative},
+    {"until", Type::number, Dimension::time, "", "When the pedal is let go; left out: never."},
+    {"deceleration", Type::number, Dimension::acceleration, "'0.7 g'", "That the full brake force would give this mass; the tyres may give less.", kNotNegative},
+};
+const Section kBrakeSection{"vehicle.brake", "[vehicle.brake]", "One braking by the driver.", kBrakeKeys};
+
+const Key kKeys[] = {
+    {"name", Type::text, Dimension::none, "''", "Name in every output. (Required in a scene; a library file has none.)"},
+    {"model", Type::text, Dimension::none, "''", "A vehicle of the library or the scene's folder, whose keys are used where the scene gives none. Empty: all is given here."},
+    {"title", Type::text, Dimension::none, "''", "What the library's vehicle is and where its figures come from."},
+    {"mesh", Type::path, Dimension::none, "", "The bodywork. Mesh frame: x forward, y left, z up, origin on the ground midway between the axles."},
+    {"collision_mesh", Type::path, Dimension::none, "", "A coarser mesh for contact in the same frame; left out: the bodywork."},
+    {"wheel_mesh", Type::path, Dimension::none, "", "One wheel about its centre, axle along y, outside towards +y."},
+    {"mass", Type::number, Dimension::mass, "", "Mass with occupants.", kPositive},
+    {"cg", Type::vector3, Dimension::length, "", "Centre of mass in the mesh frame."},
+    {"inertia", Type::inertia, Dimension::inertia, "", "Roll, pitch, yaw moments about the centre of mass, or a tensor."},
+    {"position", Type::vector2, Dimension::length, "'0 0 m'", "World x, y of the mesh frame's origin."},
+    {"front", Type::vector2, Dimension::length, "", "World x, y of the middle of the front bumper, in place of position."},
+    {"heading", Type::number, Dimension::angle, "'0 deg'", "Where it points, from +x towards +y."},
+    {"speed", Type::number, Dimension::speed, "'0 m/s'", "Along the heading."},
+    {"velocity", Type::vector3, Dimension::speed, "", "Of the centre of mass in world axes, in place of speed."},
+    {"angular_velocity", Type::vector3, Dimension::angular_speed, "'0 0 0 rad/s'", "In world axes."},
+    {"lift", Type::number, Dimension::length, "'0 m'", "Height above its place on the wheels, for a vehicle in the air."},
+    {"attitude", Type::vector3, Dimension::angle, "'0 0 0 deg'", "Roll, pitch, yaw on top of the heading."},
+    {"quaternion", Type::numbers, Dimension::none, "", "The same as [w, x, y, z]."},
+    {"brake", Type::table, Dimension::none, "", "Braking.", kAny, {}, &kBrakeSection},
+    {"steer", Type::schedule, Dimension::angle, "'0 deg'", "Angle of the steered wheels, left positive."},
+    {"drive_force", Type::schedule, Dimension::force, "'0 N'", "Shared by the driven wheels."},
+    CRASHREEL_SURFACE_KEYS,
+    {"collision", Type::choice, Dimension::none, "'default_auto'", "Collision model the vehicle asks for.", kAny, "default_auto|kudlich_slibar"},
+    {"colour", Type::colour, Dimension::none, "", "Of the paint, in place of the mesh's own."},
+    {"wheel", Type::tables, Dimension::none, "", "Wheels.", kAny, {}, &kWheelSection},
+};
+
+/// The scene's table laid over the library's.
+std::optional<Value> with_model(Builder& builder, Reader& r) {
+  const std::string name = r.text("model");
+  if (name.empty()) return r.value();
+  const auto file = library_file(builder, "vehicles", name);
+  if (!file.empty()) return overlaid(parse_file(file), r.value());
+  const auto names = library_names(builder, "vehicles");
+  const std::string guess = nearest(name, names);
+  r.fail("model", fmt::format("is not in the library of vehicles ({}){}", fmt::join(names, ", "), guess.empty() ? "" : fmt::format("; did you mean \"{}\"?", guess)));
+  return std::nullopt;
+}
+
+void need(Reader& r, std::string_view key, std::string_view example) {
+  if (!r.has(key)) r.fail(key, fmt::format("is missing; write like {} = {}, or name a model of the library", key, example));
+}
+
+void read_wheels(Reader& r, const engine::Vec3& cg, engine::Vehicle& vehicle) {
+  double shares = 0;
+  for (Reader& w : r.tables("wheel")) {
+    engine::Wheel wheel;
+    wheel.name = w.text("name");
+    wheel.hub_B = w.vector("at") - cg;
+    wheel.radius = w.number("radius");
+    wheel.width = w.number("width");
+    wheel.spring = w.number("spring");
+    wheel.damper = w.number("damper");
+    wheel.travel = w.number("travel");
+    wheel.friction = w.number("friction");
+    wheel.brake_share = w.number("brake_share");
+    wheel.steered = w.boolean("steered");
+    wheel.driven = w.boolean("driven");
+    shares += wheel.brake_share;
+    vehicle.wheels.push_back(std::move(wheel));
+  }
+  if (!vehicle.wheels.empty() && std::abs(shares - 1) > 1e-6) r.fail_here(fmt::format("has brake shares that sum to {:.6g}, must sum to 1", shares));
+}
+
+void read_brake(Reader& r, double mass, engine::Vehicle& vehicle) {
+  auto brake = r.table("brake");
+  if (!brake) return;
+  vehicle.brake_force = mass * brake->number("deceleration");
+  const double first = brake->number("from") + brake->number("lag");
+  const double full = first + brake->number("build_up");
+  std::vector<engine::Schedule::Knot> knots{{first, 0}, {full, 1}};
+  if (brake->has("until")) {
+    const double until = brake->number("until");
+    if (until < full) {
+      brake->fail("until", "must not be earlier than the end of the build-up");
+    } else {
+      knots.push_back({until, 1});
+      knots.push_back({until, 0});
+    }
+  }
+  vehicle.brake = engine::Schedule(std::move(knots));
+}
+
+/// A car is some metres long; a mesh in centimetres or feet is the commonest slip of all.
+void check_scale(Reader& r, const engine::Aabb& box) {
+  const engine::Vec3 size = box.upper - box.lower;
+  if (size.x() > 7 || size.x() < 2.5) r.warn("mesh", fmt::format("is {:.4g} m long; is its scale right? Meshes are read in metres", size.x()));
+  if (size.z() > size.x()) r.warn("mesh", fmt::format("is {:.4g} m high and {:.4g} m long; is z its up axis and x its forward axis?", size.z(), size.x()));
+}
+
+struct Meshes {
+  std::shared_ptr<const ImportedMesh> bodywork, collision, wheel;
+};
+
+Meshes read_meshes(Builder& builder, Reader& r) {
+  Meshes out;
+  out.bodywork = import_mesh(builder, r, "mesh");
+  out.collision = r.has("collision_mesh") ? import_mesh(builder, r, "collision_mesh") : out.bodywork;
+  if (r.has("wheel_mesh")) out.wheel = import_mesh(builder, r, "wheel_mesh");
+  if (out.bodywork) check_scale(r, out.bodywork->solid->bounds());
+  return out;
+}
+
+void add_actors(Builder& builder, Reader& r, const engine::Vehicle& vehicle, const Meshes& meshes, const engine::Pose& X_BM) {
+  render::Stage& stage = builder.scene.stage;
+  std::vector<render::Material> repaint;
+  if (r.has("colour")) {
+    for (const render::Material& material : meshes.bodywork->look->materials) {
+      if (material.kind != render::MaterialKind::paint) continue;
+      repaint.push_back(material);
+      repaint.back().colour = r.colour("colour");
+    }
+  }
+  stage.meshes.push_back({vehicle.name, vehicle.body, X_BM, meshes.bodywork->look, std::move(repaint)});
+  for (std::size_t i = 0; meshes.wheel && i < vehicle.wheels.size(); ++i) {
+    stage.wheels.push_back({static_cast<int>(builder.scene.model.vehicles.size()), static_cast<int>(i), vehicle.wheels[i].hub_B.y() > 0, meshes.wheel->look});
+  }
+  stage.speeds.emplace_back(vehicle.body, vehicle.name);
+}
+
+/// Where the mesh frame stands in the world.
+engine::Pose mesh_pose(Builder& builder, Reader& r, const Meshes& meshes, double heading) {
+  engine::Vec3 at = r.vector("position");
+  if (r.has("front")) {
+    if (r.has("position")) r.fail("front", "must not be given together with position");
+    at = r.vector("front") - meshes.bodywork->solid->bounds().upper.x() * engine::Vec3(std::cos(heading), std::sin(heading), 0);
+  }
+  at.z() = builder.scene.model.ground.height + r.number("lift");
+  return {at, engine::Quat(Eigen::AngleAxisd(heading, engine::Vec3::UnitZ())) * read_attitude(r)};
+}
+
+}  // namespace
+
+const Section kVehicleSection{"vehicle", "[[vehicle]]", "A vehicle: a rigid body on wheels.", kKeys};
+
+void read_vehicle(Builder& builder, Reader scene) {
+  engine::Model& model = builder.scene.model;
+  const auto tree = with_model(builder, scene);
+  if (!tree) return;
+  Reader r(*tree, kVehicleSection, scene.path(), builder.errors);
+  engine::Vehicle vehicle;
+  vehicle.name = scene.text("name");
+  if (vehicle.name.empty()) scene.fail("name", "must be given; every vehicle needs a name");
+  if (builder.body_index(vehicle.name) >= 0) scene.fail("name", "is taken; every body needs a name of its own");
+  const std::size_t errors_before = builder.errors.lines.size();
+  need(r, "mesh", "\"my_car.obj\"");
+  need(r, "mass", "\"1500 kg\"");
+  need(r, "cg", "\"0.1 0 0.55 m\"");
+  need(r, "inertia", "\"550 2500 2700 kg m^2\"");
+  if (builder.errors.lines.size() != errors_before) return;
+  const Meshes meshes = read_meshes(builder, r);
+
+  engine::Body body;
+  body.name = vehicle.name;
+  body.mass = r.number("mass");
+  body.inertia_B = r.inertia("inertia");
+  check_inertia(r, "inertia", body.inertia_B);
+  body.surface = read_surface(r, {});
+  body.collision_model = static_cast<engine::CollisionModel>(r.choice("collision"));
+  body.vehicle = static_cast<int>(model.vehicles.size());
+  const engine::Vec3 cg = r.vector("cg");
+  read_wheels(r, cg, vehicle);
+  read_brake(r, body.mass, vehicle);
+  vehicle.steer = r.schedule("steer");
+  vehicle.drive_force = r.schedule("drive_force");
+  if (!meshes.bodywork || !meshes.collision) return;
+
+  const engine::Pose X_BM{-cg, engine::Quat::Identity()};
+  const double heading = r.number("heading");
+  const engine::Pose X_WM = mesh_pose(builder, r, meshes, heading);
+  body.shape = engine::MeshShape{meshes.collision->solid, X_BM};
+  body.X_WB = {X_WM * cg, X_WM.q.normalized()};
+  if (r.has("velocity") && r.has("speed")) r.fail("velocity", "must not be given together with speed");
+  body.V_WB.v = r.vector_if("velocity").value_or(r.number("speed") * engine::Vec3(std::cos(heading), std::sin(heading), 0));
+  body.V_WB.w = r.vector("angular_velocity");
+  vehicle.body = static_cast<int>(model.bodies.size());
+  add_actors(builder, r, vehicle, meshes, X_BM);
+  model.bodies.push_back(std::move(body));
+  model.vehicles.push_back(std::move(vehicle));
+}
+
+}  // namespace scenes
