@@ -1,0 +1,31 @@
+// What a command may ask of its command line. Everything arrives as text: numbers and times are read by parse.h, which refuses what
+// a general-purpose parser lets through (nan, 1e999, 0x10).
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace cli {
+
+class Arguments {
+ public:
+  explicit Arguments(CLI::App& app) : app_(app) {}
+
+  void positional(const std::string& name, std::string& target, const std::string& help);
+  void positionals(const std::string& name, std::vector<std::string>& target, const std::string& help);
+  void option(const std::string& names, std::string& target, const std::string& value_name, const std::string& help);
+  void required_option(const std::string& names, std::string& target, const std::string& value_name, const std::string& help);
+  /// May be given several times, one value each.
+  void repeatable(const std::string& names, std::vector<std::string>& target, const std::string& value_name, const std::string& help);
+  void choice(const std::string& names, std::string& target, const std::vector<std::string>& choices, const std::string& help);
+  void flag(const std::string& names, bool& target, const std::string& help);
+
+ private:
+  CLI::App& app_;
+};
+
+}  // namespace cli

@@ -1,0 +1,54 @@
+// crashreel library: what a scene can name, by kind.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/exit.h"
+#include "scenes/loader/builder.h"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Names = std::map<std::string, std::vector<std::string>>;
+
+/// The entries of the library's folders: persons, poses, vehicles ...
+Names library_entries(const fs::path& library) {
+  if (!fs::is_directory(library)) throw MachineError(fmt::format("reading the library {}: no such folder", library.string()));
+  Names names;
+  for (const fs::directory_entry& kind : fs::directory_iterator(library)) {
+    if (!kind.is_directory()) continue;
+    std::vector<std::string>& entries = names[kind.path().filename().string()];
+    for (const fs::directory_entry& file : fs::directory_iterator(kind.path())) {
+      if (file.path().extension() == ".toml") entries.push_back(file.path().stem().string());
+    }
+    std::sort(entries.begin(), entries.end());
+  }
+  return names;
+}
+
+int library(bool json) {
+  const Names names = library_entries(scenes::home_folder() / "scenes" / "library");
+  if (json) {
+    fmt::print("{}\n", nlohmann::json(names).dump(2));
+    return kDone;
+  }
+  for (const auto& [kind, entries] : names) fmt::print("{}\n  {}\n", kind, fmt::join(entries, "\n  "));
+  return kDone;
+}
+
+}  // namespace
+
+std::function<int()> declare_library(Arguments& arguments) {
+  const auto json = std::make_shared<bool>(false);
+  arguments.flag("--json", *json, "print as JSON");
+  return [json] { return library(*json); };
+}
+
+}  // namespace cli

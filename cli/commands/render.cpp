@@ -1,0 +1,147 @@
+// crashreel render SCENE: simulate, then draw.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/exit.h"
+#include "cli/film_plan.h"
+#include "cli/scene_run.h"
+
+namespace cli {
+namespace {
+
+struct RenderWish {
+  SceneArguments scene;
+  FilmArguments film;
+  bool list_cameras = false;
+  bool dry_run = false;
+};
+
+/// What the command leaves behind.
+struct Drawn {
+  std::vector<std::string> files;
+  int frames = 0;
+};
+
+void list_cameras(const scenes::Scene& scene, bool json) {
+  constexpr const char* kKinds[] = {"fixed", "follow", "orbit", "top"};
+  nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
+  for (const render::Camera& camera : scene.stage.cameras) {
+    cameras.push_back({{"name", camera.name}, {"kind", kKinds[static_cast<int>(camera.kind)]}, {"follow", camera.follow}});
+    if (!json) fmt::print("{:<16} {}{}\n", camera.name, kKinds[static_cast<int>(camera.kind)], camera.follow.empty() ? "" : " " + camera.follow);
+  }
+  if (json) fmt::print("{}\n", cameras.dump(2));
+}
+
+int count(const std::vector<Stretch>& stretches) {
+  int frames = 0;
+  for (const Stretch& stretch : stretches) frames += static_cast<int>(stretch.moments.size());
+  return frames;
+}
+
+/// Steps and frames at most: a run may come to rest before its time.
+void dry_run(const scenes::Scene& scene, const FilmPlan& plan, bool json) {
+  const engine::Settings& settings = scene.model.settings;
+  engine::Recording empty;
+  empty.interval = settings.duration;
+  empty.snapshots.resize(2);
+  empty.snapshots.back().time = settings.duration;
+  const int frames = plan.stills.empty() ? count(frames_of(plan, scene.stage, empty)) : static_cast<int>(plan.stills.size());
+  const long steps = std::lround(settings.duration / settings.step);
+  if (json) {
+    const nlohmann::ordered_json out = {{"output", plan.job.output.string()}, {"steps", steps},           {"frames", frames},
+                                        {"width", plan.job.width},            {"height", plan.job.height}, {"fps", plan.job.fps}};
+    fmt::print("{}\n", out.dump(2));
+  } else {
+    fmt::print("{}: at most {} steps of {} s, {} frames of {}x{}\n", plan.job.output.string(), steps, settings.step, frames, plan.job.width,
+               plan.job.height);
+  }
+}
+
+Drawn draw_stills(const FilmPlan& plan, const render::Stage& stage, const engine::Recording& recording) {
+  Drawn drawn;
+  for (const double time : plan.stills) {
+    render::FilmJob job = plan.job;
+    job.output = still_file(plan, time);
+    render::make_film(stage, recording, {still_of(plan, stage, time)}, job);
+    drawn.files.push_back(job.output.string());
+    ++drawn.frames;
+  }
+  return drawn;
+}
+
+Drawn draw_film(const FilmPlan& plan, const render::Stage& stage, const engine::Recording& recording, ShowProgress show) {
+  std::vector<Stretch> stretches = frames_of(plan, stage, recording);
+  if (stretches.empty()) {
+    throw UsageError(fmt::format("no frame lies in the part asked for; the run ends at {:.3f} s and its film has {} frames", recording.end_time(),
+                                 render::film(stage, recording, plan.job.fps).size()));
+  }
+  // a video is one file whatever was cut out of it; a sequence keeps the numbers of the whole film
+  if (plan.job.container == render::Container::mp4) {
+    for (std::size_t i = 1; i < stretches.size(); ++i) {
+      stretches[0].moments.insert(stretches[0].moments.end(), stretches[i].moments.begin(), stretches[i].moments.end());
+    }
+    stretches.resize(1);
+  }
+  Drawn drawn{{plan.job.output.string()}, 0};
+  Progress progress("draw", "frames", count(stretches), show);
+  for (const Stretch& stretch : stretches) {
+    render::FilmJob job = plan.job;
+    job.first_frame = stretch.first_frame;
+    render::make_film(stage, recording, stretch.moments, job,
+                      [&](const render::FilmProgress& now) { progress.at(drawn.frames + now.frames_done); });
+    drawn.frames += static_cast<int>(stretch.moments.size());
+  }
+  progress.finish(drawn.frames);
+  return drawn;
+}
+
+int render_scene(const RenderWish& wish) {
+  const double start = clock_seconds();
+  scenes::Scene scene = load_scene(wish.scene);
+  if (wish.list_cameras) {
+    list_cameras(scene, wish.scene.json);
+    return kDone;
+  }
+  // what cannot be drawn or written is told before the work, not after it
+  const FilmPlan plan = plan_film(wish.film, scene);
+  if (wish.dry_run) {
+    dry_run(scene, plan, wish.scene.json);
+    return kDone;
+  }
+  prepare_output(plan);
+
+  const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
+  if (recording.failure) scene.stage.warnings.push_back(fmt::format("the model diverged at {:.3f} s", recording.failure->time));
+  const Drawn drawn = plan.stills.empty() ? draw_film(plan, scene.stage, recording, progress_of(wish.scene))
+                                          : draw_stills(plan, scene.stage, recording);
+
+  const double seconds = clock_seconds() - start;
+  if (wish.scene.json) {
+    const nlohmann::ordered_json out = {{"files", drawn.files},         {"frames", drawn.frames},          {"width", plan.job.width},
+                                        {"height", plan.job.height},    {"fps", plan.job.fps},             {"simulated_s", recording.end_time()},
+                                        {"simulate_wall_s", recording.wall_s}, {"wall_s", seconds}};
+    fmt::print("{}\n", out.dump(2));
+  } else {
+    fmt::print("{}: {} frame{}, {}x{}, {:.1f} s\n", fmt::join(drawn.files, ", "), drawn.frames, drawn.frames == 1 ? "" : "s", plan.job.width,
+               plan.job.height, seconds);
+  }
+  return exit_code_of(recording);
+}
+
+}  // namespace
+
+std::function<int()> declare_render(Arguments& arguments) {
+  const auto wish = std::make_shared<RenderWish>();
+  declare_scene(arguments, wish->scene);
+  declare_progress(arguments, wish->scene);
+  declare_film(arguments, wish->film);
+  arguments.flag("--list-cameras", wish->list_cameras, "name the scene's cameras and stop");
+  arguments.flag("--dry-run", wish->dry_run, "print steps and frames at most, and stop");
+  return [wish] { return render_scene(*wish); };
+}
+
+}  // namespace cli

@@ -1,0 +1,40 @@
+// crashreel version: what a report must name to be repeatable.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/exit.h"
+#include "render/renderer.h"
+
+namespace cli {
+namespace {
+
+#if defined(__clang__)
+constexpr const char* kCompiler = "clang " __clang_version__;
+#else
+constexpr const char* kCompiler = "g++ " __VERSION__;
+#endif
+
+int version(bool json) {
+  const std::string build = fmt::format("{}, {}", CRASHREEL_BUILD, kCompiler);
+  const std::string gl = render::gl_description();
+  if (json) {
+    fmt::print("{}\n", nlohmann::ordered_json{{"version", CRASHREEL_VERSION}, {"build", build}, {"libraries", CRASHREEL_LIBRARIES}, {"gl", gl}}
+                           .dump(2));
+  } else {
+    fmt::print("crashreel {}\nbuild      {}\nlibraries  {}\ngl         {}\n", CRASHREEL_VERSION, build, CRASHREEL_LIBRARIES, gl);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+std::function<int()> declare_version(Arguments& arguments) {
+  const auto json = std::make_shared<bool>(false);
+  arguments.flag("--json", *json, "print as JSON");
+  return [json] { return version(*json); };
+}
+
+}  // namespace cli

@@ -1,0 +1,194 @@
+#include "cli/film_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "cli/exit.h"
+#include "cli/output/whole_file.h"
+#include "cli/parse.h"
+#include "scenes/loader/value.h"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+using render::Container;
+
+constexpr double kLargestRate = 1000;  // [1/s] frames
+constexpr int kMostWorkers = 256;
+
+render::Quality quality_of(const std::string& name) {
+  if (name == "draft") return render::Quality::draft;
+  return name == "fine" ? render::Quality::fine : render::Quality::standard;
+}
+
+/// Where the pictures go is read off the name: OUT.mp4, a pattern, one PNG, a folder.
+void choose_container(const FilmArguments& wish, const scenes::Scene& scene, FilmPlan& plan) {
+  const bool stills = !plan.stills.empty();
+  const std::string fallback = scene.path.stem().string() + (stills ? ".png" : ".mp4");
+  const std::string name = wish.output.empty() ? fallback : wish.output;
+  const fs::path path = name;
+  const std::string extension = path.extension().string();
+  plan.job.output = path;
+  if (name.find('%') != std::string::npos) {
+    if (stills) throw UsageError("--at draws single PNGs; name one file, like -o still.png");
+    // only %d and %0Nd, once: the name becomes a format
+    const std::string file = path.filename().string();
+    const std::size_t percent = file.find('%');
+    const std::size_t end = percent == std::string::npos ? percent : file.find_first_not_of("0123456789", percent + 1);
+    if (end == std::string::npos || file[end] != 'd' || file.find('%', end) != std::string::npos || end - percent > 3 || extension != ".png") {
+      throw UsageError(fmt::format("-o is \"{}\", a pattern must hold one %05d in its file name and end in .png", name));
+    }
+    plan.job.container = Container::png_sequence;
+  } else if (extension == ".png") {
+    if (!stills) throw UsageError(fmt::format("-o is \"{}\", a single PNG needs --at TIME; for a sequence name a folder or frame_%05d.png", name));
+    plan.job.container = Container::single_png;
+  } else if (stills) {
+    throw UsageError(fmt::format("-o is \"{}\", --at draws PNGs; name a file that ends in .png", name));
+  } else if (extension == ".mp4") {
+    plan.job.container = Container::mp4;
+  } else if (extension.empty() || fs::is_directory(path)) {
+    plan.job.output = path / "frame_%05d.png";
+    plan.job.container = Container::png_sequence;
+  } else {
+    throw UsageError(fmt::format("-o is \"{}\", must end in .mp4 or .png, or name a folder", name));
+  }
+}
+
+void choose_size(const FilmArguments& wish, const scenes::Scene& scene, FilmPlan& plan) {
+  render::FilmJob& job = plan.job;
+  job.width = scene.output.width;
+  job.height = scene.output.height;
+  if (!wish.size.empty()) std::tie(job.width, job.height) = parse_size("--size", wish.size);
+  const bool odd = job.width % 2 != 0 || job.height % 2 != 0;
+  if (odd && job.container == Container::mp4) {
+    const int width = job.width + job.width % 2;
+    const int height = job.height + job.height % 2;
+    throw UsageError(fmt::format("{} is {}x{}, H.264 needs an even width and height; take {}x{}, or PNGs", wish.size.empty() ? "the scene's output size" : "--size",
+                                 job.width, job.height, width, height));
+  }
+}
+
+/// With --camera the whole run is seen from there.
+void choose_camera(const FilmArguments& wish, scenes::Scene& scene) {
+  if (wish.camera.empty()) return;
+  std::vector<std::string> names;
+  for (const render::Camera& camera : scene.stage.cameras) names.push_back(camera.name);
+  if (std::find(names.begin(), names.end(), wish.camera) == names.end()) {
+    const std::string near = scenes::nearest(wish.camera, names);
+    throw UsageError(fmt::format("--camera is \"{}\", the scene has {}{}", wish.camera, fmt::join(names, ", "),
+                                 near.empty() ? "" : fmt::format("; did you mean {}?", near)));
+  }
+  // the first camera is the one that films the whole run when there are no shots
+  const auto chosen = std::find_if(scene.stage.cameras.begin(), scene.stage.cameras.end(),
+                                   [&wish](const render::Camera& camera) { return camera.name == wish.camera; });
+  std::rotate(scene.stage.cameras.begin(), chosen, chosen + 1);
+  scene.stage.shots.clear();
+}
+
+void choose_times(const FilmArguments& wish, const scenes::Scene& scene, FilmPlan& plan) {
+  const double duration = scene.model.settings.duration;
+  for (const std::string& text : wish.at) {
+    plan.stills.push_back(parse_time("--at", text));
+    if (plan.stills.back() > duration) throw UsageError(fmt::format("--at is \"{}\", the scene ends at {} s", text, duration));
+  }
+  const bool cut = !wish.from.empty() || !wish.to.empty() || !wish.frames.empty();
+  if (cut && !plan.stills.empty()) throw UsageError("--at draws stills; leave --from, --to and --frames away");
+  plan.from = wish.from.empty() ? 0 : parse_time("--from", wish.from);
+  plan.to = wish.to.empty() ? duration : parse_time("--to", wish.to);
+  if (plan.to <= plan.from) throw UsageError(fmt::format("--from {} s to {} s holds no time; the scene lasts {} s", plan.from, plan.to, duration));
+  if (!wish.frames.empty()) std::tie(plan.first_frame, plan.last_frame) = parse_frames("--frames", wish.frames);
+}
+
+/// Whether `name` is what the pattern's %0Nd makes of some number.
+bool matches(const std::string& name, const std::string& pattern) {
+  const std::size_t percent = pattern.find('%');
+  const std::string head = pattern.substr(0, percent);
+  const std::string tail = pattern.substr(pattern.find('d', percent) + 1);
+  if (name.size() <= head.size() + tail.size() || !name.starts_with(head) || !name.ends_with(tail)) return false;
+  const std::string middle = name.substr(head.size(), name.size() - head.size() - tail.size());
+  return middle.find_first_not_of("0123456789") == std::string::npos;
+}
+
+void refuse_existing_frames(const FilmPlan& plan) {
+  if (plan.job.overwrite) return;
+  const fs::path folder = plan.job.output.parent_path().empty() ? "." : plan.job.output.parent_path();
+  std::error_code missing;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, missing)) {
+    if (matches(entry.path().filename().string(), plan.job.output.filename().string())) {
+      throw UsageError(fmt::format("{} exists; give --overwrite to replace frames, or another -o", entry.path().string()));
+    }
+  }
+}
+
+}  // namespace
+
+void declare_film(Arguments& arguments, FilmArguments& film) {
+  arguments.option("-o,--output", film.output, "OUT", "OUT.mp4, a folder or pattern (frame_%05d.png), or one PNG with --at; default: the scene's name");
+  arguments.repeatable("--at", film.at, "TIME", "draw a still at this simulated time: 0.2s");
+  arguments.option("--camera", film.camera, "NAME", "the whole run from this camera instead of the scene's shots");
+  arguments.option("--from", film.from, "TIME", "leave out what comes before this simulated time");
+  arguments.option("--to", film.to, "TIME", "leave out what comes after it");
+  arguments.option("--frames", film.frames, "A:B", "only these frames of the film, counted from 0, both included");
+  arguments.option("--fps", film.fps, "N", "frames a second");
+  arguments.option("--size", film.size, "WxH", "pixels");
+  arguments.choice("--quality", film.quality, {"draft", "standard", "fine"}, "looks against time");
+  arguments.option("-j,--jobs", film.jobs, "N", "processes that draw; default: one a core");
+  arguments.flag("--overwrite", film.overwrite, "replace files that exist");
+}
+
+FilmPlan plan_film(const FilmArguments& wish, scenes::Scene& scene) {
+  FilmPlan plan;
+  choose_camera(wish, scene);
+  choose_times(wish, scene, plan);
+  choose_container(wish, scene, plan);
+  choose_size(wish, scene, plan);
+  plan.job.fps = wish.fps.empty() ? scene.output.fps : parse_number("--fps", wish.fps, 1, kLargestRate);
+  plan.job.quality = quality_of(wish.quality.empty() ? scene.output.quality : wish.quality);
+  plan.job.workers = wish.jobs.empty() ? 0 : parse_integer("--jobs", wish.jobs, 1, kMostWorkers);
+  plan.job.overwrite = wish.overwrite;
+  plan.job.metadata = {{"title", scene.title},
+                       {"version", fmt::format("crashreel {}", CRASHREEL_VERSION)},
+                       {"scene", scene.path.filename().string()},
+                       {"scene_sha256", scene.sha256}};
+  if (plan.job.container == Container::png_sequence) refuse_existing_frames(plan);
+  if (plan.job.container == Container::mp4) refuse_existing(plan.job.output, wish.overwrite);
+  for (const double time : plan.stills) refuse_existing(still_file(plan, time), wish.overwrite);
+  return plan;
+}
+
+void prepare_output(const FilmPlan& plan) { make_writable_folder(plan.job.output.parent_path()); }
+
+std::vector<Stretch> frames_of(const FilmPlan& plan, const render::Stage& stage, const engine::Recording& recording) {
+  const std::vector<render::Moment> all = render::film(stage, recording, plan.job.fps);
+  constexpr double kRounding = 1e-9;  // [s] frame times are sums of 1/fps
+  std::vector<Stretch> out;
+  bool going_on = false;
+  for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+    const render::Moment& moment = all[static_cast<std::size_t>(i)];
+    const bool wanted = moment.time >= plan.from - kRounding && moment.time <= plan.to + kRounding &&
+                        (plan.first_frame < 0 || i >= plan.first_frame) && (plan.last_frame < 0 || i <= plan.last_frame);
+    if (wanted && !going_on) out.push_back({i, {}});
+    if (wanted) out.back().moments.push_back(moment);
+    going_on = wanted;
+  }
+  return out;
+}
+
+render::Moment still_of(const FilmPlan&, const render::Stage& stage, double time) {
+  for (const render::Shot& shot : stage.shots) {
+    if (time >= shot.from && time <= shot.to) return {time, shot.camera, 1};
+  }
+  return {time, stage.cameras.front().name, 1};
+}
+
+fs::path still_file(const FilmPlan& plan, double time) {
+  if (plan.stills.size() == 1) return plan.job.output;
+  const fs::path& output = plan.job.output;
+  return output.parent_path() / fmt::format("{}_{:.3f}s{}", output.stem().string(), time, output.extension().string());
+}
+
+}  // namespace cli

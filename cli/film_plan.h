@@ -1,0 +1,63 @@
+// Which frames a render command asks for, and into which files: worked out and checked before anything is simulated or drawn.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "engine/recording.h"
+#include "render/arrange.h"
+#include "render/film.h"
+#include "scenes/scene.h"
+
+namespace cli {
+
+struct FilmArguments {
+  std::string output;
+  std::string size;
+  std::string fps;
+  std::string camera;
+  std::string from;
+  std::string to;
+  std::string frames;
+  std::string quality;
+  std::string jobs;
+  std::vector<std::string> at;
+  bool overwrite = false;
+};
+
+void declare_film(Arguments&, FilmArguments&);
+
+/// The request, read and checked against the scene. Times in simulated seconds.
+struct FilmPlan {
+  render::FilmJob job;                 // output, container, size, rate, quality, workers
+  std::vector<double> stills;          // --at; empty: a film
+  double from = 0;
+  double to = 0;
+  int first_frame = -1;                // --frames; -1: open
+  int last_frame = -1;
+};
+
+/// Throws UsageError; refuses what exists. With --camera the scene's shots give way to the whole run from that camera.
+FilmPlan plan_film(const FilmArguments&, scenes::Scene&);
+
+/// Makes the folders the film goes into. Throws MachineError when they cannot be written.
+void prepare_output(const FilmPlan&);
+
+/// A stretch of consecutive frames of the whole film.
+struct Stretch {
+  int first_frame = 0;
+  std::vector<render::Moment> moments;
+};
+
+/// The frames asked for. Several stretches where the scene's shots show the same time twice and --from or --to cut it.
+std::vector<Stretch> frames_of(const FilmPlan&, const render::Stage&, const engine::Recording&);
+
+/// The moment of a still: seen as the film would show that time.
+render::Moment still_of(const FilmPlan&, const render::Stage&, double time);
+/// The file of one still: the output itself, or with the time in its name where there are several.
+std::filesystem::path still_file(const FilmPlan&, double time);
+
+}  // namespace cli

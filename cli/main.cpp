@@ -1,0 +1,40 @@
+// crashreel: reads the command line and holds the only place where errors end.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "cli/command.h"
+#include "cli/exit.h"
+#include "render/error.h"
+#include "scenes/error.h"
+
+namespace {
+
+int report(const char* message, cli::ExitCode code) {
+  fmt::print(stderr, "crashreel: {}\n", message);
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const int code = cli::run_command_line(argc, argv);
+    // a full disk or a closed pipe shows only when the buffer is written
+    if (std::fflush(stdout) != 0) return report("writing the result to standard output failed", cli::kMachineFailed);
+    return code;
+  } catch (const scenes::SceneErrors& errors) {
+    for (const std::string& line : errors.lines) fmt::print(stderr, "{}\n", line);
+    return cli::kAuthorErred;
+  } catch (const cli::UsageError& error) {
+    return report(error.what(), cli::kAuthorErred);
+  } catch (const cli::MachineError& error) {
+    return report(error.what(), cli::kMachineFailed);
+  } catch (const render::RenderError& error) {
+    return report(error.what(), cli::kMachineFailed);
+  } catch (const std::exception& error) {
+    // out of memory, a file system that fails: nothing a scene or a command line could do
+    return report(error.what(), cli::kMachineFailed);
+  }
+}

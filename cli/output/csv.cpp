@@ -1,0 +1,59 @@
+#include "cli/output/csv.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace cli {
+namespace {
+
+/// Text of a field: quoted where a name would break the row.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+}  // namespace
+
+std::string body_name(const engine::Recording& recording, int body) {
+  return body < 0 ? "ground" : recording.body_names[static_cast<std::size_t>(body)];
+}
+
+void write_trajectory(const engine::Recording& recording, WholeFile& file) {
+  file.write("time_s,body,x_m,y_m,z_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,wx_radps,wy_radps,wz_radps\n");
+  fmt::memory_buffer rows;
+  for (const engine::Snapshot& snapshot : recording.snapshots) {
+    rows.clear();
+    for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
+      const auto& [X_WB, V_WB] = snapshot.bodies[i];
+      fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", snapshot.time,
+                     field(recording.body_names[i]), X_WB.p.x(), X_WB.p.y(), X_WB.p.z(), X_WB.q.w(), X_WB.q.x(), X_WB.q.y(), X_WB.q.z(),
+                     V_WB.v.x(), V_WB.v.y(), V_WB.v.z(), V_WB.w.x(), V_WB.w.y(), V_WB.w.z());
+    }
+    file.write({rows.data(), rows.size()});
+  }
+}
+
+void write_contacts(const engine::Recording& recording, WholeFile& file) {
+  file.write(
+      "time_s,kind,body_a,body_b,x_m,y_m,z_m,nx,ny,nz,depth_m,normal_force_N,tangential_force_N,normal_impulse_Ns,"
+      "tangential_impulse_Ns,slip_mps,state\n");
+  fmt::memory_buffer rows;
+  for (const engine::Snapshot& snapshot : recording.snapshots) {
+    rows.clear();
+    for (const engine::ContactRecord& c : snapshot.contacts) {
+      fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", snapshot.time,
+                     engine::name_of(c.kind), field(body_name(recording, c.body_a)), field(body_name(recording, c.body_b)), c.point.x(),
+                     c.point.y(), c.point.z(), c.normal.x(), c.normal.y(), c.normal.z(), c.depth, c.normal_force, c.tangential_force,
+                     c.normal_impulse, c.tangential_impulse, c.slip, engine::name_of(c.state));
+    }
+    file.write({rows.data(), rows.size()});
+  }
+}
+
+}  // namespace cli

@@ -1,0 +1,161 @@
+#include "cli/output/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/output/csv.h"
+
+namespace cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* name_of(engine::Scheme scheme) {
+  switch (scheme) {
+    case engine::Scheme::stepping: return "stepping";
+    case engine::Scheme::rk4: return "rk4";
+    case engine::Scheme::adaptive: return "adaptive";
+  }
+  return "";
+}
+
+const char* name_of(engine::ContactLaw law) { return law == engine::ContactLaw::compliant ? "compliant" : "default_auto"; }
+
+Json vector_json(const engine::Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Json settings_json(const engine::Settings& s) {
+  return {{"step_s", s.step},
+          {"integrator", name_of(s.scheme)},
+          {"contact_model", name_of(s.contact_law)},
+          {"duration_s", s.duration},
+          {"record_interval_s", s.record_interval},
+          {"gravity_mps2", vector_json(s.gravity)},
+          {"solver_tolerance_mps", s.solver_tolerance},
+          {"locate_events", s.locate_events},
+          {"sleep", s.sleep},
+          {"stop_at_rest", s.stop_at_rest}};
+}
+
+Json events_json(const engine::Recording& recording) {
+  Json out = Json::array();
+  for (const engine::Event& e : recording.events) {
+    Json line = {{"time_s", e.time}, {"kind", e.kind}};
+    line["a"] = e.body_a < 0 ? Json(nullptr) : Json(body_name(recording, e.body_a));
+    // an event between a body and nothing (rest) has no partner; one that touches has the ground
+    const bool touches = e.kind.find("contact") != std::string::npos || e.kind.find("impact") != std::string::npos;
+    line["b"] = e.body_b >= 0 || touches ? Json(body_name(recording, e.body_b)) : Json(nullptr);
+    line["point_m"] = vector_json(e.point);
+    line["value"] = e.value;
+    out.push_back(line);
+  }
+  return out;
+}
+
+/// A number where one object has the metric, an object by name where several do.
+Json metrics_json(const std::vector<engine::Metric>& metrics) {
+  Json out = Json::object();
+  for (const engine::Metric& metric : metrics) {
+    const auto same_key = [&metric](const engine::Metric& other) { return other.key == metric.key; };
+    if (std::count_if(metrics.begin(), metrics.end(), same_key) == 1) {
+      out[metric.key] = metric.value;
+    } else {
+      out[metric.key][metric.object] = metric.value;
+    }
+  }
+  return out;
+}
+
+Json energy_json(const engine::Recording& recording) {
+  const engine::Energies& first = recording.snapshots.front().energies;
+  const engine::Energies& last = recording.snapshots.back().energies;
+  Json by_effect = Json::object();
+  for (std::size_t i = 0; i < last.dissipated.size() && i < recording.effect_names.size(); ++i) {
+    if (last.dissipated[i] != 0) by_effect[recording.effect_names[i]] = last.dissipated[i];
+  }
+  return {{"initial_J", first.kinetic + first.potential},
+          {"final_J", last.kinetic + last.potential},
+          {"dissipated_J", by_effect},
+          {"added_J", last.added},
+          {"residual_J", last.residual}};
+}
+
+Json diagnostics_json(const engine::Diagnostics& d) {
+  return {{"max_joint_gap_m", d.max_joint_gap},
+          {"max_joint_angle_error_rad", d.max_joint_angle_error},
+          {"max_penetration_m", d.max_penetration},
+          {"rest_penetration_m", d.rest_penetration},
+          {"max_solver_residual", d.max_solver_residual},
+          {"max_energy_rise_J", d.max_energy_rise},
+          {"contact_sweeps", d.contact_sweeps},
+          {"substeps", d.substeps},
+          {"warnings", d.warnings}};
+}
+
+double per_second(double amount, double seconds) { return seconds > 0 ? amount / seconds : 0; }
+
+Json cost_json(const engine::Recording& recording) {
+  Json effects = Json::array();
+  for (const engine::EffectCost& cost : recording.costs) {
+    effects.push_back({{"effect", cost.effect}, {"calls", cost.calls}, {"wall_s", cost.wall_s}});
+  }
+  return {{"steps", recording.steps},
+          {"wall_s", recording.wall_s},
+          {"steps_per_s", per_second(static_cast<double>(recording.steps), recording.wall_s)},
+          {"realtime_factor", per_second(recording.end_time(), recording.wall_s)},
+          {"effects", effects}};
+}
+
+}  // namespace
+
+Json plan_json(const std::vector<engine::PlanLine>& lines) {
+  Json out = Json::array();
+  for (const engine::PlanLine& line : lines) {
+    out.push_back({{"effect", line.effect}, {"active", line.active}, {"forced", line.forced}, {"reason", line.reason}});
+  }
+  return out;
+}
+
+Json summary_json(const scenes::Scene& scene, const engine::Recording& recording, const std::vector<engine::Metric>& metrics) {
+  Json out;
+  out["schema"] = 1;
+  out["version"] = CRASHREEL_VERSION;
+  out["scene"] = {{"title", scene.title}, {"path", scene.path.string()}, {"sha256", scene.sha256}, {"overrides", scene.overrides}};
+  out["settings"] = settings_json(scene.model.settings);
+  out["plan"] = plan_json(recording.plan);
+  out["events"] = events_json(recording);
+  out["metrics"] = metrics_json(metrics);
+  out["energy"] = energy_json(recording);
+  out["diagnostics"] = diagnostics_json(recording.diagnostics);
+  out["cost"] = cost_json(recording);
+  out["recording"] = {{"end_s", recording.end_time()},
+                      {"snapshots", recording.snapshots.size()},
+                      {"hash", fmt::format("{:016x}", engine::hash(recording))}};
+  if (const auto& failure = recording.failure) {
+    out["failure"] = {{"time_s", failure->time}, {"body", failure->body}, {"effect", failure->effect}, {"message", failure->message}};
+  }
+  return out;
+}
+
+std::string summary_text(const scenes::Scene& scene, const engine::Recording& recording, const std::vector<engine::Metric>& metrics) {
+  const engine::Diagnostics& d = recording.diagnostics;
+  const engine::Energies& first = recording.snapshots.front().energies;
+  const engine::Energies& last = recording.snapshots.back().energies;
+  const double initial = first.kinetic + first.potential;
+  std::string out = fmt::format("{}\n", scene.title.empty() ? scene.path.string() : scene.title);
+  const auto line = [&out](const std::string& name, const std::string& value) { out += fmt::format("  {:<28} {}\n", name, value); };
+  for (const engine::Metric& metric : metrics) {
+    line(metric.object.empty() ? metric.key : metric.key + " " + metric.object, fmt::format("{:.6g}", metric.value));
+  }
+  line("energy", fmt::format("{:.6g} J at first, {:.6g} J at last, unexplained {:.3g} J", initial, last.kinetic + last.potential, last.residual));
+  line("largest joint gap", fmt::format("{:.3g} m", d.max_joint_gap));
+  line("penetration", fmt::format("{:.3g} m at most, {:.3g} m at the end", d.max_penetration, d.rest_penetration));
+  line("solver residual", fmt::format("{:.3g} m/s at most", d.max_solver_residual));
+  line("simulated", fmt::format("{:.4g} s in {:.3g} s, {} steps, {:.3g} times real time", recording.end_time(), recording.wall_s,
+                                recording.steps, per_second(recording.end_time(), recording.wall_s)));
+  line("recording hash", fmt::format("{:016x}", engine::hash(recording)));
+  return out;
+}
+
+}  // namespace cli

@@ -1,0 +1,64 @@
+#include "cli/output/whole_file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "cli/exit.h"
+
+namespace cli {
+
+namespace fs = std::filesystem;
+
+void make_writable_folder(const fs::path& folder) {
+  const fs::path place = folder.empty() ? "." : folder;
+  std::error_code problem;
+  if (!fs::exists(place, problem)) fs::create_directory(place, problem);
+  if (problem) throw MachineError(fmt::format("making the folder {}: {}", place.string(), problem.message()));
+  if (!fs::is_directory(place)) throw MachineError(fmt::format("writing into {}: it is not a folder", place.string()));
+  if (access(place.c_str(), W_OK | X_OK) != 0) {
+    throw MachineError(fmt::format("writing into {}: {}", place.string(), std::strerror(errno)));
+  }
+}
+
+void refuse_existing(const fs::path& file, bool overwrite) {
+  std::error_code problem;
+  if (fs::is_directory(file, problem)) throw UsageError(fmt::format("{} is a folder; name a file", file.string()));
+  if (!overwrite && fs::exists(file, problem)) {
+    throw UsageError(fmt::format("{} exists; give --overwrite to replace it, or another -o", file.string()));
+  }
+}
+
+WholeFile::WholeFile(fs::path file) : file_(std::move(file)), part_(file_.string() + ".part") {
+  stream_ = std::fopen(part_.c_str(), "wb");
+  if (stream_ == nullptr) fail("opening");
+}
+
+WholeFile::~WholeFile() {
+  if (stream_ != nullptr) std::fclose(stream_);
+  if (!published_) std::remove(part_.c_str());
+}
+
+void WholeFile::write(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size()) fail("writing");
+}
+
+void WholeFile::close() {
+  const int result = std::fclose(stream_);
+  stream_ = nullptr;
+  if (result != 0) fail("writing");
+}
+
+void WholeFile::publish() {
+  if (std::rename(part_.c_str(), file_.c_str()) != 0) fail("renaming");
+  published_ = true;
+}
+
+void WholeFile::fail(const char* doing) const {
+  throw MachineError(fmt::format("{} {}: {}", doing, file_.string(), std::strerror(errno)));
+}
+
+}  // namespace cli

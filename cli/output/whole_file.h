@@ -1,0 +1,38 @@
+// A text file that appears under its name only when it is whole.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+
+namespace cli {
+
+/// Throws MachineError when `folder` is missing or cannot be written; creates it first where only its last part is missing.
+void make_writable_folder(const std::filesystem::path& folder);
+/// Throws UsageError when the file is there and may not be replaced.
+void refuse_existing(const std::filesystem::path& file, bool overwrite);
+
+class WholeFile {
+ public:
+  /// Opens FILE.part. Throws MachineError.
+  explicit WholeFile(std::filesystem::path file);
+  ~WholeFile();
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  void write(std::string_view text);
+  /// Writes out what is buffered; throws MachineError with the reason (disk full).
+  void close();
+  /// Gives the file its name. After close.
+  void publish();
+
+ private:
+  [[noreturn]] void fail(const char* doing) const;
+
+  std::filesystem::path file_;
+  std::filesystem::path part_;
+  std::FILE* stream_ = nullptr;
+  bool published_ = false;
+};
+
+}  // namespace cli

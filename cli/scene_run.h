@@ -1,0 +1,41 @@
+// What the commands that take a scene share: its arguments, loading it, running it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "cli/progress.h"
+#include "engine/plan.h"
+#include "engine/recording.h"
+#include "scenes/scene.h"
+
+namespace cli {
+
+struct SceneArguments {
+  std::string scene;
+  std::vector<std::string> set;       // path.to.key=value
+  std::vector<std::string> effects;   // name=on|off|auto
+  std::string progress = "auto";
+  bool quiet = false;
+  bool verbose = false;
+  bool json = false;
+};
+
+/// SCENE, --set, --effects, --json, --quiet, --verbose.
+void declare_scene(Arguments&, SceneArguments&);
+/// --progress, for commands that take their time.
+void declare_progress(Arguments&, SceneArguments&);
+ShowProgress progress_of(const SceneArguments&);
+
+/// Loads the scene, tells its warnings, and puts program version and forced effects where every picture shows them.
+scenes::Scene load_scene(const SceneArguments&);
+
+/// The plan of a loaded scene. Throws UsageError for an effect that does not exist.
+engine::Plan plan_of(const scenes::Scene&);
+
+/// Runs the scene with progress and clock. A divergence is told on standard error; exit_code_of says how the program should end.
+engine::Recording run_scene(const scenes::Scene&, const engine::Plan&, const SceneArguments&);
+int exit_code_of(const engine::Recording&);
+
+}  // namespace cli
