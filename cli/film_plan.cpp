@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
+#include <tuple>
 
 #include "cli/exit.h"
 #include "cli/output/whole_file.h"
