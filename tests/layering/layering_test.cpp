@@ -150,7 +150,9 @@ std::vector<std::string> circles(const std::map<std::string, std::string>& files
   for (const auto& [file, text] : files) {
     std::vector<std::string> path;
     const std::string circle = circle_from(file, files, path, done);
-    if (!circle.empty()) out.push_back(circle);
+    if (circle.empty()) continue;
+    out.push_back(circle);
+    done.insert(path.begin(), path.end());  // told once, not again from each of its files
   }
   return out;
 }
