@@ -1,0 +1,122 @@
+// Everything is scaled by its largest term before a power is taken, so that n = 30 neither over- nor underflows.
+#include "engine/geometry/hyper_ellipsoid.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace engine {
+namespace {
+
+/// Curvature radii are infinite on the flat faces of n > 2; capped at this many times the size they do no harm to Newton's method.
+constexpr double kLargestRadius = 1e3;
+
+double power(double base, double exponent) {
+  if (exponent == 1) return base;
+  if (exponent == 2) return base * base;
+  if (exponent == 0.5) return std::sqrt(base);
+  return std::pow(base, exponent);
+}
+
+/// (sum (w_i)^p)^(1/p) for w >= 0.
+double norm_p(const Vec3& w, double p) {
+  if (p == 2) return w.norm();
+  const double largest = w.maxCoeff();
+  if (largest == 0) return 0;
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) sum += power(w[i] / largest, p);
+  return largest * power(sum, 1 / p);
+}
+
+/// Integral of x^2 over the body per a^2 and volume: k(2) = 1/5, k(inf) = 1/3.
+double second_moment(double n) {
+  return std::tgamma(3 / n) * std::tgamma(1 + 3 / n) / (std::tgamma(1 / n) * std::tgamma(1 + 5 / n));
+}
+
+}  // namespace
+
+double volume(const HyperEllipsoid& shape) {
+  const double n = shape.exponent;
+  return 8 * shape.semi_axes.prod() * std::pow(std::tgamma(1 + 1 / n), 3) / std::tgamma(1 + 3 / n);
+}
+
+Vec3 principal_inertia(const HyperEllipsoid& shape, double mass) {
+  const Vec3 squares = shape.semi_axes.cwiseAbs2();
+  return mass * second_moment(shape.exponent) * (Vec3::Constant(squares.sum()) - squares);
+}
+
+double support_value(const HyperEllipsoid& shape, const Vec3& direction) {
+  return norm_p(shape.semi_axes.cwiseProduct(direction.cwiseAbs()), shape.exponent / (shape.exponent - 1));
+}
+
+Vec3 support_point(const HyperEllipsoid& shape, const Vec3& direction) {
+  const double h = support_value(shape, direction);
+  assert(h > 0 && "a support point needs a direction");
+  const double exponent = 1 / (shape.exponent - 1);
+  Vec3 s;
+  for (int i = 0; i < 3; ++i) {
+    const double u = shape.semi_axes[i] * std::abs(direction[i]) / h;
+    s[i] = std::copysign(shape.semi_axes[i] * (u == 0 ? 0 : power(u, exponent)), direction[i]);
+  }
+  return s;
+}
+
+Mat3 support_hessian(const HyperEllipsoid& shape, const Vec3& direction) {
+  const double h = support_value(shape, direction);
+  assert(h > 0 && "a support Hessian needs a direction");
+  const Vec3 s = support_point(shape, direction);
+  const double n = shape.exponent;
+  const double cap = kLargestRadius * shape.semi_axes.maxCoeff() * (n - 1) * h;
+  Mat3 H = -s * s.transpose();
+  for (int i = 0; i < 3; ++i) {
+    const double a = shape.semi_axes[i];
+    const double u = a * std::abs(direction[i]) / h;
+    const double q_minus_2 = (2 - n) / (n - 1);
+    H(i, i) += n == 2 ? a * a : std::min(cap, a * a * (u > 0 ? std::pow(u, q_minus_2) : 1e300));
+  }
+  return H / ((n - 1) * h);
+}
+
+double gauge(const HyperEllipsoid& shape, const Vec3& x) {
+  return norm_p(x.cwiseAbs().cwiseQuotient(shape.semi_axes), shape.exponent);
+}
+
+Vec3 gauge_gradient(const HyperEllipsoid& shape, const Vec3& x) {
+  const double N = gauge(shape, x);
+  if (N == 0) return Vec3::Zero();
+  Vec3 g;
+  for (int i = 0; i < 3; ++i) {
+    const double w = std::abs(x[i]) / (shape.semi_axes[i] * N);
+    g[i] = std::copysign(power(w, shape.exponent - 1) / shape.semi_axes[i], x[i]);
+  }
+  return g;
+}
+
+Mat3 gauge_hessian(const HyperEllipsoid& shape, const Vec3& x) {
+  const double N = gauge(shape, x), n = shape.exponent;
+  if (N == 0) return Mat3::Zero();
+  const Vec3 g = gauge_gradient(shape, x);
+  Mat3 H = -g * g.transpose();
+  for (int i = 0; i < 3; ++i) {
+    const double w = std::abs(x[i]) / (shape.semi_axes[i] * N);
+    H(i, i) += (n == 2 ? 1 : power(w, n - 2)) / (shape.semi_axes[i] * shape.semi_axes[i]);
+  }
+  return H * ((n - 1) / N);
+}
+
+Vec3 outward_normal(const HyperEllipsoid& shape, const Vec3& x) { return gauge_gradient(shape, x).normalized(); }
+
+Vec3 radial_point(const HyperEllipsoid& shape, const Vec3& direction) {
+  const double N = gauge(shape, direction);
+  assert(N > 0 && "a radial point needs a direction");
+  return direction / N;
+}
+
+Vec3 aabb_half_widths(const HyperEllipsoid& shape, const Quat& q_WB) {
+  const Mat3 R = q_WB.toRotationMatrix();
+  return {support_value(shape, R.row(0).transpose()), support_value(shape, R.row(1).transpose()),
+          support_value(shape, R.row(2).transpose())};
+}
+
+}  // namespace engine

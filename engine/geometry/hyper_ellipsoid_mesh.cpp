@@ -1,0 +1,204 @@
+// For each triangle near the body, in the mesh frame:
+//   face    the support point against the face normal, if it projects into the triangle (eq. (70) with the point inside, as asked)
+//   edge    the point p of a convex edge where the gauge N is least; normal -grad N(p), which is then across the edge, if it lies
+//           in the cone between the two faces; gap from the support function, f(m) = m.(c - p) - h(m), second order in m's error
+//   vertex  the same at a corner, if -grad N lies in the cone of its edges
+// Flat and concave edges are never felt, and a convex edge only inside its cone, so a sheet of triangles acts as one surface.
+#include "engine/geometry/hyper_ellipsoid_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/geometry/face_corners.h"
+
+namespace engine {
+namespace {
+
+constexpr double kBorder = 1e-6;        // [-] barycentric tolerance: on the border counts as inside
+constexpr double kCluster = 0.985;      // [-] cosine of 10 degrees
+constexpr int kKeep = 4;                // contacts of one body with one mesh
+
+struct Scene {
+  const HyperEllipsoid& shape;
+  Pose X_MA;                            // body in the mesh frame
+  const TriangleMesh& mesh;
+  double margin;
+  std::vector<SurfaceContact>& out;     // in the mesh frame
+};
+
+bool inside(const TriangleMesh& mesh, int triangle, const Vec3& p) {
+  const Triangle& t = mesh.triangles()[triangle];
+  const Vec3& n = mesh.face_normals()[triangle];
+  const Vec3 &a = mesh.vertices()[t[0]], &b = mesh.vertices()[t[1]], &c = mesh.vertices()[t[2]];
+  const double area = n.dot((b - a).cross(c - a));
+  return n.dot((b - a).cross(p - a)) >= -kBorder * area && n.dot((c - b).cross(p - b)) >= -kBorder * area &&
+         n.dot((a - c).cross(p - c)) >= -kBorder * area;
+}
+
+void touch_face(Scene& s, int triangle) {
+  const Vec3& n = s.mesh.face_normals()[triangle];
+  const double offset = n.dot(s.mesh.vertices()[s.mesh.triangles()[triangle][0]]);
+  const Vec3 down_A = s.X_MA.q.conjugate() * -n;
+  auto add = [&](const Vec3& direction_A) {
+    const Vec3 p = s.X_MA * support_point(s.shape, direction_A);
+    const double gap = n.dot(p) - offset;
+    if (gap >= s.margin || !inside(s.mesh, triangle, p - gap * n)) return;
+    s.out.push_back({p, p - gap * n, n, gap, 0});
+  };
+  add(down_A);
+  if (s.shape.exponent < kFlatExponent) return;
+  for (const Vec3& direction : corner_directions(s.shape, down_A)) add(direction);
+}
+
+/// The contact at a mesh point p (on an edge or a vertex) with normal against the gauge gradient there.
+bool point_contact(const Scene& s, const Vec3& p, SurfaceContact& c) {
+  const Vec3 p_A = s.X_MA.inverse() * p;
+  const Vec3 g = gauge_gradient(s.shape, p_A);
+  if (g.squaredNorm() == 0) return false;
+  const Vec3 m_A = -g.normalized();
+  c.gap = -m_A.dot(p_A) - support_value(s.shape, m_A);
+  c.normal = s.X_MA.q * m_A;
+  c.p_b = p;
+  c.p_a = p + c.gap * c.normal;
+  return c.gap < s.margin;
+}
+
+/// Parameter of the edge point with the least gauge: convex, so safeguarded Newton cannot fail.
+double least_gauge(const HyperEllipsoid& shape, const Vec3& from_A, const Vec3& along_A) {
+  double low = 0, high = 1;
+  auto slope = [&](double t) { return gauge_gradient(shape, from_A + t * along_A).dot(along_A); };
+  if (slope(0) >= 0) return 0;
+  if (slope(1) <= 0) return 1;
+  double t = 0.5;
+  for (int k = 0; k < 40 && high - low > 1e-12; ++k) {
+    const double d = slope(t);
+    (d < 0 ? low : high) = t;
+    if (d == 0) break;
+    const double curvature = along_A.dot(gauge_hessian(shape, from_A + t * along_A) * along_A);
+    const double newton = curvature > 0 ? t - d / curvature : 0.5 * (low + high);
+    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+    if (std::abs(next - t) < 1e-13) break;
+    t = next;
+  }
+  return t;
+}
+
+void touch_edge(Scene& s, int triangle, int edge) {
+  const Triangle& t = s.mesh.triangles()[triangle];
+  const Vec3& from = s.mesh.vertices()[t[edge]];
+  const Vec3 along = s.mesh.vertices()[t[(edge + 1) % 3]] - from;
+  const Pose X_AM = s.X_MA.inverse();
+  const double at = least_gauge(s.shape, X_AM * from, X_AM.q * along);
+  if (at <= 0 || at >= 1) return;   // a vertex's business
+  SurfaceContact c;
+  if (!point_contact(s, from + at * along, c)) return;
+  // inside the cone of the edge: not over either face
+  const Vec3 inward = s.mesh.face_normals()[triangle].cross(along).normalized();
+  if (c.normal.dot(inward) > 1e-9) return;
+  const int other = s.mesh.neighbour(triangle, edge);
+  if (other >= 0 && c.normal.dot(-s.mesh.face_normals()[other].cross(along).normalized()) > 1e-9) return;
+  if (other < 0 && c.normal.dot(s.mesh.face_normals()[triangle]) < 0) return;   // the back of an open sheet
+  s.out.push_back(c);
+}
+
+void touch_vertex(Scene& s, int vertex, const std::vector<int>& nearby) {
+  SurfaceContact c;
+  if (!point_contact(s, s.mesh.vertices()[vertex], c)) return;
+  for (const int triangle : nearby) {
+    const Triangle& t = s.mesh.triangles()[triangle];
+    for (int k = 0; k < 3; ++k) {
+      if (t[k] != vertex) continue;
+      for (const int other : {t[(k + 1) % 3], t[(k + 2) % 3]})
+        if (c.normal.dot((s.mesh.vertices()[other] - s.mesh.vertices()[vertex]).normalized()) > 1e-9) return;
+      if (c.normal.dot(s.mesh.face_normals()[triangle]) < 0) return;
+    }
+  }
+  s.out.push_back(c);
+}
+
+bool felt(EdgeKind kind) { return kind == EdgeKind::convex || kind == EdgeKind::open; }
+
+std::uint32_t key_of(const SurfaceContact& c, const Pose& X_MA) {
+  // octant of the point on the body and main direction of the normal: steady while the body slides from triangle to triangle
+  const Vec3 p_A = X_MA.inverse() * c.p_a;
+  int axis = 0;
+  c.normal.cwiseAbs().maxCoeff(&axis);
+  const int octant = (p_A.x() > 0) + 2 * (p_A.y() > 0) + 4 * (p_A.z() > 0);
+  return static_cast<std::uint32_t>(octant + 8 * (2 * axis + (c.normal[axis] > 0)));
+}
+
+/// Deepest first; then, within a bundle of like normals, only points well apart; at most kKeep.
+void keep_the_telling(std::vector<SurfaceContact>& found, double apart, ContactPoints& out) {
+  std::sort(found.begin(), found.end(), [](const SurfaceContact& a, const SurfaceContact& b) {
+    if (a.gap != b.gap) return a.gap < b.gap;
+    return std::lexicographical_compare(a.p_b.data(), a.p_b.data() + 3, b.p_b.data(), b.p_b.data() + 3);
+  });
+  for (const SurfaceContact& c : found) {
+    if (out.size() == kKeep) return;
+    const bool said = std::any_of(out.begin(), out.end(), [&](const SurfaceContact& k) {
+      return k.normal.dot(c.normal) > kCluster && (k.p_a - c.p_a).norm() < apart;
+    });
+    if (!said) out.push_back(c);
+  }
+}
+
+}  // namespace
+
+void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const TriangleMesh& mesh, const Pose& X_WM, double margin,
+                        MeshContactScratch& scratch, ContactPoints& out) {
+  out.clear();
+  const Pose X_MA = X_WM.inverse() * X_WA;
+  // the sphere around the body first: most pairs are far apart
+  const double radius = shape.semi_axes.norm() + margin;
+  if ((X_MA.p.array() - radius > mesh.bounds().upper.array()).any() || (X_MA.p.array() + radius < mesh.bounds().lower.array()).any())
+    return;
+  const Vec3 half = aabb_half_widths(shape, X_MA.q) + Vec3::Constant(margin);
+  scratch.triangles.clear();
+  mesh.query({X_MA.p - half, X_MA.p + half}, scratch.triangles);
+  if (scratch.triangles.empty()) return;
+
+  // away with triangles whose plane the body does not reach, or whose back its centre has passed
+  const Mat3 R_AM = X_MA.q.conjugate().toRotationMatrix();
+  std::erase_if(scratch.triangles, [&](int t) {
+    const Vec3& n = mesh.face_normals()[t];
+    const double height = n.dot(X_MA.p - mesh.vertices()[mesh.triangles()[t][0]]);
+    if (height > radius) return true;
+    const double h = support_value(shape, R_AM * n);
+    return height - h > margin || height < -0.25 * h;
+  });
+
+  scratch.candidates.clear();
+  Scene scene{shape, X_MA, mesh, margin, scratch.candidates};
+  scratch.vertices.clear();
+  for (const int t : scratch.triangles) {
+    touch_face(scene, t);
+    for (int e = 0; e < 3; ++e) {
+      if (!felt(mesh.edge_kind(t, e))) continue;
+      const int other = mesh.neighbour(t, e);
+      const bool other_is_near = other >= 0 && other < t &&
+                                 std::find(scratch.triangles.begin(), scratch.triangles.end(), other) != scratch.triangles.end();
+      if (!other_is_near) touch_edge(scene, t, e);
+      scratch.vertices.push_back(mesh.triangles()[t][e]);
+      scratch.vertices.push_back(mesh.triangles()[t][(e + 1) % 3]);
+    }
+  }
+  std::sort(scratch.vertices.begin(), scratch.vertices.end());
+  scratch.vertices.erase(std::unique(scratch.vertices.begin(), scratch.vertices.end()), scratch.vertices.end());
+  for (const int v : scratch.vertices) touch_vertex(scene, v, scratch.triangles);
+
+  keep_the_telling(scratch.candidates, 0.25 * shape.semi_axes.minCoeff(), out);
+  std::uint32_t used = 0;
+  for (SurfaceContact& c : out) {
+    c.key = key_of(c, X_MA) + 64 * used++;
+    c.p_a = X_WM * c.p_a;
+    c.p_b = X_WM * c.p_b;
+    c.normal = X_WM.q * c.normal;
+  }
+  // the running number only tells apart what shares a key: give it back where the key is unique
+  for (SurfaceContact& c : out) {
+    const std::uint32_t plain = c.key % 64;
+    if (std::count_if(out.begin(), out.end(), [&](const SurfaceContact& o) { return o.key % 64 == plain; }) == 1) c.key = plain;
+  }
+}
+
+}  // namespace engine

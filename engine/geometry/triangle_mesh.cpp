@@ -1,0 +1,211 @@
+#include "engine/geometry/triangle_mesh.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+namespace engine {
+namespace {
+
+constexpr double kWeld = 1e-5;          // [m]
+constexpr double kDegenerate = 1e-12;   // [-] area / longest edge squared
+constexpr double kFlat = 1e-3;          // [rad] dihedral angle below which an edge is part of a flat face
+constexpr int kLeaf = 4;                // triangles
+
+/// Maps every vertex to the first one within the weld distance, by a grid of that pitch sorted along with its neighbours.
+std::vector<int> weld(const std::vector<Vec3>& vertices) {
+  std::vector<int> order(vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return vertices[a].x() != vertices[b].x() ? vertices[a].x() < vertices[b].x() : a < b;
+  });
+  std::vector<int> to(vertices.size(), -1);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (to[order[i]] >= 0) continue;
+    to[order[i]] = order[i];
+    for (std::size_t k = i + 1; k < order.size() && vertices[order[k]].x() - vertices[order[i]].x() <= kWeld; ++k)
+      if (to[order[k]] < 0 && (vertices[order[k]] - vertices[order[i]]).norm() <= kWeld) to[order[k]] = order[i];
+  }
+  return to;
+}
+
+struct HalfEdge {
+  int low, high;      // vertices
+  int triangle, edge;
+};
+
+}  // namespace
+
+TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles) : vertices_(std::move(vertices)) {
+  const std::vector<int> to = weld(vertices_);
+  std::vector<std::array<int, 4>> known;   // sorted corners and index, to find duplicates
+  for (Triangle t : triangles) {
+    for (auto& v : t) {
+      assert(v >= 0 && v < static_cast<int>(vertices_.size()) && "the loader has checked the indices");
+      v = to[v];
+    }
+    const Vec3 e1 = vertices_[t[1]] - vertices_[t[0]], e2 = vertices_[t[2]] - vertices_[t[0]];
+    const double longest = std::max({e1.squaredNorm(), e2.squaredNorm(), (e2 - e1).squaredNorm()});
+    const Vec3 n = e1.cross(e2);
+    if (longest == 0 || 0.5 * n.norm() / longest < kDegenerate) {
+      ++dropped_;
+      continue;
+    }
+    std::array<int, 4> sorted{t[0], t[1], t[2], static_cast<int>(triangles_.size())};
+    std::sort(sorted.begin(), sorted.begin() + 3);
+    known.push_back(sorted);
+    triangles_.push_back(t);
+  }
+  std::sort(known.begin(), known.end());
+  std::vector<char> duplicate(triangles_.size(), 0);
+  for (std::size_t i = 1; i < known.size(); ++i)
+    if (std::equal(known[i].begin(), known[i].begin() + 3, known[i - 1].begin())) duplicate[known[i][3]] = 1;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    if (duplicate[i]) ++dropped_;
+    else triangles_[kept++] = triangles_[i];
+  }
+  triangles_.resize(kept);
+  connect();
+  build_tree();
+}
+
+void TriangleMesh::connect() {
+  face_normals_.clear();
+  std::vector<HalfEdge> edges;
+  for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
+    const Triangle& v = triangles_[t];
+    face_normals_.push_back((vertices_[v[1]] - vertices_[v[0]]).cross(vertices_[v[2]] - vertices_[v[0]]).normalized());
+    for (int e = 0; e < 3; ++e)
+      edges.push_back({std::min(v[e], v[(e + 1) % 3]), std::max(v[e], v[(e + 1) % 3]), t, e});
+  }
+  std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
+    return std::array{a.low, a.high, a.triangle, a.edge} < std::array{b.low, b.high, b.triangle, b.edge};
+  });
+  edge_kinds_.assign(triangles_.size(), {EdgeKind::open, EdgeKind::open, EdgeKind::open});
+  neighbours_.assign(triangles_.size(), {-1, -1, -1});
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t end = i + 1;
+    while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
+    if (end - i == 2) {
+      const HalfEdge& a = edges[i];
+      const HalfEdge& b = edges[i + 1];
+      const Vec3& n_a = face_normals_[a.triangle];
+      const Vec3& n_b = face_normals_[b.triangle];
+      // a face bends away from the other's plane: convex
+      const Vec3 far_b = vertices_[triangles_[b.triangle][(b.edge + 2) % 3]] - vertices_[a.low];
+      const double angle = std::atan2(n_a.cross(n_b).norm(), n_a.dot(n_b));
+      const EdgeKind kind = angle < kFlat ? EdgeKind::flat : (n_a.dot(far_b) < 0 ? EdgeKind::convex : EdgeKind::concave);
+      edge_kinds_[a.triangle][a.edge] = edge_kinds_[b.triangle][b.edge] = kind;
+      neighbours_[a.triangle][a.edge] = b.triangle;
+      neighbours_[b.triangle][b.edge] = a.triangle;
+    }
+    i = end;   // an edge of three or more triangles stays open: each may be felt there
+  }
+}
+
+void TriangleMesh::build_tree() {
+  const int n = static_cast<int>(triangles_.size());
+  order_.resize(n);
+  std::iota(order_.begin(), order_.end(), 0);
+  std::vector<Vec3> centre(n);
+  for (int t = 0; t < n; ++t)
+    centre[t] = (vertices_[triangles_[t][0]] + vertices_[triangles_[t][1]] + vertices_[triangles_[t][2]]) / 3;
+  auto box_of = [&](int first, int count) {
+    Aabb box;
+    for (int i = first; i < first + count; ++i)
+      for (const int v : triangles_[order_[i]]) {
+        box.lower = box.lower.cwiseMin(vertices_[v]);
+        box.upper = box.upper.cwiseMax(vertices_[v]);
+      }
+    return box;
+  };
+  nodes_.clear();
+  if (n == 0) return;
+  nodes_.push_back({box_of(0, n), 0, n});
+  bounds_ = nodes_[0].box;
+  for (std::size_t at = 0; at < nodes_.size(); ++at) {
+    const int first = nodes_[at].first, count = nodes_[at].count;
+    if (count <= kLeaf) continue;
+    int axis = 0;
+    (nodes_[at].box.upper - nodes_[at].box.lower).maxCoeff(&axis);
+    const int half = count / 2;
+    std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count, [&](int a, int b) {
+      return centre[a][axis] != centre[b][axis] ? centre[a][axis] < centre[b][axis] : a < b;
+    });
+    nodes_[at].first = static_cast<std::int32_t>(nodes_.size());
+    nodes_[at].count = 0;
+    nodes_.push_back({box_of(first, half), first, half});
+    nodes_.push_back({box_of(first + half, count - half), first + half, count - half});
+  }
+}
+
+int TriangleMesh::query(const Aabb& box, std::vector<int>& out) const {
+  if (nodes_.empty()) return 0;
+  std::array<int, 64> stack;
+  int depth = 0, visited = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const Node& node = nodes_[stack[--depth]];
+    ++visited;
+    if ((node.box.lower.array() > box.upper.array()).any() || (node.box.upper.array() < box.lower.array()).any()) continue;
+    if (node.count == 0) {
+      stack[depth++] = node.first + 1;
+      stack[depth++] = node.first;
+      continue;
+    }
+    for (int i = node.first; i < node.first + node.count; ++i) out.push_back(order_[i]);
+  }
+  return visited;
+}
+
+bool TriangleMesh::raycast(const Vec3& origin, const Vec3& direction, double s_max, double& s, int& triangle) const {
+  if (nodes_.empty()) return false;
+  double best = s_max;
+  triangle = -1;
+  auto enters = [&](const Aabb& box) {
+    double low = 0, high = best;
+    for (int i = 0; i < 3; ++i) {
+      if (direction[i] == 0) {
+        if (origin[i] < box.lower[i] || origin[i] > box.upper[i]) return false;
+        continue;
+      }
+      const double a = (box.lower[i] - origin[i]) / direction[i], b = (box.upper[i] - origin[i]) / direction[i];
+      low = std::max(low, std::min(a, b));
+      high = std::min(high, std::max(a, b));
+    }
+    return low <= high;
+  };
+  std::array<int, 64> stack;
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const Node& node = nodes_[stack[--depth]];
+    if (!enters(node.box)) continue;
+    if (node.count == 0) {
+      stack[depth++] = node.first + 1;
+      stack[depth++] = node.first;
+      continue;
+    }
+    for (int i = node.first; i < node.first + node.count; ++i) {
+      const Triangle& t = triangles_[order_[i]];
+      // Moeller-Trumbore, both faces
+      const Vec3 e1 = vertices_[t[1]] - vertices_[t[0]], e2 = vertices_[t[2]] - vertices_[t[0]];
+      const Vec3 p = direction.cross(e2);
+      const double det = e1.dot(p);
+      if (std::abs(det) < 1e-300) continue;
+      const Vec3 r = origin - vertices_[t[0]];
+      const double u = r.dot(p) / det;
+      const Vec3 q = r.cross(e1);
+      const double v = direction.dot(q) / det, hit = e2.dot(q) / det;
+      if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9 || hit < 0 || hit > best) continue;
+      best = hit;
+      triangle = order_[i];
+    }
+  }
+  s = best;
+  return triangle >= 0;
+}
+
+}  // namespace engine
