@@ -20,6 +20,10 @@ struct Builder {
   std::filesystem::path folder;                                    // of the scene file
   std::map<std::string, std::shared_ptr<const ImportedMesh>> meshes;   // by path: ten cars load one mesh
 
+  std::vector<std::string> declared;                               // names of vehicles, persons and bodies in the file, read or not
+
+  /// Whether a name, or the person it is a part of, stands in the file: an error in it was told already.
+  bool is_declared(const std::string& name) const;
   int body_index(const std::string& name) const;                   // -1: no such body
   std::vector<std::string> body_names() const;
 };

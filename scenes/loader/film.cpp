@@ -73,6 +73,7 @@ const Key kSkyKeys[] = {
 
 bool subject_exists(const Builder& builder, const std::string& name) {
   const engine::Model& model = builder.scene.model;
+  if (builder.is_declared(name) && name.find('/') == std::string::npos) return true;
   return builder.body_index(name) >= 0 || std::any_of(model.persons.begin(), model.persons.end(), [&](const auto& p) { return p.name == name; }) ||
          std::any_of(model.vehicles.begin(), model.vehicles.end(), [&](const auto& v) { return v.name == name; });
 }
@@ -138,7 +139,8 @@ void read_overlays(Builder& builder, Reader r) {
   o.newtons_per_metre = r.number("force_scale");
   o.trace_bodies = r.texts("trace_bodies");
   for (const std::string& name : o.trace_bodies) {
-    if (builder.body_index(name) >= 0) continue;
+    const bool told = !builder.errors.lines.empty() && builder.is_declared(name);
+    if (builder.body_index(name) >= 0 || told) continue;
     const std::string guess = nearest(name, builder.body_names());
     r.fail("trace_bodies", fmt::format("must name bodies of the scene; \"{}\" is none{}", name, guess.empty() ? "" : fmt::format(", did you mean \"{}\"?", guess)));
   }

@@ -39,7 +39,8 @@ int find_body(Builder& builder, Reader& r, std::string_view key) {
   const std::string name = r.text(key);
   if (name == "world" && key == "parent") return -1;
   const int index = builder.body_index(name);
-  if (index < 0) {
+  const bool told = !builder.errors.lines.empty() && builder.is_declared(name);
+  if (index < 0 && !told) {
     const std::string guess = nearest(name, builder.body_names());
     r.fail(key, guess.empty() ? "is no body of the scene" : fmt::format("is no body of the scene; did you mean \"{}\"?", guess));
   }
@@ -84,20 +85,20 @@ void read_joint(Builder& builder, Reader r) {
   joint.parent = find_body(builder, r, "parent");
   joint.child = find_body(builder, r, "child");
   joint.name = r.has("name") ? r.text("name") : r.text("parent") + "-" + r.text("child");
-  if (joint.child >= 0 && joint.child == joint.parent) r.fail("child", "must be another body than the parent");
-  if (joint.child >= 0) {
-    const engine::Body& child = builder.scene.model.bodies[static_cast<std::size_t>(joint.child)];
-    const engine::Pose X_WF{r.vector_if("at").value_or(child.X_WB.p), read_frame(r)};
-    joint.X_CF = child.X_WB.inverse() * X_WF;
-    joint.X_PF = joint.parent < 0 ? X_WF : builder.scene.model.bodies[static_cast<std::size_t>(joint.parent)].X_WB.inverse() * X_WF;
-  }
+  const bool complete = joint.child >= 0 && (joint.parent >= 0 || r.text("parent") == "world");
+  if (!complete) return;
+  if (joint.child == joint.parent) r.fail("child", "must be another body than the parent");
+  const engine::Body& child = builder.scene.model.bodies[static_cast<std::size_t>(joint.child)];
+  const engine::Pose X_WF{r.vector_if("at").value_or(child.X_WB.p), read_frame(r)};
+  joint.X_CF = child.X_WB.inverse() * X_WF;
+  joint.X_PF = joint.parent < 0 ? X_WF : builder.scene.model.bodies[static_cast<std::size_t>(joint.parent)].X_WB.inverse() * X_WF;
   joint.angles.fill(read_angle(r, {}));
   const std::array<std::string_view, 3> kNames{"x", "y", "z"};
   for (std::size_t i = 0; i < 3; ++i) {
     if (auto angle = r.table(kNames[i])) joint.angles[i] = read_angle(*angle, joint.angles[i]);
   }
   if (r.has("breaking_force")) joint.breaking_force = r.number("breaking_force");
-  if (joint.child >= 0) builder.scene.model.joints.push_back(std::move(joint));
+  builder.scene.model.joints.push_back(std::move(joint));
 }
 
 }  // namespace scenes

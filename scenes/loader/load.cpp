@@ -1,6 +1,7 @@
 // The scene file as a whole: reading order, library, hash.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -48,6 +49,17 @@ std::string hash_of(const std::filesystem::path& file, const std::vector<std::st
   return sha256(all);
 }
 
+void collect_names(Builder& builder, const Value& root) {
+  for (const char* list : {"vehicle", "person", "body"}) {
+    const Value* found = root.find(list);
+    if (!found) continue;
+    for (const Value& item : found->items) {
+      const Value* name = item.find("name");
+      if (name && name->kind == Value::Kind::text) builder.declared.push_back(name->text);
+    }
+  }
+}
+
 void read_closed_form(Builder& builder, std::optional<Reader> reader) {
   if (!reader) return;
   for (const Entry& entry : reader->value().entries) builder.scene.closed_form[entry.key] = reader->number(entry.key);
@@ -56,6 +68,10 @@ void read_closed_form(Builder& builder, std::optional<Reader> reader) {
 }  // namespace
 
 SceneErrors::SceneErrors(std::vector<std::string> found) : std::runtime_error(fmt::format("{}", fmt::join(found, "\n"))), lines(std::move(found)) {}
+
+bool Builder::is_declared(const std::string& name) const {
+  return std::find(declared.begin(), declared.end(), name.substr(0, name.find('/'))) != declared.end();
+}
 
 const Section& scene_section() { return kSceneSection; }
 
@@ -99,6 +115,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   builder.scene.sha256 = hash_of(file, overrides);
   r.text("description");
 
+  collect_names(builder, root);
   // joints and cameras name bodies, so those come first
   read_settings(builder, r.table("simulation"));
   read_ground(builder, r.table("ground"));
