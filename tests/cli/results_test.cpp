@@ -1,0 +1,239 @@
+// What the program writes: names and columns other people's scripts rely on, and figures that must add up.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <charconv>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+
+using namespace cli_tests;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr double kGravity = 9.81;  // [m/s^2]
+
+using Row = std::map<std::string, std::string>;
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> out;
+  std::istringstream fields(line);
+  for (std::string field; std::getline(fields, field, ',');) out.push_back(field);
+  return out;
+}
+
+std::vector<Row> rows_of(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> columns = split(line);
+  std::vector<Row> rows;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> fields = split(line);
+    EXPECT_EQ(fields.size(), columns.size()) << line;
+    Row row;
+    for (std::size_t i = 0; i < fields.size() && i < columns.size(); ++i) row[columns[i]] = fields[i];
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// The number a script would read; a comma or anything else behind it is a failure.
+double number(const std::string& text) {
+  double value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  EXPECT_TRUE(problem == std::errc() && end == text.data() + text.size()) << "\"" << text << "\" is no number";
+  return value;
+}
+
+double sum(const std::vector<Row>& rows, const std::string& column) {
+  double total = 0;
+  for (const Row& row : rows) total += number(row.at(column));
+  return total;
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+std::string gallery(const std::string& name) { return std::string(CRASHREEL_SOURCE_DIR) + "/scenes/gallery/" + name; }
+
+}  // namespace
+
+TEST(Simulate, WritesTheThreeFilesWithTheColumnsOfTheContract) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  const Result result = run(folder, {"simulate", "ball.toml", "-o", "out"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(first_line(contents(folder / "out/trajectory.csv")),
+            "time_s,body,x_m,y_m,z_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,wx_radps,wy_radps,wz_radps");
+  EXPECT_EQ(first_line(contents(folder / "out/contacts.csv")),
+            "time_s,kind,body_a,body_b,x_m,y_m,z_m,nx,ny,nz,depth_m,normal_force_N,tangential_force_N,normal_impulse_Ns,"
+            "tangential_impulse_Ns,slip_mps,state");
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) files.push_back(entry.path().filename().string());
+  EXPECT_THAT(files, testing::UnorderedElementsAre("trajectory.csv", "contacts.csv", "summary.json"));
+  EXPECT_THAT(result.err, IsEmpty()) << "nothing to warn of, too short for progress";
+}
+
+TEST(Simulate, TrajectoryHoldsEveryInstantFromTheSceneToItsEnd) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  ASSERT_EQ(run(folder, {"simulate", "ball.toml", "-o", "out"}).code, 0);
+  const std::vector<Row> rows = rows_of(contents(folder / "out/trajectory.csv"));
+  // 0.4 s, one instant every 5 ms, both ends
+  ASSERT_EQ(rows.size(), 81U);
+  EXPECT_EQ(rows.front().at("body"), "ball");
+  EXPECT_EQ(number(rows.front().at("z_m")), 0.3);
+  EXPECT_EQ(number(rows.front().at("vx_mps")), 1);
+  EXPECT_EQ(number(rows.front().at("qw")), 1);
+  // the last time is 400 steps of 1 ms added up, each rounded
+  EXPECT_NEAR(number(rows.back().at("time_s")), 0.4, 1e-12);
+}
+
+TEST(Simulate, SummaryHasEveryKeyOfTheContract) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  const Result result = run(folder, {"simulate", "ball.toml", "-o", "out", "--json", "--set", "body.ball.mass=3 kg"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json summary = Json::parse(contents(folder / "out/summary.json"));
+  EXPECT_EQ(Json::parse(result.out), summary);
+  EXPECT_EQ(summary.at("schema"), 1);
+  EXPECT_EQ(summary.at("scene").at("title"), "Ball");
+  EXPECT_EQ(summary.at("scene").at("path"), "ball.toml");
+  EXPECT_EQ(summary.at("scene").at("sha256").get<std::string>().size(), 64U);
+  EXPECT_EQ(summary.at("scene").at("overrides"), Json::array({"body.ball.mass=3 kg"}));
+  EXPECT_EQ(summary.at("settings").at("step_s"), 0.001);
+  EXPECT_EQ(summary.at("settings").at("integrator"), "stepping");
+  EXPECT_EQ(summary.at("settings").at("contact_model"), "default_auto");
+  for (const char* key : {"effect", "active", "reason"}) EXPECT_TRUE(summary.at("plan").at(0).contains(key)) << key;
+  ASSERT_FALSE(summary.at("events").empty()) << "the ball touches the ground";
+  for (const char* key : {"time_s", "kind", "a", "b"}) EXPECT_TRUE(summary.at("events").at(0).contains(key)) << key;
+  EXPECT_TRUE(summary.at("metrics").is_object());
+  // half of m v^2 and m g h from the ground
+  EXPECT_NEAR(summary.at("energy").at("initial_J").get<double>(), 0.5 * 3 + 3 * kGravity * 0.3, 1e-9);
+  for (const char* key : {"final_J", "dissipated_J", "residual_J"}) EXPECT_TRUE(summary.at("energy").contains(key)) << key;
+  for (const char* key : {"max_joint_gap_m", "max_joint_angle_error_rad", "max_penetration_m", "max_solver_residual", "warnings"}) {
+    EXPECT_TRUE(summary.at("diagnostics").contains(key)) << key;
+  }
+  EXPECT_EQ(summary.at("cost").at("steps"), 400);
+  for (const char* key : {"wall_s", "steps_per_s", "realtime_factor", "effects"}) EXPECT_TRUE(summary.at("cost").contains(key)) << key;
+}
+
+TEST(Simulate, ImpulseColumnsAddUpToTheMomentumThatWasExchanged) {
+  const Folder folder;
+  const Result result = run(folder, {"simulate", gallery("puck_slide.toml"), "-o", "out", "--set", "simulation.stop_at_rest=false"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const std::vector<Row> contacts = rows_of(contents(folder / "out/contacts.csv"));
+  const double duration = number(rows_of(contents(folder / "out/trajectory.csv")).back().at("time_s"));
+  constexpr double kMass = 10;       // [kg] of the scene
+  constexpr double kSpeed = 13.4112;  // [m/s] of the scene
+  constexpr double kStep = 1e-3;     // [s]
+  // The ground carries the weight the whole time and takes the whole momentum; one step's worth of either may be unaccounted for, and the
+  // puck rolls a hair about its edge while it slides.
+  EXPECT_NEAR(sum(contacts, "normal_impulse_Ns"), kMass * kGravity * duration, 2 * kMass * kGravity * kStep);
+  EXPECT_NEAR(sum(contacts, "tangential_impulse_Ns"), kMass * kSpeed, 0.001 * kMass * kSpeed);
+  for (const Row& row : contacts) {
+    EXPECT_EQ(row.at("kind"), "ground");
+    EXPECT_EQ(row.at("body_a"), "puck");
+    EXPECT_EQ(row.at("body_b"), "ground");
+    EXPECT_GT(number(row.at("nz")), 0.999) << "the normal points from the ground to the puck";
+  }
+}
+
+TEST(Simulate, TheSameRunHasTheSameHashEveryTime) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  std::vector<std::string> hashes;
+  for (const char* out : {"first", "second"}) {
+    const Result result = run(folder, {"simulate", "ball.toml", "-o", out, "--json"});
+    ASSERT_EQ(result.code, 0) << result.err;
+    hashes.push_back(Json::parse(result.out).at("recording").at("hash"));
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(contents(folder / "first/trajectory.csv"), contents(folder / "second/trajectory.csv"));
+  EXPECT_EQ(contents(folder / "first/contacts.csv"), contents(folder / "second/contacts.csv"));
+  const Result other = run(folder, {"simulate", "ball.toml", "-o", "third", "--json", "--set", "body.ball.velocity=1.000001 0 0 m/s"});
+  EXPECT_NE(Json::parse(other.out).at("recording").at("hash"), hashes[0]) << "a hash that never changes proves nothing";
+}
+
+TEST(Simulate, NumbersHaveAPointWhereTheUserWritesAComma) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  // a locale made here, so that the test does not depend on the machine's
+  const std::string make = "localedef -i de_DE -f UTF-8 '" + (folder / "de_DE.UTF-8").string() + "' >/dev/null 2>&1";
+  ASSERT_EQ(std::system(make.c_str()), 0) << "package locales is missing";
+  const std::vector<std::string> german = {"LOCPATH=" + folder.path().string(), "LC_ALL=de_DE.UTF-8", "LANG=de_DE.UTF-8"};
+  ASSERT_EQ(run(folder, {"simulate", "ball.toml", "-o", "plain"}).code, 0);
+  ASSERT_EQ(run(folder, {"simulate", "ball.toml", "-o", "german", "--set", "body.ball.mass=2.0 kg"}, german).code, 0);
+  EXPECT_EQ(contents(folder / "plain/trajectory.csv"), contents(folder / "german/trajectory.csv"));
+  EXPECT_EQ(contents(folder / "plain/contacts.csv"), contents(folder / "german/contacts.csv"));
+}
+
+TEST(Plan, NamesEveryEffectWithItsReason) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  const Result result = run(folder, {"plan", "ball.toml", "--json"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  std::map<std::string, bool> active;
+  for (const Json& line : Json::parse(result.out)) {
+    active[line.at("effect")] = line.at("active");
+    EXPECT_FALSE(line.at("reason").get<std::string>().empty()) << line;
+  }
+  EXPECT_TRUE(active.at("gravity"));
+  EXPECT_GT(active.size(), 3U);
+}
+
+TEST(Plan, AnEffectForcedOffIsAWarningInTheResults) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  const Result result = run(folder, {"simulate", "ball.toml", "-o", "out", "--effects", "gravity=off", "--json"});
+  ASSERT_EQ(result.code, 0);
+  EXPECT_THAT(result.err, HasSubstr("gravity"));
+  const Json summary = Json::parse(result.out);
+  EXPECT_THAT(summary.at("diagnostics").at("warnings").dump(), HasSubstr("gravity"));
+  for (const Json& line : summary.at("plan")) {
+    if (line.at("effect") == "gravity") EXPECT_FALSE(line.at("active"));
+  }
+  // nothing pulls: the ball flies straight on
+  const std::vector<Row> rows = rows_of(contents(folder / "out/trajectory.csv"));
+  EXPECT_EQ(number(rows.back().at("z_m")), 0.3);
+}
+
+TEST(Version, NamesWhatAReportNeedsToBeRepeatable) {
+  const Folder folder;
+  const Result result = run(folder, {"version", "--json"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json version = Json::parse(result.out);
+  EXPECT_THAT(version.at("build").get<std::string>(), HasSubstr("Release"));
+  EXPECT_THAT(version.at("libraries").get<std::string>(), testing::MatchesRegex("Eigen [0-9.]+, assimp [0-9.]+, OSMesa [0-9.]+, .*"));
+  EXPECT_THAT(version.at("gl").get<std::string>(), HasSubstr("llvmpipe"));
+}
+
+TEST(Library, ListsThePersonTheFlagshipUses) {
+  const Folder folder;
+  const Result result = run(folder, {"library", "--json"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(Json::parse(result.out).at("persons").get<std::vector<std::string>>(), testing::Contains("person-14"));
+}
+
+TEST(Schema, IsTheJsonSchemaOfScenes) {
+  const Folder folder;
+  const Result result = run(folder, {"schema"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(Json::parse(result.out).at("$schema").get<std::string>(), HasSubstr("2020-12"));
+}
+
+TEST(Help, GoesToStandardOutputAndIsNoError) {
+  const Folder folder;
+  const Result all = run(folder, {"--help"});
+  EXPECT_EQ(all.code, 0);
+  EXPECT_THAT(all.out, HasSubstr("render"));
+  EXPECT_THAT(all.err, IsEmpty());
+  const Result one = run(folder, {"render", "--help"});
+  EXPECT_EQ(one.code, 0);
+  EXPECT_THAT(one.out, HasSubstr("--camera"));
+}
