@@ -134,7 +134,7 @@ void read_body(Builder& builder, Reader r) {
   const render::Material material{body.name, read_material_kind(r, "material"), r.colour("colour"), 0.5f, 1.0f};
   if (const auto* ellipsoid = std::get_if<engine::HyperEllipsoid>(&body.shape)) {
     stage.ellipsoids.push_back({body.name, index, *ellipsoid, material});
-  } else if (r.has("mesh")) {
+  } else if (std::holds_alternative<engine::MeshShape>(body.shape)) {
     if (const auto mesh = import_mesh(builder, r, "mesh")) stage.meshes.push_back({body.name, index, {}, mesh->look, {}});
   }
   if (!body.fixed) stage.speeds.emplace_back(index, body.name);

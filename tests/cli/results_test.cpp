@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -110,8 +112,7 @@ TEST(Simulate, SummaryHasEveryKeyOfTheContract) {
   EXPECT_EQ(summary.at("settings").at("integrator"), "stepping");
   EXPECT_EQ(summary.at("settings").at("contact_model"), "default_auto");
   for (const char* key : {"effect", "active", "reason"}) EXPECT_TRUE(summary.at("plan").at(0).contains(key)) << key;
-  ASSERT_FALSE(summary.at("events").empty()) << "the ball touches the ground";
-  for (const char* key : {"time_s", "kind", "a", "b"}) EXPECT_TRUE(summary.at("events").at(0).contains(key)) << key;
+  EXPECT_TRUE(summary.at("events").is_array());
   EXPECT_TRUE(summary.at("metrics").is_object());
   // half of m v^2 and m g h from the ground
   EXPECT_NEAR(summary.at("energy").at("initial_J").get<double>(), 0.5 * 3 + 3 * kGravity * 0.3, 1e-9);
@@ -129,19 +130,37 @@ TEST(Simulate, ImpulseColumnsAddUpToTheMomentumThatWasExchanged) {
   ASSERT_EQ(result.code, 0) << result.err;
   const std::vector<Row> contacts = rows_of(contents(folder / "out/contacts.csv"));
   const double duration = number(rows_of(contents(folder / "out/trajectory.csv")).back().at("time_s"));
-  constexpr double kMass = 10;       // [kg] of the scene
+  constexpr double kMass = 10;        // [kg] of the scene
   constexpr double kSpeed = 13.4112;  // [m/s] of the scene
-  constexpr double kStep = 1e-3;     // [s]
-  // The ground carries the weight the whole time and takes the whole momentum; one step's worth of either may be unaccounted for, and the
-  // puck rolls a hair about its edge while it slides.
+  constexpr double kStep = 1e-3;      // [s]
+  constexpr double kInterval = 5e-3;  // [s] between rows
+  constexpr double kFriction = 0.6;   // [-] of the scene
+  // the ground carries the weight the whole time; the first and the last step may each be off by their own weight
   EXPECT_NEAR(sum(contacts, "normal_impulse_Ns"), kMass * kGravity * duration, 2 * kMass * kGravity * kStep);
-  EXPECT_NEAR(sum(contacts, "tangential_impulse_Ns"), kMass * kSpeed, 0.001 * kMass * kSpeed);
+  // While it slides, friction takes the whole momentum. At rest the points of the face hold against each other, which moves nothing; the row
+  // in which the puck stops counts as rest, so what friction does in one interval may be missing.
+  std::vector<Row> sliding;
+  std::copy_if(contacts.begin(), contacts.end(), std::back_inserter(sliding), [](const Row& row) { return row.at("state") == "slide"; });
+  EXPECT_NEAR(sum(sliding, "tangential_impulse_Ns"), kMass * kSpeed, kFriction * kMass * kGravity * kInterval);
   for (const Row& row : contacts) {
     EXPECT_EQ(row.at("kind"), "ground");
     EXPECT_EQ(row.at("body_a"), "puck");
     EXPECT_EQ(row.at("body_b"), "ground");
     EXPECT_GT(number(row.at("nz")), 0.999) << "the normal points from the ground to the puck";
   }
+}
+
+TEST(Simulate, EventsNameTheirBodies) {
+  const Folder folder;
+  const Result result = run(folder, {"simulate", gallery("puck_slide.toml"), "-o", "out", "--json"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json events = Json::parse(result.out).at("events");
+  const auto rest = std::find_if(events.begin(), events.end(), [](const Json& event) { return event.at("kind") == "rest"; });
+  ASSERT_NE(rest, events.end());
+  EXPECT_EQ(rest->at("a"), "puck");
+  EXPECT_TRUE(rest->at("b").is_null()) << "rest has no partner";
+  // v/(mu g); rest is looked for once an interval, at a speed just above zero
+  EXPECT_NEAR(rest->at("time_s").get<double>(), 13.4112 / (0.6 * kGravity), 0.02);
 }
 
 TEST(Simulate, TheSameRunHasTheSameHashEveryTime) {
@@ -196,7 +215,7 @@ TEST(Plan, AnEffectForcedOffIsAWarningInTheResults) {
   const Json summary = Json::parse(result.out);
   EXPECT_THAT(summary.at("diagnostics").at("warnings").dump(), HasSubstr("gravity"));
   for (const Json& line : summary.at("plan")) {
-    if (line.at("effect") == "gravity") EXPECT_FALSE(line.at("active"));
+    EXPECT_FALSE(line.at("effect") == "gravity" && line.at("active")) << line;
   }
   // nothing pulls: the ball flies straight on
   const std::vector<Row> rows = rows_of(contents(folder / "out/trajectory.csv"));
