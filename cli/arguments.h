@@ -20,7 +20,8 @@ class Arguments {
   void option(const std::string& names, std::string& target, const std::string& value_name, const std::string& help);
   void required_option(const std::string& names, std::string& target, const std::string& value_name, const std::string& help);
   /// May be given several times, one value each.
-  void repeatable(const std::string& names, std::vector<std::string>& target, const std::string& value_name, const std::string& help);
+  void repeatable(const std::string& names, std::vector<std::string>& target, const std::string& value_name,
+                  const std::string& help);
   void choice(const std::string& names, std::string& target, const std::vector<std::string>& choices, const std::string& help);
   void flag(const std::string& names, bool& target, const std::string& help);
 

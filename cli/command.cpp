@@ -67,7 +67,9 @@ std::vector<std::string> option_names(const CLI::App& app) {
 
 }  // namespace
 
-std::span<const Command> commands() { return kCommands; }
+std::span<const Command> commands() {
+  return kCommands;
+}
 
 void Arguments::positional(const std::string& name, std::string& target, const std::string& help) {
   app_.add_option(name, target, help)->required();
@@ -81,17 +83,22 @@ void Arguments::option(const std::string& names, std::string& target, const std:
   app_.add_option(names, target, help)->type_name(value_name)->take_last();
 }
 
-void Arguments::required_option(const std::string& names, std::string& target, const std::string& value_name, const std::string& help) {
+void Arguments::required_option(const std::string& names, std::string& target, const std::string& value_name,
+                                const std::string& help) {
   app_.add_option(names, target, help)->type_name(value_name)->take_last()->required();
 }
 
 void Arguments::repeatable(const std::string& names, std::vector<std::string>& target, const std::string& value_name,
                            const std::string& help) {
-  app_.add_option(names, target, help)->type_name(value_name)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+  app_.add_option(names, target, help)
+      ->type_name(value_name)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false);
 }
 
-void Arguments::choice(const std::string& names, std::string& target, const std::vector<std::string>& choices, const std::string& help) {
+void Arguments::choice(const std::string& names, std::string& target, const std::vector<std::string>& choices,
+                       const std::string& help) {
   const auto known = [names, choices](const std::string& word) {
     for (const std::string& choice : choices) {
       if (word == choice) return std::string();
@@ -101,7 +108,9 @@ void Arguments::choice(const std::string& names, std::string& target, const std:
   app_.add_option(names, target, help)->type_name(fmt::format("{}", fmt::join(choices, "|")))->take_last()->check(known);
 }
 
-void Arguments::flag(const std::string& names, bool& target, const std::string& help) { app_.add_flag(names, target, help); }
+void Arguments::flag(const std::string& names, bool& target, const std::string& help) {
+  app_.add_flag(names, target, help);
+}
 
 int run_command_line(int argc, const char* const* argv) {
   CLI::App app{"Reconstructs traffic accidents: a scene file becomes a simulation, and the simulation a film."};

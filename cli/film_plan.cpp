@@ -39,12 +39,15 @@ void choose_container(const FilmArguments& wish, const scenes::Scene& scene, Fil
     const std::string file = path.filename().string();
     const std::size_t percent = file.find('%');
     const std::size_t end = percent == std::string::npos ? percent : file.find_first_not_of("0123456789", percent + 1);
-    if (end == std::string::npos || file[end] != 'd' || file.find('%', end) != std::string::npos || end - percent > 3 || extension != ".png") {
+    if (end == std::string::npos || file[end] != 'd' || file.find('%', end) != std::string::npos || end - percent > 3 ||
+        extension != ".png") {
       throw UsageError(fmt::format("-o is \"{}\", a pattern must hold one %05d in its file name and end in .png", name));
     }
     plan.job.container = Container::png_sequence;
   } else if (extension == ".png") {
-    if (!stills) throw UsageError(fmt::format("-o is \"{}\", a single PNG needs --at TIME; for a sequence name a folder or frame_%05d.png", name));
+    if (!stills)
+      throw UsageError(
+          fmt::format("-o is \"{}\", a single PNG needs --at TIME; for a sequence name a folder or frame_%05d.png", name));
     plan.job.container = Container::single_png;
   } else if (stills) {
     throw UsageError(fmt::format("-o is \"{}\", --at draws PNGs; name a file that ends in .png", name));
@@ -67,8 +70,8 @@ void choose_size(const FilmArguments& wish, const scenes::Scene& scene, FilmPlan
   if (odd && job.container == Container::mp4) {
     const int width = job.width + job.width % 2;
     const int height = job.height + job.height % 2;
-    throw UsageError(fmt::format("{} is {}x{}, H.264 needs an even width and height; take {}x{}, or PNGs", wish.size.empty() ? "the scene's output size" : "--size",
-                                 job.width, job.height, width, height));
+    throw UsageError(fmt::format("{} is {}x{}, H.264 needs an even width and height; take {}x{}, or PNGs",
+                                 wish.size.empty() ? "the scene's output size" : "--size", job.width, job.height, width, height));
   }
 }
 
@@ -99,7 +102,8 @@ void choose_times(const FilmArguments& wish, const scenes::Scene& scene, FilmPla
   if (cut && !plan.stills.empty()) throw UsageError("--at draws stills; leave --from, --to and --frames away");
   plan.from = wish.from.empty() ? 0 : parse_time("--from", wish.from);
   plan.to = wish.to.empty() ? duration : parse_time("--to", wish.to);
-  if (plan.to <= plan.from) throw UsageError(fmt::format("--from {} s to {} s holds no time; the scene lasts {} s", plan.from, plan.to, duration));
+  if (plan.to <= plan.from)
+    throw UsageError(fmt::format("--from {} s to {} s holds no time; the scene lasts {} s", plan.from, plan.to, duration));
   if (!wish.frames.empty()) std::tie(plan.first_frame, plan.last_frame) = parse_frames("--frames", wish.frames);
 }
 
@@ -127,7 +131,8 @@ void refuse_existing_frames(const FilmPlan& plan) {
 }  // namespace
 
 void declare_film(Arguments& arguments, FilmArguments& film) {
-  arguments.option("-o,--output", film.output, "OUT", "OUT.mp4, a folder or pattern (frame_%05d.png), or one PNG with --at; default: the scene's name");
+  arguments.option("-o,--output", film.output, "OUT",
+                   "OUT.mp4, a folder or pattern (frame_%05d.png), or one PNG with --at; default: the scene's name");
   arguments.repeatable("--at", film.at, "TIME", "draw a still at this simulated time: 0.2s");
   arguments.option("--camera", film.camera, "NAME", "the whole run from this camera instead of the scene's shots");
   arguments.option("--from", film.from, "TIME", "leave out what comes before this simulated time");
@@ -160,7 +165,9 @@ FilmPlan plan_film(const FilmArguments& wish, scenes::Scene& scene) {
   return plan;
 }
 
-void prepare_output(const FilmPlan& plan) { make_writable_folder(plan.job.output.parent_path()); }
+void prepare_output(const FilmPlan& plan) {
+  make_writable_folder(plan.job.output.parent_path());
+}
 
 std::vector<Stretch> frames_of(const FilmPlan& plan, const render::Stage& stage, const engine::Recording& recording) {
   const std::vector<render::Moment> all = render::film(stage, recording, plan.job.fps);

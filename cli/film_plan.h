@@ -32,11 +32,11 @@ void declare_film(Arguments&, FilmArguments&);
 
 /// The request, read and checked against the scene. Times in simulated seconds.
 struct FilmPlan {
-  render::FilmJob job;                 // output, container, size, rate, quality, workers
-  std::vector<double> stills;          // --at; empty: a film
+  render::FilmJob job;         // output, container, size, rate, quality, workers
+  std::vector<double> stills;  // --at; empty: a film
   double from = 0;
   double to = 0;
-  int first_frame = -1;                // --frames; -1: open
+  int first_frame = -1;  // --frames; -1: open
   int last_frame = -1;
 };
 

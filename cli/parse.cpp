@@ -29,7 +29,8 @@ double parse_time(const std::string& option, const std::string& text) {
     if (!quantity.problem.empty()) throw UsageError(fmt::format("{} is \"{}\", {}", option, text, quantity.problem));
     seconds = quantity.value;
   }
-  if (!std::isfinite(seconds) || seconds < 0) throw UsageError(fmt::format("{} is \"{}\", must be a time from 0 on, like 0.2s", option, text));
+  if (!std::isfinite(seconds) || seconds < 0)
+    throw UsageError(fmt::format("{} is \"{}\", must be a time from 0 on, like 0.2s", option, text));
   return seconds;
 }
 

@@ -56,8 +56,8 @@ void Progress::finish(double done) {
 std::string Progress::line(double done, double elapsed) const {
   const double share = total_ > 0 ? std::clamp(done / total_, 0.0, 1.0) : 1.0;
   const double rate = elapsed > 0 ? done / elapsed : 0;
-  const std::string amount = unit_ == "s" ? fmt::format("{:.2f} of {:.2f} s", done, total_)
-                                          : fmt::format("{:.0f} of {:.0f} {}", done, total_, unit_);
+  const std::string amount =
+      unit_ == "s" ? fmt::format("{:.2f} of {:.2f} s", done, total_) : fmt::format("{:.0f} of {:.0f} {}", done, total_, unit_);
   const std::string left = rate > 0 && share < 1 ? fmt::format(", {} left", readable_time((total_ - done) / rate)) : "";
   return fmt::format("{:3.0f} %  {}, {:.3g} {}/s{}", 100 * share, amount, rate, unit_, left);
 }

@@ -26,7 +26,8 @@ std::string as_override(const std::string& wish) {
 void declare_scene(Arguments& arguments, SceneArguments& scene) {
   arguments.positional("SCENE", scene.scene, "scene file (TOML)");
   arguments.repeatable("--set", scene.set, "PATH=VALUE", "change a value of the scene: --set vehicle.sedan.speed=\"50 km/h\"");
-  arguments.repeatable("--effects", scene.effects, "NAME=on|off|auto", "force a physical effect on or off, or leave it to the plan");
+  arguments.repeatable("--effects", scene.effects, "NAME=on|off|auto",
+                       "force a physical effect on or off, or leave it to the plan");
   arguments.flag("--json", scene.json, "print the result as JSON");
   arguments.flag("-q,--quiet", scene.quiet, "no progress, no warnings of the loader");
   arguments.flag("-v,--verbose", scene.verbose, "say more");
@@ -62,9 +63,9 @@ engine::Plan plan_of(const scenes::Scene& scene) {
   for (const auto& [name, force] : scene.model.settings.effects) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     const std::string near = scenes::nearest(name, names);
-    throw UsageError(fmt::format("simulation.effects.{}: there is no effect of that name{}", name,
-                                 near.empty() ? fmt::format("; take one of {}", fmt::join(names, ", "))
-                                              : fmt::format("; did you mean {}?", near)));
+    throw UsageError(fmt::format(
+        "simulation.effects.{}: there is no effect of that name{}", name,
+        near.empty() ? fmt::format("; take one of {}", fmt::join(names, ", ")) : fmt::format("; did you mean {}?", near)));
   }
   return plan;
 }
@@ -97,6 +98,8 @@ engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan
   return recording;
 }
 
-int exit_code_of(const engine::Recording& recording) { return recording.failure ? kModelDiverged : kDone; }
+int exit_code_of(const engine::Recording& recording) {
+  return recording.failure ? kModelDiverged : kDone;
+}
 
 }  // namespace cli

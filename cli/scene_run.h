@@ -14,8 +14,8 @@ namespace cli {
 
 struct SceneArguments {
   std::string scene;
-  std::vector<std::string> set;       // path.to.key=value
-  std::vector<std::string> effects;   // name=on|off|auto
+  std::vector<std::string> set;      // path.to.key=value
+  std::vector<std::string> effects;  // name=on|off|auto
   std::string progress = "auto";
   bool quiet = false;
   bool verbose = false;

@@ -31,7 +31,9 @@ void list_cameras(const scenes::Scene& scene, bool json) {
   nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
   for (const render::Camera& camera : scene.stage.cameras) {
     cameras.push_back({{"name", camera.name}, {"kind", kKinds[static_cast<int>(camera.kind)]}, {"follow", camera.follow}});
-    if (!json) fmt::print("{:<16} {}{}\n", camera.name, kKinds[static_cast<int>(camera.kind)], camera.follow.empty() ? "" : " " + camera.follow);
+    if (!json)
+      fmt::print("{:<16} {}{}\n", camera.name, kKinds[static_cast<int>(camera.kind)],
+                 camera.follow.empty() ? "" : " " + camera.follow);
   }
   if (json) fmt::print("{}\n", cameras.dump(2));
 }
@@ -52,12 +54,13 @@ void dry_run(const scenes::Scene& scene, const FilmPlan& plan, bool json) {
   const int frames = plan.stills.empty() ? count(frames_of(plan, scene.stage, empty)) : static_cast<int>(plan.stills.size());
   const long steps = std::lround(settings.duration / settings.step);
   if (json) {
-    const nlohmann::ordered_json out = {{"output", plan.job.output.string()}, {"steps", steps},           {"frames", frames},
-                                        {"width", plan.job.width},            {"height", plan.job.height}, {"fps", plan.job.fps}};
+    const nlohmann::ordered_json out = {
+        {"output", plan.job.output.string()}, {"steps", steps},     {"frames", frames}, {"width", plan.job.width},
+        {"height", plan.job.height},          {"fps", plan.job.fps}};
     fmt::print("{}\n", out.dump(2));
   } else {
-    fmt::print("{}: at most {} steps of {} s, {} frames of {}x{}\n", plan.job.output.string(), steps, settings.step, frames, plan.job.width,
-               plan.job.height);
+    fmt::print("{}: at most {} steps of {} s, {} frames of {}x{}\n", plan.job.output.string(), steps, settings.step, frames,
+               plan.job.width, plan.job.height);
   }
 }
 
@@ -76,8 +79,8 @@ Drawn draw_stills(const FilmPlan& plan, const render::Stage& stage, const engine
 Drawn draw_film(const FilmPlan& plan, const render::Stage& stage, const engine::Recording& recording, ShowProgress show) {
   std::vector<Stretch> stretches = frames_of(plan, stage, recording);
   if (stretches.empty()) {
-    throw UsageError(fmt::format("no frame lies in the part asked for; the run ends at {:.3f} s and its film has {} frames", recording.end_time(),
-                                 render::film(stage, recording, plan.job.fps).size()));
+    throw UsageError(fmt::format("no frame lies in the part asked for; the run ends at {:.3f} s and its film has {} frames",
+                                 recording.end_time(), render::film(stage, recording, plan.job.fps).size()));
   }
   // a video is one file whatever was cut out of it; a sequence keeps the numbers of the whole film
   if (plan.job.container == render::Container::mp4) {
@@ -121,13 +124,18 @@ int render_scene(const RenderWish& wish) {
 
   const double seconds = clock_seconds() - start;
   if (wish.scene.json) {
-    const nlohmann::ordered_json out = {{"files", drawn.files},         {"frames", drawn.frames},          {"width", plan.job.width},
-                                        {"height", plan.job.height},    {"fps", plan.job.fps},             {"simulated_s", recording.end_time()},
-                                        {"simulate_wall_s", recording.wall_s}, {"wall_s", seconds}};
+    const nlohmann::ordered_json out = {{"files", drawn.files},
+                                        {"frames", drawn.frames},
+                                        {"width", plan.job.width},
+                                        {"height", plan.job.height},
+                                        {"fps", plan.job.fps},
+                                        {"simulated_s", recording.end_time()},
+                                        {"simulate_wall_s", recording.wall_s},
+                                        {"wall_s", seconds}};
     fmt::print("{}\n", out.dump(2));
   } else {
-    fmt::print("{}: {} frame{}, {}x{}, {:.1f} s\n", fmt::join(drawn.files, ", "), drawn.frames, drawn.frames == 1 ? "" : "s", plan.job.width,
-               plan.job.height, seconds);
+    fmt::print("{}: {} frame{}, {}x{}, {:.1f} s\n", fmt::join(drawn.files, ", "), drawn.frames, drawn.frames == 1 ? "" : "s",
+               plan.job.width, plan.job.height, seconds);
   }
   return exit_code_of(recording);
 }

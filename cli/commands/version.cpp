@@ -21,8 +21,10 @@ int version(bool json) {
   const std::string build = fmt::format("{}, {}", CRASHREEL_BUILD, kCompiler);
   const std::string gl = render::gl_description();
   if (json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"version", CRASHREEL_VERSION}, {"build", build}, {"libraries", CRASHREEL_LIBRARIES}, {"gl", gl}}
-                           .dump(2));
+    fmt::print(
+        "{}\n",
+        nlohmann::ordered_json{{"version", CRASHREEL_VERSION}, {"build", build}, {"libraries", CRASHREEL_LIBRARIES}, {"gl", gl}}
+            .dump(2));
   } else {
     fmt::print("crashreel {}\nbuild      {}\nlibraries  {}\ngl         {}\n", CRASHREEL_VERSION, build, CRASHREEL_LIBRARIES, gl);
   }

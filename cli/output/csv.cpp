@@ -32,8 +32,8 @@ void write_trajectory(const engine::Recording& recording, WholeFile& file) {
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
       const auto& [X_WB, V_WB] = snapshot.bodies[i];
       fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", snapshot.time,
-                     field(recording.body_names[i]), X_WB.p.x(), X_WB.p.y(), X_WB.p.z(), X_WB.q.w(), X_WB.q.x(), X_WB.q.y(), X_WB.q.z(),
-                     V_WB.v.x(), V_WB.v.y(), V_WB.v.z(), V_WB.w.x(), V_WB.w.y(), V_WB.w.z());
+                     field(recording.body_names[i]), X_WB.p.x(), X_WB.p.y(), X_WB.p.z(), X_WB.q.w(), X_WB.q.x(), X_WB.q.y(),
+                     X_WB.q.z(), V_WB.v.x(), V_WB.v.y(), V_WB.v.z(), V_WB.w.x(), V_WB.w.y(), V_WB.w.z());
     }
     file.write({rows.data(), rows.size()});
   }
@@ -48,9 +48,9 @@ void write_contacts(const engine::Recording& recording, WholeFile& file) {
     rows.clear();
     for (const engine::ContactRecord& c : snapshot.contacts) {
       fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", snapshot.time,
-                     engine::name_of(c.kind), field(body_name(recording, c.body_a)), field(body_name(recording, c.body_b)), c.point.x(),
-                     c.point.y(), c.point.z(), c.normal.x(), c.normal.y(), c.normal.z(), c.depth, c.normal_force, c.tangential_force,
-                     c.normal_impulse, c.tangential_impulse, c.slip, engine::name_of(c.state));
+                     engine::name_of(c.kind), field(body_name(recording, c.body_a)), field(body_name(recording, c.body_b)),
+                     c.point.x(), c.point.y(), c.point.z(), c.normal.x(), c.normal.y(), c.normal.z(), c.depth, c.normal_force,
+                     c.tangential_force, c.normal_impulse, c.tangential_impulse, c.slip, engine::name_of(c.state));
     }
     file.write({rows.data(), rows.size()});
   }

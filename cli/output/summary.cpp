@@ -14,16 +14,23 @@ using Json = nlohmann::ordered_json;
 
 const char* name_of(engine::Scheme scheme) {
   switch (scheme) {
-    case engine::Scheme::stepping: return "stepping";
-    case engine::Scheme::rk4: return "rk4";
-    case engine::Scheme::adaptive: return "adaptive";
+    case engine::Scheme::stepping:
+      return "stepping";
+    case engine::Scheme::rk4:
+      return "rk4";
+    case engine::Scheme::adaptive:
+      return "adaptive";
   }
   return "";
 }
 
-const char* name_of(engine::ContactLaw law) { return law == engine::ContactLaw::compliant ? "compliant" : "default_auto"; }
+const char* name_of(engine::ContactLaw law) {
+  return law == engine::ContactLaw::compliant ? "compliant" : "default_auto";
+}
 
-Json vector_json(const engine::Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+Json vector_json(const engine::Vec3& v) {
+  return Json::array({v.x(), v.y(), v.z()});
+}
 
 Json settings_json(const engine::Settings& s) {
   return {{"step_s", s.step},
@@ -93,7 +100,9 @@ Json diagnostics_json(const engine::Diagnostics& d) {
           {"warnings", d.warnings}};
 }
 
-double per_second(double amount, double seconds) { return seconds > 0 ? amount / seconds : 0; }
+double per_second(double amount, double seconds) {
+  return seconds > 0 ? amount / seconds : 0;
+}
 
 Json cost_json(const engine::Recording& recording) {
   Json effects = Json::array();
@@ -133,12 +142,14 @@ Json summary_json(const scenes::Scene& scene, const engine::Recording& recording
                       {"snapshots", recording.snapshots.size()},
                       {"hash", fmt::format("{:016x}", engine::hash(recording))}};
   if (const auto& failure = recording.failure) {
-    out["failure"] = {{"time_s", failure->time}, {"body", failure->body}, {"effect", failure->effect}, {"message", failure->message}};
+    out["failure"] = {
+        {"time_s", failure->time}, {"body", failure->body}, {"effect", failure->effect}, {"message", failure->message}};
   }
   return out;
 }
 
-std::string summary_text(const scenes::Scene& scene, const engine::Recording& recording, const std::vector<engine::Metric>& metrics) {
+std::string summary_text(const scenes::Scene& scene, const engine::Recording& recording,
+                         const std::vector<engine::Metric>& metrics) {
   const engine::Diagnostics& d = recording.diagnostics;
   const engine::Energies& first = recording.snapshots.front().energies;
   const engine::Energies& last = recording.snapshots.back().energies;
@@ -148,7 +159,8 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
   for (const engine::Metric& metric : metrics) {
     line(metric.object.empty() ? metric.key : metric.key + " " + metric.object, fmt::format("{:.6g}", metric.value));
   }
-  line("energy", fmt::format("{:.6g} J at first, {:.6g} J at last, unexplained {:.3g} J", initial, last.kinetic + last.potential, last.residual));
+  line("energy", fmt::format("{:.6g} J at first, {:.6g} J at last, unexplained {:.3g} J", initial, last.kinetic + last.potential,
+                             last.residual));
   line("largest joint gap", fmt::format("{:.3g} m", d.max_joint_gap));
   line("penetration", fmt::format("{:.3g} m at most, {:.3g} m at the end", d.max_penetration, d.rest_penetration));
   line("solver residual", fmt::format("{:.3g} m/s at most", d.max_solver_residual));

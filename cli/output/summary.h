@@ -1,4 +1,5 @@
-// summary.json, and the same in a few readable lines. Keys are a contract with other people's scripts: grow them, never rename them.
+// summary.json, and the same in a few readable lines. Keys are a contract with other people's scripts: grow them, never rename
+// them.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -20,7 +20,9 @@ struct BadScene {
   std::string message;
 };
 
-void PrintTo(const BadScene& scene, std::ostream* out) { *out << scene.name; }
+void PrintTo(const BadScene& scene, std::ostream* out) {
+  *out << scene.name;
+}
 
 class BadSceneIsRefused : public testing::TestWithParam<BadScene> {};
 
@@ -49,7 +51,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"negative_mass", ball_with("\"2 kg\"", "\"-2 kg\""),
                  "case.toml:9:8: body.ball.mass is \"-2 kg\", must be greater than 0 kg\n"},
         BadScene{"impossible_inertia", ball_with("friction = 0.5", "inertia = \"1 1 3 kg m^2\""),
-                 "case.toml:13:11: body.ball.inertia is \"1 1 3 kg m^2\", must be physically possible; of its principal moments 1 + 1 is less than 3 kg m^2\n"},
+                 "case.toml:13:11: body.ball.inertia is \"1 1 3 kg m^2\", must be physically possible; of its principal moments 1 "
+                 "+ 1 is less than 3 kg m^2\n"},
         BadScene{"exponent_below_two", ball_with("friction = 0.5", "exponent = 1.5"),
                  "case.toml:13:12: body.ball.exponent is 1.5, must lie in 2..100; a hyper-ellipsoid needs n >= 2\n"},
         BadScene{"unknown_key", ball_with("friction = 0.5", "fricton = 0.5"),
@@ -60,8 +63,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "case.toml:9:8: body.ball.mass = 2 needs a unit: write \"2 kg\" or \"4.41 lb\"\n"},
         BadScene{"step_of_zero", ball_with("duration = \"0.4 s\"", "step = \"0 ms\""),
                  "case.toml:4:8: simulation.step is \"0 ms\", must be greater than 0 and at most 0.1 s; 1 ms is a good start\n"},
-        BadScene{"missing_mesh", ball_with("axes = \"0.1 0.1 0.1 m\"", "mesh = \"none.obj\""),
-                 "case.toml:10:8: body.ball.mesh is \"none.obj\", must be a mesh file; there is no none.obj and no " CRASHREEL_SOURCE_DIR "/none.obj\n"}),
+        BadScene{
+            "missing_mesh", ball_with("axes = \"0.1 0.1 0.1 m\"", "mesh = \"none.obj\""),
+            "case.toml:10:8: body.ball.mesh is \"none.obj\", must be a mesh file; there is no none.obj and no " CRASHREEL_SOURCE_DIR
+            "/none.obj\n"}),
     [](const auto& scene) { return scene.param.name; });
 
 TEST(BadInput, SeveralErrorsAreToldAtOnce) {
@@ -100,7 +105,9 @@ struct BadCommand {
   std::string message;
 };
 
-void PrintTo(const BadCommand& command, std::ostream* out) { *out << command.name; }
+void PrintTo(const BadCommand& command, std::ostream* out) {
+  *out << command.name;
+}
 
 class BadCommandIsRefused : public testing::TestWithParam<BadCommand> {};
 
@@ -123,43 +130,97 @@ TEST_P(BadCommandIsRefused, WithItsMessageAndExitCode) {
 INSTANTIATE_TEST_SUITE_P(
     Commands, BadCommandIsRefused,
     testing::Values(
-        BadCommand{"no_command", {}, kAuthor, ": no command given; take one of render, simulate, plan, check, compare, library, schema, version"},
+        BadCommand{"no_command",
+                   {},
+                   kAuthor,
+                   ": no command given; take one of render, simulate, plan, check, compare, library, schema, version"},
         BadCommand{"unknown_command", {"rendr"}, kAuthor, ": unknown command rendr; did you mean render?"},
-        BadCommand{"unknown_option", {"render", "ball.toml", "--siz", "64x64"}, kAuthor, ": crashreel render: unknown option --siz; did you mean --size?"},
+        BadCommand{"unknown_option",
+                   {"render", "ball.toml", "--siz", "64x64"},
+                   kAuthor,
+                   ": crashreel render: unknown option --siz; did you mean --size?"},
         BadCommand{"unknown_option_alone", {"--verbos"}, kAuthor, ": unknown option --verbos"},
-        BadCommand{"second_scene", {"render", "ball.toml", "other.toml"}, kAuthor, ": crashreel render: unexpected argument \"other.toml\""},
+        BadCommand{"second_scene",
+                   {"render", "ball.toml", "other.toml"},
+                   kAuthor,
+                   ": crashreel render: unexpected argument \"other.toml\""},
         BadCommand{"no_scene", {"render"}, kAuthor, ": crashreel render: SCENE is required; see crashreel render --help"},
-        BadCommand{"no_folder", {"simulate", "ball.toml"}, kAuthor, ": crashreel simulate: --output is required; see crashreel simulate --help"},
-        BadCommand{"bad_quality", {"render", "ball.toml", "--quality", "best"}, kAuthor,
+        BadCommand{"no_folder",
+                   {"simulate", "ball.toml"},
+                   kAuthor,
+                   ": crashreel simulate: --output is required; see crashreel simulate --help"},
+        BadCommand{"bad_quality",
+                   {"render", "ball.toml", "--quality", "best"},
+                   kAuthor,
                    ": crashreel render: --quality: \"best\" is none of draft, standard, fine; see crashreel render --help"},
-        BadCommand{"odd_size", {"render", "ball.toml", "--size", "641x480"}, kAuthor,
+        BadCommand{"odd_size",
+                   {"render", "ball.toml", "--size", "641x480"},
+                   kAuthor,
                    ": --size is 641x480, H.264 needs an even width and height; take 642x480, or PNGs"},
-        BadCommand{"size_not_a_size", {"render", "ball.toml", "--size", "0x10"}, kAuthor, ": --size is \"0x10\", each side must lie in 16..16384 pixels"},
-        BadCommand{"size_nonsense", {"render", "ball.toml", "--size", "nanx1e3"}, kAuthor, ": --size is \"nanx1e3\", must be WIDTHxHEIGHT, like 1280x720"},
+        BadCommand{"size_not_a_size",
+                   {"render", "ball.toml", "--size", "0x10"},
+                   kAuthor,
+                   ": --size is \"0x10\", each side must lie in 16..16384 pixels"},
+        BadCommand{"size_nonsense",
+                   {"render", "ball.toml", "--size", "nanx1e3"},
+                   kAuthor,
+                   ": --size is \"nanx1e3\", must be WIDTHxHEIGHT, like 1280x720"},
         BadCommand{"fps_nan", {"render", "ball.toml", "--fps", "nan"}, kAuthor, ": --fps is \"nan\", must be a number in 1..1000"},
-        BadCommand{"jobs_zero", {"render", "ball.toml", "--jobs", "0"}, kAuthor, ": --jobs is \"0\", must be a whole number in 1..256"},
-        BadCommand{"at_late", {"render", "ball.toml", "-o", "a.png", "--at", "9s"}, kAuthor, ": --at is \"9s\", the scene ends at 0.4 s"},
-        BadCommand{"at_infinite", {"render", "ball.toml", "-o", "a.png", "--at", "1e999"}, kAuthor, ": --at is \"1e999\", must be a time; write it like \"1 s\""},
-        BadCommand{"png_without_at", {"render", "ball.toml", "-o", "a.png"}, kAuthor,
+        BadCommand{
+            "jobs_zero", {"render", "ball.toml", "--jobs", "0"}, kAuthor, ": --jobs is \"0\", must be a whole number in 1..256"},
+        BadCommand{
+            "at_late", {"render", "ball.toml", "-o", "a.png", "--at", "9s"}, kAuthor, ": --at is \"9s\", the scene ends at 0.4 s"},
+        BadCommand{"at_infinite",
+                   {"render", "ball.toml", "-o", "a.png", "--at", "1e999"},
+                   kAuthor,
+                   ": --at is \"1e999\", must be a time; write it like \"1 s\""},
+        BadCommand{"png_without_at",
+                   {"render", "ball.toml", "-o", "a.png"},
+                   kAuthor,
                    ": -o is \"a.png\", a single PNG needs --at TIME; for a sequence name a folder or frame_%05d.png"},
-        BadCommand{"unknown_ending", {"render", "ball.toml", "-o", "a.avi"}, kAuthor, ": -o is \"a.avi\", must end in .mp4 or .png, or name a folder"},
-        BadCommand{"wild_pattern", {"render", "ball.toml", "-o", "a%s%n.png"}, kAuthor,
+        BadCommand{"unknown_ending",
+                   {"render", "ball.toml", "-o", "a.avi"},
+                   kAuthor,
+                   ": -o is \"a.avi\", must end in .mp4 or .png, or name a folder"},
+        BadCommand{"wild_pattern",
+                   {"render", "ball.toml", "-o", "a%s%n.png"},
+                   kAuthor,
                    ": -o is \"a%s%n.png\", a pattern must hold one %05d in its file name and end in .png"},
-        BadCommand{"unknown_camera", {"render", "ball.toml", "--camera", "sid"}, kAuthor, ": --camera is \"sid\", the scene has side, above; did you mean side?"},
-        BadCommand{"existing_video", {"render", "ball.toml", "-o", "there.mp4"}, kAuthor,
+        BadCommand{"unknown_camera",
+                   {"render", "ball.toml", "--camera", "sid"},
+                   kAuthor,
+                   ": --camera is \"sid\", the scene has side, above; did you mean side?"},
+        BadCommand{"existing_video",
+                   {"render", "ball.toml", "-o", "there.mp4"},
+                   kAuthor,
                    ": there.mp4 exists; give --overwrite to replace it, or another -o"},
-        BadCommand{"existing_still", {"render", "ball.toml", "-o", "there.png", "--at", "0.1s"}, kAuthor,
+        BadCommand{"existing_still",
+                   {"render", "ball.toml", "-o", "there.png", "--at", "0.1s"},
+                   kAuthor,
                    ": there.png exists; give --overwrite to replace it, or another -o"},
-        BadCommand{"existing_frames", {"render", "ball.toml", "-o", "frames"}, kAuthor,
+        BadCommand{"existing_frames",
+                   {"render", "ball.toml", "-o", "frames"},
+                   kAuthor,
                    ": frames/frame_00007.png exists; give --overwrite to replace frames, or another -o"},
-        BadCommand{"unwritable_video", {"render", "ball.toml", "-o", "there.png/a.mp4"}, kMachine, ": writing into there.png: it is not a folder"},
-        BadCommand{"unwritable_folder", {"simulate", "ball.toml", "-o", "none/none/out"}, kMachine,
+        BadCommand{"unwritable_video",
+                   {"render", "ball.toml", "-o", "there.png/a.mp4"},
+                   kMachine,
+                   ": writing into there.png: it is not a folder"},
+        BadCommand{"unwritable_folder",
+                   {"simulate", "ball.toml", "-o", "none/none/out"},
+                   kMachine,
                    ": making the folder none/none/out: No such file or directory"},
-        BadCommand{"unknown_effect", {"plan", "ball.toml", "--effects", "gravty=off"}, kAuthor,
+        BadCommand{"unknown_effect",
+                   {"plan", "ball.toml", "--effects", "gravty=off"},
+                   kAuthor,
                    ": simulation.effects.gravty: there is no effect of that name; did you mean gravity?"},
-        BadCommand{"effect_state", {"plan", "ball.toml", "--effects", "gravity=no"}, kAuthor,
+        BadCommand{"effect_state",
+                   {"plan", "ball.toml", "--effects", "gravity=no"},
+                   kAuthor,
                    ": --effects is \"gravity=no\", must be NAME=on, NAME=off or NAME=auto"},
-        BadCommand{"frames_reversed", {"render", "ball.toml", "--frames", "9:3"}, kAuthor,
+        BadCommand{"frames_reversed",
+                   {"render", "ball.toml", "--frames", "9:3"},
+                   kAuthor,
                    ": --frames is \"9:3\", must be FIRST:LAST, like 10:20, counted from 0, both drawn"}),
     [](const auto& command) { return command.param.name; });
 

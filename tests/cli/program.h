@@ -45,7 +45,8 @@ struct Result {
 };
 
 /// Runs the program inside `folder`, with NAME=value pairs added to the environment.
-inline Result run(const Folder& folder, const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {}) {
+inline Result run(const Folder& folder, const std::vector<std::string>& arguments,
+                  const std::vector<std::string>& environment = {}) {
   const auto quoted = [](const std::string& text) {
     std::string out = "'";
     for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);

@@ -70,7 +70,8 @@ TEST(Render, StillsAreNamedByTheirTimes) {
   EXPECT_THAT(files_in(folder / "stills"), ElementsAre("ball_0.100s.png", "ball_0.200s.png"));
   EXPECT_THAT(contents(folder / "stills/ball_0.100s.png"), HasSubstr("PNG"));
   // an odd size is no matter for a PNG
-  const Result odd = run(folder, {"render", "ball.toml", "-o", "one.png", "--at", "0.1", "--size", "161x91", "--quality", "draft", "--json"});
+  const Result odd =
+      run(folder, {"render", "ball.toml", "-o", "one.png", "--at", "0.1", "--size", "161x91", "--quality", "draft", "--json"});
   ASSERT_EQ(odd.code, 0) << odd.err;
   EXPECT_EQ(Json::parse(odd.out).at("files"), Json::array({"one.png"}));
   EXPECT_EQ(Json::parse(odd.out).at("width"), 161);

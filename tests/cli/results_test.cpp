@@ -59,9 +59,13 @@ double sum(const std::vector<Row>& rows, const std::string& column) {
   return total;
 }
 
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+std::string first_line(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
 
-std::string gallery(const std::string& name) { return std::string(CRASHREEL_SOURCE_DIR) + "/scenes/gallery/" + name; }
+std::string gallery(const std::string& name) {
+  return std::string(CRASHREEL_SOURCE_DIR) + "/scenes/gallery/" + name;
+}
 
 }  // namespace
 
@@ -121,12 +125,14 @@ TEST(Simulate, SummaryHasEveryKeyOfTheContract) {
     EXPECT_TRUE(summary.at("diagnostics").contains(key)) << key;
   }
   EXPECT_EQ(summary.at("cost").at("steps"), 400);
-  for (const char* key : {"wall_s", "steps_per_s", "realtime_factor", "effects"}) EXPECT_TRUE(summary.at("cost").contains(key)) << key;
+  for (const char* key : {"wall_s", "steps_per_s", "realtime_factor", "effects"})
+    EXPECT_TRUE(summary.at("cost").contains(key)) << key;
 }
 
 TEST(Simulate, ImpulseColumnsAddUpToTheMomentumThatWasExchanged) {
   const Folder folder;
-  const Result result = run(folder, {"simulate", gallery("puck_slide.toml"), "-o", "out", "--set", "simulation.stop_at_rest=false"});
+  const Result result =
+      run(folder, {"simulate", gallery("puck_slide.toml"), "-o", "out", "--set", "simulation.stop_at_rest=false"});
   ASSERT_EQ(result.code, 0) << result.err;
   const std::vector<Row> contacts = rows_of(contents(folder / "out/contacts.csv"));
   const double duration = number(rows_of(contents(folder / "out/trajectory.csv")).back().at("time_s"));
@@ -137,10 +143,11 @@ TEST(Simulate, ImpulseColumnsAddUpToTheMomentumThatWasExchanged) {
   constexpr double kFriction = 0.6;   // [-] of the scene
   // the ground carries the weight the whole time; the first and the last step may each be off by their own weight
   EXPECT_NEAR(sum(contacts, "normal_impulse_Ns"), kMass * kGravity * duration, 2 * kMass * kGravity * kStep);
-  // While it slides, friction takes the whole momentum. At rest the points of the face hold against each other, which moves nothing; the row
-  // in which the puck stops counts as rest, so what friction does in one interval may be missing.
+  // While it slides, friction takes the whole momentum. At rest the points of the face hold against each other, which moves
+  // nothing; the row in which the puck stops counts as rest, so what friction does in one interval may be missing.
   std::vector<Row> sliding;
-  std::copy_if(contacts.begin(), contacts.end(), std::back_inserter(sliding), [](const Row& row) { return row.at("state") == "slide"; });
+  std::copy_if(contacts.begin(), contacts.end(), std::back_inserter(sliding),
+               [](const Row& row) { return row.at("state") == "slide"; });
   EXPECT_NEAR(sum(sliding, "tangential_impulse_Ns"), kMass * kSpeed, kFriction * kMass * kGravity * kInterval);
   for (const Row& row : contacts) {
     EXPECT_EQ(row.at("kind"), "ground");
@@ -175,7 +182,8 @@ TEST(Simulate, TheSameRunHasTheSameHashEveryTime) {
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(contents(folder / "first/trajectory.csv"), contents(folder / "second/trajectory.csv"));
   EXPECT_EQ(contents(folder / "first/contacts.csv"), contents(folder / "second/contacts.csv"));
-  const Result other = run(folder, {"simulate", "ball.toml", "-o", "third", "--json", "--set", "body.ball.velocity=1.000001 0 0 m/s"});
+  const Result other =
+      run(folder, {"simulate", "ball.toml", "-o", "third", "--json", "--set", "body.ball.velocity=1.000001 0 0 m/s"});
   EXPECT_NE(Json::parse(other.out).at("recording").at("hash"), hashes[0]) << "a hash that never changes proves nothing";
 }
 
@@ -228,7 +236,8 @@ TEST(Version, NamesWhatAReportNeedsToBeRepeatable) {
   ASSERT_EQ(result.code, 0) << result.err;
   const Json version = Json::parse(result.out);
   EXPECT_THAT(version.at("build").get<std::string>(), HasSubstr("Release"));
-  EXPECT_THAT(version.at("libraries").get<std::string>(), testing::MatchesRegex("Eigen [0-9.]+, assimp [0-9.]+, OSMesa [0-9.]+, .*"));
+  EXPECT_THAT(version.at("libraries").get<std::string>(),
+              testing::MatchesRegex("Eigen [0-9.]+, assimp [0-9.]+, OSMesa [0-9.]+, .*"));
   EXPECT_THAT(version.at("gl").get<std::string>(), HasSubstr("llvmpipe"));
 }
 

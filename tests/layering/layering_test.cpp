@@ -32,14 +32,16 @@ const std::vector<Wall> kWalls = {
     {"engine/laws/", {"engine/laws/", "engine/math/"}},
     {"engine/model/", {"engine/model/", "engine/geometry/", "engine/math/"}},
     {"render/", {"render/", "engine/recording.h", "engine/math/", "engine/geometry/"}},
-    {"render/overlays/", {"render/overlays/", "render/draw_list.h", "render/stage.h", "render/arrange.h", "engine/recording.h", "engine/math/", "engine/geometry/"}},
+    {"render/overlays/",
+     {"render/overlays/", "render/draw_list.h", "render/stage.h", "render/arrange.h", "engine/recording.h", "engine/math/",
+      "engine/geometry/"}},
     {"scenes/", {"scenes/", "render/stage.h", "engine/"}},
     {"cli/", {"cli/", "scenes/", "render/", "engine/"}},
 };
 
 /// Libraries, and the only places that see them.
 struct Library {
-  std::string header;                  // a regular expression over what stands between the brackets
+  std::string header;  // a regular expression over what stands between the brackets
   std::vector<std::string> seen_by;
 };
 
@@ -82,7 +84,9 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& be
 }
 
 /// A header of the language: no folder, no ending.
-bool is_standard(const std::string& header) { return header.find_first_of("/.") == std::string::npos; }
+bool is_standard(const std::string& header) {
+  return header.find_first_of("/.") == std::string::npos;
+}
 
 std::vector<std::string> broken_walls(const std::string& file, const std::string& text) {
   std::vector<std::string> out;
@@ -102,7 +106,8 @@ std::vector<std::string> broken_walls(const std::string& file, const std::string
       known = true;
       if (!starts_with_any(file, library.seen_by)) out.push_back(file + " includes <" + include.target + ">");
     }
-    if (!known && !is_standard(include.target)) out.push_back(file + " includes <" + include.target + ">, which no room is allowed");
+    if (!known && !is_standard(include.target))
+      out.push_back(file + " includes <" + include.target + ">, which no room is allowed");
   }
   return out;
 }
@@ -169,7 +174,9 @@ TEST(Layering, NoFileIncludesWhatItsRoomMayNotKnow) {
   EXPECT_THAT(broken, IsEmpty());
 }
 
-TEST(Layering, NoHeadersIncludeEachOtherInACircle) { EXPECT_THAT(circles(sources()), IsEmpty()); }
+TEST(Layering, NoHeadersIncludeEachOtherInACircle) {
+  EXPECT_THAT(circles(sources()), IsEmpty());
+}
 
 TEST(Layering, EveryIncludeOfOursNamesAFileThatIsThere) {
   const auto files = sources();
@@ -185,7 +192,8 @@ TEST(Layering, EveryIncludeOfOursNamesAFileThatIsThere) {
 // the checker itself: a wall that lets everything through would pass the tests above
 
 TEST(LayeringChecker, SeesAnArrowUpward) {
-  EXPECT_THAT(broken_walls("engine/step.cpp", "#include \"render/stage.h\"\n"), ElementsAre("engine/step.cpp includes render/stage.h"));
+  EXPECT_THAT(broken_walls("engine/step.cpp", "#include \"render/stage.h\"\n"),
+              ElementsAre("engine/step.cpp includes render/stage.h"));
   EXPECT_THAT(broken_walls("render/film.cpp", "#include \"engine/model/model.h\"\n"), SizeIs(1));
   EXPECT_THAT(broken_walls("scenes/loader/film.cpp", "#include \"render/film.h\"\n"), SizeIs(1));
   EXPECT_THAT(broken_walls("engine/laws/friction.h", "#include \"engine/model/model.h\"\n"), SizeIs(1));
@@ -197,7 +205,8 @@ TEST(LayeringChecker, SeesALibraryWhereItDoesNotBelong) {
   EXPECT_THAT(broken_walls("engine/step.cpp", "  # include <chrono>\n"), SizeIs(1));
   EXPECT_THAT(broken_walls("render/film.cpp", "#include <GL/osmesa.h>\n"), SizeIs(1));
   EXPECT_THAT(broken_walls("cli/main.cpp", "#include <boost/any.hpp>\n"), SizeIs(1));
-  EXPECT_THAT(broken_walls("engine/step.cpp", "#include <vector>\n#include <Eigen/Core>\n#include \"engine/state.h\"\n"), IsEmpty());
+  EXPECT_THAT(broken_walls("engine/step.cpp", "#include <vector>\n#include <Eigen/Core>\n#include \"engine/state.h\"\n"),
+              IsEmpty());
 }
 
 TEST(LayeringChecker, SeesACircle) {
