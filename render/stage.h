@@ -62,6 +62,7 @@ struct MeshActor {
 struct WheelActor {
   int vehicle = 0;
   int wheel = 0;
+  int body = -1;                     // of the vehicle: its attitude turns the wheel
   bool left = true;
   std::shared_ptr<const Mesh> mesh;  // axle along y, outside towards +y, centred at the hub
 };

@@ -1,0 +1,98 @@
+#include "render/arrange.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "render/cameras.h"
+#include "render/matrix.h"
+#include "render/overlays/overlay.h"
+
+namespace render {
+namespace {
+
+const Camera& camera_named(const Stage& stage, const std::string& name) {
+  if (name.empty()) return stage.cameras.front();
+  const auto at = std::find_if(stage.cameras.begin(), stage.cameras.end(), [&](const Camera& c) { return c.name == name; });
+  assert(at != stage.cameras.end() && "the loader has checked the camera's name");
+  return *at;
+}
+
+void add_mesh(DrawList& list, const std::shared_ptr<const Mesh>& mesh, const Mat4& model, const std::vector<Material>& repaint) {
+  MeshItem item;
+  item.mesh = mesh;
+  item.model = to_gl(model);
+  item.materials = mesh->materials;
+  for (Material& m : item.materials)
+    for (const Material& other : repaint)
+      if (other.name == m.name) m = other;
+  list.meshes.push_back(std::move(item));
+}
+
+void add_ellipsoid(DrawList& list, const engine::HyperEllipsoid& shape, const Pose& X, const Material& material, bool raster) {
+  list.ellipsoids.push_back({shape, to_gl(rigid(X)), material, raster, static_cast<std::uint32_t>(list.ellipsoids.size())});
+}
+
+/// Segments, and a ball at each joint that closes the gap between them: a figure, not a string of beads.
+void add_person(DrawList& list, const PersonActor& person, const engine::Snapshot& now) {
+  const bool raster = person.look == PersonLook::raster;
+  for (const PersonActor::Segment& s : person.segments) {
+    const Pose& X = now.bodies[static_cast<std::size_t>(s.body)].X_WB;
+    add_ellipsoid(list, s.shape, X, s.material, raster);
+    if (raster || s.parent < 0 || person.look == PersonLook::segments) continue;
+    const PersonActor::Segment& parent = person.segments[static_cast<std::size_t>(s.parent)];
+    auto girth = [](const engine::HyperEllipsoid& e) { return std::min(e.semi_axes.x(), e.semi_axes.y()); };
+    const double radius = 0.98 * std::min(girth(s.shape), girth(parent.shape));
+    const Pose& X_P = now.bodies[static_cast<std::size_t>(parent.body)].X_WB;
+    add_ellipsoid(list, {Vec3::Constant(radius), 2}, {X_P * s.joint_P, X.q}, s.material, false);
+  }
+}
+
+}  // namespace
+
+std::vector<Moment> film(const Stage& stage, const engine::Recording& recording, double fps) {
+  std::vector<Shot> shots = stage.shots;
+  if (shots.empty()) shots.push_back({stage.cameras.front().name, 0, recording.end_time(), 1, 0});
+  std::vector<Moment> moments;
+  double left_over = 0;   // [s] of film between the last frame and the end of its shot: cuts do not move the clock
+  for (const Shot& shot : shots) {
+    const double length = shot.speed == 0 ? shot.hold : (shot.to - shot.from) / shot.speed;
+    double at = left_over;
+    for (; at < length - 1e-9; at += 1 / fps)
+      moments.push_back({shot.speed == 0 ? shot.from : shot.from + at * shot.speed, shot.camera, shot.speed});
+    left_over = at - length;
+  }
+  return moments;
+}
+
+DrawList arrange(const Stage& stage, const engine::Recording& recording, const Moment& moment, double aspect) {
+  const Camera& camera = camera_named(stage, moment.camera);
+  const engine::Snapshot now = recording.at(moment.time);
+  DrawList list;
+  list.view = view_of(camera, recording, moment.time, aspect);
+  list.sky = stage.sky;
+  list.road = stage.road;
+  for (const EllipsoidActor& actor : stage.ellipsoids)
+    add_ellipsoid(list, actor.shape, now.bodies[static_cast<std::size_t>(actor.body)].X_WB, actor.material, false);
+  for (const PersonActor& person : stage.persons) add_person(list, person, now);
+  for (const MeshActor& actor : stage.meshes) {
+    const Pose X_WB = actor.body < 0 ? Pose{} : now.bodies[static_cast<std::size_t>(actor.body)].X_WB;
+    add_mesh(list, actor.mesh, rigid(X_WB * actor.X_BM), actor.repaint);
+  }
+  for (const WheelActor& actor : stage.wheels)
+    for (const engine::WheelRecord& wheel : now.wheels) {
+      if (wheel.vehicle != actor.vehicle || wheel.wheel != actor.wheel) continue;
+      const engine::Quat body = actor.body < 0 ? engine::Quat::Identity() : now.bodies[static_cast<std::size_t>(actor.body)].X_WB.q;
+      Pose X{wheel.hub, body * engine::Quat(Eigen::AngleAxisd(wheel.steer + (actor.left ? 0 : std::numbers::pi), Vec3::UnitZ())) *
+                            engine::Quat(Eigen::AngleAxisd(actor.left ? wheel.spin : -wheel.spin, Vec3::UnitY()))};
+      add_mesh(list, actor.mesh, rigid(X), {});
+    }
+  if (stage.road.terrain) add_mesh(list, stage.road.terrain, Mat4::Identity(), {});
+  const Frame frame{stage, recording, now, moment, camera, aspect};
+  for (const Overlay* overlay : overlay_table())
+    if (overlay->shown(frame)) overlay->add(frame, list);
+  return list;
+}
+
+}  // namespace render

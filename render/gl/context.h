@@ -1,0 +1,22 @@
+// An off-screen OpenGL 3.3 core context. OSMesa today; whoever replaces it changes this pair of files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace render {
+
+class GlContext {
+ public:
+  GlContext(int width, int height);   // throws RenderError
+  ~GlContext();
+  GlContext(const GlContext&) = delete;
+  GlContext& operator=(const GlContext&) = delete;
+  std::string description() const;
+
+ private:
+  void* context_ = nullptr;
+  std::vector<unsigned char> buffer_;   // OSMesa wants one to be current; pictures are read from our own framebuffer
+};
+
+}  // namespace render

@@ -1,0 +1,179 @@
+#include "render/gl/overlay_pass.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/gl/gl.h"
+#include "render/gl/shaders.h"
+#include "render/matrix.h"
+
+namespace render::gl {
+namespace {
+
+constexpr int kFloats = 12;               // per vertex: clip 3, tint 4, shape 3, extent 2
+constexpr float kNear = 0.05f;            // clip w below which a point is behind the camera
+const Float4 kOutline{0.05f, 0.05f, 0.06f, 0.85f};
+
+}  // namespace
+
+OverlayPass::OverlayPass() : program_(shaders::kOverlayVertex, shaders::kOverlayFragment) {
+  glGenVertexArrays(1, &array_);
+  glGenBuffers(1, &buffer_);
+  glBindVertexArray(array_);
+  glBindBuffer(GL_ARRAY_BUFFER, buffer_);
+  const int sizes[] = {3, 4, 3, 2};
+  std::uintptr_t offset = 0;
+  for (unsigned i = 0; i < 4; ++i) {
+    glVertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, kFloats * sizeof(float), reinterpret_cast<const void*>(offset));
+    glEnableVertexAttribArray(i);
+    offset += static_cast<std::uintptr_t>(sizes[i]) * sizeof(float);
+  }
+}
+
+OverlayPass::~OverlayPass() {
+  glDeleteBuffers(1, &buffer_);
+  glDeleteVertexArrays(1, &array_);
+}
+
+void OverlayPass::begin(const DrawList& list, int width, int height) {
+  const Mat4 m = from_gl(list.view.eye_to_clip) * from_gl(list.view.world_to_eye);
+  for (int i = 0; i < 16; ++i) clip_[i] = static_cast<float>(m.data()[i]);
+  width_ = static_cast<float>(width);
+  height_ = static_cast<float>(height);
+  scale_ = height_ / 1080;
+  vertices_.clear();
+}
+
+bool OverlayPass::project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb) const {
+  auto clip = [&](const Float3& p) {
+    Float4 c{};
+    for (std::size_t r = 0; r < 4; ++r) c[r] = clip_[r] * p[0] + clip_[4 + r] * p[1] + clip_[8 + r] * p[2] + clip_[12 + r];
+    return c;
+  };
+  Float4 ca = clip(a), cb = clip(b);
+  if (ca[3] < kNear && cb[3] < kNear) return false;
+  auto cut = [](Float4& behind, const Float4& front) {
+    const float s = (kNear - behind[3]) / (front[3] - behind[3]);
+    for (std::size_t i = 0; i < 4; ++i) behind[i] += s * (front[i] - behind[i]);
+  };
+  if (ca[3] < kNear) cut(ca, cb);
+  if (cb[3] < kNear) cut(cb, ca);
+  auto pixel = [&](const Float4& c) {
+    return Pixel{(c[0] / c[3] * 0.5f + 0.5f) * width_, (c[1] / c[3] * 0.5f + 0.5f) * height_, c[2] / c[3] * 0.5f + 0.5f, true};
+  };
+  pa = pixel(ca);
+  pb = pixel(cb);
+  return true;
+}
+
+void OverlayPass::capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour) {
+  float dx = b.x - a.x, dy = b.y - a.y;
+  const float length = std::hypot(dx, dy);
+  if (length > 1e-4f) {
+    dx /= length;
+    dy /= length;
+  } else {
+    dx = 1;
+    dy = 0;
+  }
+  const float pad = 1;
+  auto vertex = [&](const Pixel& p, float half, float along_sign, float side) {
+    const float across = side * (half + pad), along = along_sign * (half + pad);
+    const float at = along_sign < 0 ? -(half + pad) : length + half + pad;
+    const float values[kFloats] = {p.x + dx * along - dy * across, p.y + dy * along + dx * across, std::clamp(p.z, 0.f, 1.f),
+                                   colour[0], colour[1], colour[2], colour[3], across, at, half, length, 0};
+    vertices_.insert(vertices_.end(), values, values + kFloats);
+  };
+  vertex(a, half_a, -1, -1);
+  vertex(b, half_b, 1, -1);
+  vertex(b, half_b, 1, 1);
+  vertex(a, half_a, -1, -1);
+  vertex(b, half_b, 1, 1);
+  vertex(a, half_a, -1, 1);
+}
+
+void OverlayPass::polyline(const LineItem& line, float extra, const Float4& colour) {
+  const float half = 0.5f * line.width * scale_ + extra * scale_;
+  for (std::size_t i = 1; i < line.points.size(); ++i) {
+    Pixel a{}, b{};
+    if (project(line.points[i - 1], line.points[i], a, b)) capsule(a, b, half, half, colour);
+  }
+}
+
+void OverlayPass::arrow(const ArrowItem& item, float extra, const Float4& colour) {
+  Pixel a{}, b{};
+  if (!project(item.from, item.to, a, b)) return;
+  const float half = 0.5f * item.width * scale_;
+  const float length = std::hypot(b.x - a.x, b.y - a.y);
+  const float head = std::min(5.5f * half, length);
+  auto on = [&](float s) { return Pixel{a.x + (b.x - a.x) * s, a.y + (b.y - a.y) * s, a.z + (b.z - a.z) * s, true}; };
+  const float neck = length > 0 ? 1 - head / length : 0;
+  capsule(a, on(neck), half + extra * scale_, half + extra * scale_, colour);
+  // the head: a taper of short pieces
+  constexpr int kPieces = 14;
+  for (int i = 0; i < kPieces; ++i) {
+    const float s = static_cast<float>(i) / kPieces;
+    const float wide = 2.2f * half * (1 - s) + 0.25f + extra * scale_;
+    const Pixel p = on(neck + (1 - neck) * s), q = on(neck + (1 - neck) * (s + 1.0f / kPieces));
+    capsule(p, q, wide, wide, colour);
+  }
+}
+
+void OverlayPass::flush(bool depth_tested) {
+  if (vertices_.empty()) return;
+  program_.use();
+  program_.set("frame", width_, height_);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  if (depth_tested) glEnable(GL_DEPTH_TEST);
+  else glDisable(GL_DEPTH_TEST);
+  glBindVertexArray(array_);
+  glBindBuffer(GL_ARRAY_BUFFER, buffer_);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices_.size() * sizeof(float)), vertices_.data(), GL_STREAM_DRAW);
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices_.size() / kFloats));
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  vertices_.clear();
+}
+
+void OverlayPass::draw_strips(const DrawList& list, int width, int height) {
+  begin(list, width, height);
+  for (const StripItem& strip : list.strips) {
+    for (std::size_t i = 1; i < strip.left.size(); ++i) {
+      Pixel l0{}, l1{}, r0{}, r1{};
+      if (!project(strip.left[i - 1], strip.left[i], l0, l1) || !project(strip.right[i - 1], strip.right[i], r0, r1)) continue;
+      const float dark0 = strip.darkness[i - 1], dark1 = strip.darkness[i];
+      auto vertex = [&](const Pixel& p, float dark) {
+        const float values[kFloats] = {p.x, p.y, 0, 0.03f, 0.03f, 0.03f, dark, 0, 0, 1e6f, 1e6f, 0};
+        vertices_.insert(vertices_.end(), values, values + kFloats);
+      };
+      vertex(l0, dark0), vertex(r0, dark0), vertex(r1, dark1), vertex(l0, dark0), vertex(r1, dark1), vertex(l1, dark1);
+    }
+  }
+  flush(false);
+}
+
+void OverlayPass::draw(const DrawList& list, int width, int height) {
+  begin(list, width, height);
+  for (const bool behind : {true, false}) {
+    for (const LineItem& line : list.lines)
+      if (line.hidden_behind == behind && line.outline) polyline(line, 1.2f, kOutline);
+    for (const LineItem& line : list.lines)
+      if (line.hidden_behind == behind) polyline(line, 0, line.colour);
+    flush(behind);
+  }
+  for (const ArrowItem& item : list.arrows) {
+    arrow(item, 1.4f, kOutline);
+    arrow(item, 0, item.colour);
+  }
+  for (const MarkerItem& marker : list.markers) {
+    Pixel a{}, b{};
+    if (!project(marker.at, marker.at, a, b)) continue;
+    capsule(a, b, marker.radius * scale_ + 1.4f * scale_, marker.radius * scale_ + 1.4f * scale_, kOutline);
+    capsule(a, b, marker.radius * scale_, marker.radius * scale_, marker.colour);
+  }
+  flush(false);
+}
+
+}  // namespace render::gl

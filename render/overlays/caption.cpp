@@ -1,0 +1,113 @@
+// What the viewer must know: time, speeds, camera, slow motion; who made it and that it is a simulation; scale on top views.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "render/matrix.h"
+#include "render/overlays/overlay.h"
+
+namespace render {
+namespace {
+
+const Float4 kWhite{1, 1, 1, 1}, kPale{0.80f, 0.85f, 0.90f, 1}, kAmber{1, 0.70f, 0.25f, 1};
+
+std::string speed_factor(double speed) {
+  if (speed == 0) return "freeze";
+  const double inverse = 1 / speed;
+  if (std::abs(inverse - std::round(inverse)) < 1e-6 && inverse > 1) return fmt::format("slow motion 1/{:.0f}", inverse);
+  return fmt::format("speed x{:g}", speed);
+}
+
+void add_caption(const Frame& frame, DrawList& list) {
+  LabelItem label;
+  label.anchor = {0.016f, 0.972f};
+  label.pivot = {0, 1};
+  std::string clock = fmt::format("t = {:.3f} s", frame.now.time);
+  if (frame.moment.speed != 1) clock += "    " + speed_factor(frame.moment.speed);
+  label.lines.push_back(clock);
+  label.sizes.push_back(30);
+  label.colours.push_back(kWhite);
+  std::string speeds;
+  for (const auto& [body, name] : frame.stage.speeds) {
+    if (!speeds.empty()) speeds += "     ";
+    const Vec3& v = frame.now.bodies[static_cast<std::size_t>(body)].V_WB.v;
+    speeds += fmt::format("{} {:.1f} km/h", name, 3.6 * v.norm());
+  }
+  if (!speeds.empty()) {
+    label.lines.push_back(speeds);
+    label.sizes.push_back(22);
+    label.colours.push_back(kAmber);
+  }
+  label.lines.push_back(frame.stage.title + " \u00b7 camera " + frame.camera.name);
+  label.sizes.push_back(18);
+  label.colours.push_back(kPale);
+  for (const std::string& warning : frame.stage.warnings) {
+    label.lines.push_back(warning);
+    label.sizes.push_back(18);
+    label.colours.push_back({1, 0.45f, 0.35f, 1});
+  }
+  list.labels.push_back(label);
+}
+
+void add_disclaimer(const Frame& frame, DrawList& list) {
+  LabelItem label;
+  label.anchor = {0.988f, 0.985f};
+  label.pivot = {1, 1};
+  label.plate = false;
+  label.lines = {"Simulation, not footage"};
+  if (!frame.stage.provenance.empty()) label.lines.push_back(frame.stage.provenance);
+  label.sizes.assign(label.lines.size(), 15);
+  label.colours.assign(label.lines.size(), {0.92f, 0.94f, 0.96f, 0.95f});
+  label.sizes[0] = 17;
+  list.labels.push_back(label);
+}
+
+/// A bar of a round number of metres, drawn on the ground in the lower part of a top view, and an arrow to the north (+x).
+void add_scale_bar(const Frame& frame, DrawList& list) {
+  const double seen = list.view.vertical_extent;
+  const double wanted = seen / 5;
+  double length = std::pow(10, std::floor(std::log10(wanted)));
+  if (length * 5 <= wanted) length *= 5;
+  else if (length * 2 <= wanted) length *= 2;
+  const Mat4 to_world = from_gl(list.view.world_to_eye).inverse();
+  auto on_ground = [&](double right, double up) -> Vec3 {
+    const Eigen::Vector4d p = to_world * Eigen::Vector4d(right, up, 0, 1);
+    return {p.x(), p.y(), frame.stage.road.height};
+  };
+  const double half_width = 0.5 * seen * frame.aspect;
+  const double x1 = half_width * 0.95, x0 = x1 - length, y = 0.40 * seen;
+  auto line = [&](double ax, double ay, double bx, double by) {
+    LineItem item;
+    item.points = {to_float(on_ground(ax, ay)), to_float(on_ground(bx, by))};
+    item.width = 3;
+    list.lines.push_back(item);
+  };
+  line(x0, y, x1, y);
+  line(x0, y - 0.01 * seen, x0, y + 0.01 * seen);
+  line(x1, y - 0.01 * seen, x1, y + 0.01 * seen);
+  LabelItem label;
+  label.lines = {fmt::format("{:g} m", length)};
+  label.sizes = {20};
+  label.colours = {kWhite};
+  label.at_world_point = true;
+  label.world = to_float(on_ground(0.5 * (x0 + x1), y));
+  label.pivot = {0.5f, 1.1f};
+  list.labels.push_back(label);
+  const Vec3 tail = on_ground(-half_width * 0.92, 0.34 * seen);
+  list.arrows.push_back({to_float(tail), to_float(tail + Vec3(0.09 * seen, 0, 0)), {1, 1, 1, 1}, 4});
+  LabelItem north = label;
+  north.lines = {"x"};
+  north.world = to_float(tail + Vec3(0.10 * seen, 0, 0));
+  north.pivot = {0, 0.5f};
+  north.plate = false;
+  list.labels.push_back(north);
+}
+
+}  // namespace
+
+const Overlay kCaption{"caption", [](const Frame& f) { return f.stage.overlays.caption; }, add_caption};
+const Overlay kScaleBar{"scale_bar", [](const Frame& f) { return f.stage.overlays.scale_bar && f.camera.kind == CameraKind::top; },
+                        add_scale_bar};
+const Overlay kDisclaimer{"disclaimer", [](const Frame& f) { return f.stage.overlays.disclaimer; }, add_disclaimer};
+
+}  // namespace render

@@ -1,0 +1,81 @@
+// Contact points and normals; force arrows with numbers at the largest.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/matrix.h"
+#include "render/overlays/overlay.h"
+
+namespace render {
+namespace {
+
+constexpr double kLeast = 50;          // [N] below it nothing is drawn: a resting contact of a hand
+constexpr double kLinearTo = 1.2;      // [m] longer arrows grow with the logarithm only, so that they stay in the picture
+constexpr double kNormalLength = 0.10; // [m]
+constexpr double kHold = 0.08;         // [s] the largest contact keeps its label this long, to be read
+
+bool of_interest(const engine::ContactRecord& c) { return c.normal_force > kLeast; }
+
+void add_contacts(const Frame& frame, DrawList& list) {
+  for (const auto& c : frame.now.contacts) {
+    if (!of_interest(c)) continue;
+    list.markers.push_back({to_float(c.point), {1, 1, 1, 1}, 4});
+    LineItem normal;
+    normal.points = {to_float(c.point), to_float(c.point + kNormalLength * c.normal)};
+    normal.colour = {1, 1, 1, 0.95f};
+    normal.width = 1.6f;
+    list.lines.push_back(normal);
+  }
+}
+
+double arrow_length(double force, double newtons_per_metre) {
+  const double linear = force / newtons_per_metre;
+  return linear <= kLinearTo ? linear : kLinearTo * (1 + 0.4 * std::log(linear / kLinearTo));
+}
+
+std::string newtons(double force) { return force >= 1000 ? fmt::format("{:.1f} kN", force / 1000) : fmt::format("{:.0f} N", force); }
+
+void add_forces(const Frame& frame, DrawList& list) {
+  const engine::ContactRecord* largest = nullptr;
+  for (const auto& c : frame.now.contacts) {
+    if (!of_interest(c)) continue;
+    const std::string& part = frame.recording.body_names[static_cast<std::size_t>(c.body_a)];
+    const double force = c.force.norm();
+    const Vec3 tip = c.point + c.force / force * std::max(0.12, arrow_length(force, frame.stage.overlays.newtons_per_metre));
+    list.arrows.push_back({to_float(c.point), to_float(tip), colour_of_part(part), 4.5f});
+    if (c.kind == engine::ContactKind::vehicle && (!largest || force > largest->force.norm())) largest = &c;
+  }
+  // impacts last a millisecond: the label of the largest of the last moments stays long enough to be read
+  engine::ContactRecord held;
+  if (!largest) {
+    for (const auto& s : frame.recording.snapshots) {
+      if (s.time > frame.now.time) break;
+      if (s.time < frame.now.time - kHold * std::max(frame.moment.speed, 0.05)) continue;
+      for (const auto& c : s.contacts)
+        if (c.kind == engine::ContactKind::vehicle && of_interest(c) && (!largest || c.force.norm() > held.force.norm())) {
+          held = c;
+          largest = &held;
+        }
+    }
+  }
+  if (!largest) return;
+  LabelItem label;
+  const auto& names = frame.recording.body_names;
+  const std::string against = largest->body_b >= 0 ? names[static_cast<std::size_t>(largest->body_b)] : "ground";
+  label.lines = {readable(names[static_cast<std::size_t>(largest->body_a)]) + " / " + against,
+                 fmt::format("F = {}", newtons(largest->force.norm()))};
+  label.sizes = {20, 20};
+  label.colours = {{1, 1, 1, 1}, {1, 0.68f, 0.25f, 1}};
+  label.at_world_point = true;
+  label.world = to_float(largest->point + Vec3(0, 0, 0.35));
+  label.pivot = {-0.12f, 1.2f};
+  list.labels.push_back(label);
+}
+
+}  // namespace
+
+const Overlay kContacts{"contacts", [](const Frame& f) { return f.stage.overlays.contacts; }, add_contacts};
+const Overlay kForces{"forces", [](const Frame& f) { return f.stage.overlays.forces; }, add_forces};
+
+}  // namespace render

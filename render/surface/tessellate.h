@@ -1,0 +1,23 @@
+// Triangles of a hyper-ellipsoid: a cube's grid pushed out along rays to the surface, so that n = 30 gets its edges and n = 2 no poles.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/geometry/hyper_ellipsoid.h"
+
+namespace render {
+
+struct Tessellation {
+  std::vector<float> positions;   // xyz, body axes
+  std::vector<float> normals;
+  std::vector<std::uint32_t> indices;
+};
+
+/// `cells` per cube edge: 6 * cells^2 * 2 triangles, closed, counter-clockwise seen from outside.
+Tessellation tessellate(const engine::HyperEllipsoid&, int cells);
+
+/// Cells for which the chord error stays below `tolerance` [m]: error is about a (pi / (4 cells))^2 / 2 of the largest semi-axis.
+int cells_for(const engine::HyperEllipsoid&, double tolerance);
+
+}  // namespace render

@@ -1,0 +1,171 @@
+#include "render/text/labels.h"
+
+#include <cairo/cairo.h>
+#include <pango/pangocairo.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "render/matrix.h"
+
+namespace render {
+namespace {
+
+constexpr double kPadX = 14, kPadY = 9, kGap = 4;   // pixels at 1080 lines
+
+struct SurfaceDeleter {
+  void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
+};
+struct CairoDeleter {
+  void operator()(cairo_t* c) const { cairo_destroy(c); }
+};
+using SurfacePtr = std::unique_ptr<cairo_surface_t, SurfaceDeleter>;
+using CairoPtr = std::unique_ptr<cairo_t, CairoDeleter>;
+
+class Line {
+ public:
+  Line(cairo_t* cairo, const std::string& text, double pixels) : layout_(pango_cairo_create_layout(cairo)) {
+    PangoFontDescription* font = pango_font_description_from_string("DejaVu Sans");
+    pango_font_description_set_absolute_size(font, pixels * PANGO_SCALE);
+    pango_layout_set_font_description(layout_, font);
+    pango_font_description_free(font);
+    pango_layout_set_text(layout_, text.c_str(), -1);
+    pango_layout_get_pixel_size(layout_, &width_, &height_);
+  }
+  ~Line() { g_object_unref(layout_); }
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+  PangoLayout* layout() const { return layout_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ private:
+  PangoLayout* layout_;
+  int width_ = 0, height_ = 0;
+};
+
+PanelBox measure(cairo_t* cairo, const LabelItem& label, double scale) {
+  PanelBox box;
+  for (std::size_t i = 0; i < label.lines.size(); ++i) {
+    const Line line(cairo, label.lines[i], label.sizes[i] * scale);
+    box.width = std::max<double>(box.width, line.width());
+    box.height += line.height() + (i > 0 ? kGap * scale : 0);
+  }
+  box.width += 2 * kPadX * scale;
+  box.height += 2 * kPadY * scale;
+  return box;
+}
+
+bool overlap(const PanelBox& a, const PanelBox& b) {
+  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
+/// Anchor of a label in pixels; nothing if its world point is behind the camera or outside.
+bool anchor_of(const DrawList& list, const LabelItem& label, int width, int height, double& x, double& y) {
+  if (!label.at_world_point) {
+    x = static_cast<double>(label.anchor[0]) * width;
+    y = static_cast<double>(label.anchor[1]) * height;
+    return true;
+  }
+  const Eigen::Vector4d p = from_gl(list.view.eye_to_clip) * from_gl(list.view.world_to_eye) *
+                            Eigen::Vector4d(label.world[0], label.world[1], label.world[2], 1);
+  if (p.w() <= 0.05) return false;
+  x = (p.x() / p.w() * 0.5 + 0.5) * width;
+  y = (0.5 - p.y() / p.w() * 0.5) * height;
+  return x > -0.1 * width && x < 1.1 * width && y > -0.1 * height && y < 1.1 * height;
+}
+
+CairoPtr scratch() {
+  const SurfacePtr surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, 1, 1));
+  return CairoPtr(cairo_create(surface.get()));
+}
+
+void rounded(cairo_t* c, const PanelBox& b, double r) {
+  cairo_new_sub_path(c);
+  cairo_arc(c, b.x + b.width - r, b.y + r, r, -M_PI / 2, 0);
+  cairo_arc(c, b.x + b.width - r, b.y + b.height - r, r, 0, M_PI / 2);
+  cairo_arc(c, b.x + r, b.y + b.height - r, r, M_PI / 2, M_PI);
+  cairo_arc(c, b.x + r, b.y + r, r, M_PI, 1.5 * M_PI);
+  cairo_close_path(c);
+}
+
+void draw_one(cairo_t* c, const LabelItem& label, const PanelBox& box, double scale) {
+  if (label.plate) {
+    rounded(c, box, 7 * scale);
+    cairo_set_source_rgba(c, 0.08, 0.09, 0.10, 0.72);
+    cairo_fill(c);
+  }
+  double y = box.y + kPadY * scale;
+  for (std::size_t i = 0; i < label.lines.size(); ++i) {
+    const Line line(c, label.lines[i], label.sizes[i] * scale);
+    const double x = std::round(box.x + kPadX * scale);
+    if (!label.plate) {   // a soft dark edge keeps bare text readable on any ground
+      cairo_set_source_rgba(c, 0, 0, 0, 0.55);
+      cairo_move_to(c, x + 1, std::round(y) + 1);
+      pango_cairo_show_layout(c, line.layout());
+    }
+    const Float4& k = label.colours[i];
+    cairo_set_source_rgba(c, k[0], k[1], k[2], k[3]);
+    cairo_move_to(c, x, std::round(y));
+    pango_cairo_show_layout(c, line.layout());
+    y += line.height() + kGap * scale;
+  }
+}
+
+}  // namespace
+
+std::vector<PanelBox> place_labels(const DrawList& list, int width, int height) {
+  const double scale = height / 1080.0;
+  const CairoPtr cairo = scratch();
+  std::vector<PanelBox> boxes;
+  for (const LabelItem& label : list.labels) {
+    PanelBox box = measure(cairo.get(), label, scale);
+    double x = 0, y = 0;
+    box.shown = anchor_of(list, label, width, height, x, y) && box.width <= width && box.height <= height;
+    box.x = x - label.pivot[0] * box.width;
+    box.y = y - label.pivot[1] * box.height;
+    const double wanted_y = box.y;
+    // inside the frame, then step by step up and down until nothing lies underneath
+    for (int attempt = 0; box.shown; ++attempt) {
+      box.x = std::clamp(box.x, 0.0, width - box.width);
+      box.y = std::clamp(box.y, 0.0, height - box.height);
+      const bool taken = std::any_of(boxes.begin(), boxes.end(), [&](const PanelBox& b) { return b.shown && overlap(b, box); });
+      if (!taken) break;
+      if (attempt == 40) box.shown = false;
+      const double step = (attempt / 2 + 1) * 0.35 * box.height;
+      box.y = wanted_y + (attempt % 2 ? step : -step);
+    }
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+void draw_labels(const DrawList& list, Image& image) {
+  if (list.labels.empty()) return;
+  const double scale = image.height / 1080.0;
+  // cairo wants premultiplied BGRA; the picture is opaque, so only the order differs
+  std::vector<std::uint8_t> bgra(image.rgba.size());
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+    bgra[i] = image.rgba[i + 2];
+    bgra[i + 1] = image.rgba[i + 1];
+    bgra[i + 2] = image.rgba[i];
+    bgra[i + 3] = 255;
+  }
+  {
+    const SurfacePtr surface(
+        cairo_image_surface_create_for_data(bgra.data(), CAIRO_FORMAT_RGB24, image.width, image.height, 4 * image.width));
+    const CairoPtr cairo(cairo_create(surface.get()));
+    const std::vector<PanelBox> boxes = place_labels(list, image.width, image.height);
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      if (boxes[i].shown) draw_one(cairo.get(), list.labels[i], boxes[i], scale);
+    cairo_surface_flush(surface.get());
+  }
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+    image.rgba[i] = bgra[i + 2];
+    image.rgba[i + 1] = bgra[i + 1];
+    image.rgba[i + 2] = bgra[i];
+  }
+}
+
+}  // namespace render

@@ -1,0 +1,23 @@
+// Text panels on the finished picture.
+#pragma once
+
+#include <vector>
+
+#include "render/draw_list.h"
+#include "render/image/image.h"
+
+namespace render {
+
+/// A panel's place in the frame [pixels].
+struct PanelBox {
+  double x = 0, y = 0, width = 0, height = 0;
+  bool shown = true;
+};
+
+/// Where every label goes: kept inside the frame, moved aside from those before it, left out if there is no room. Pure numbers.
+std::vector<PanelBox> place_labels(const DrawList&, int width, int height);
+
+/// Draws them, on translucent plates where they want one.
+void draw_labels(const DrawList&, Image&);
+
+}  // namespace render
