@@ -150,7 +150,7 @@ void add_actors(Builder& builder, Reader& r, const engine::Vehicle& vehicle, con
   }
   stage.meshes.push_back({vehicle.name, vehicle.body, X_BM, meshes.bodywork->look, std::move(repaint)});
   for (std::size_t i = 0; meshes.wheel && i < vehicle.wheels.size(); ++i) {
-    stage.wheels.push_back({static_cast<int>(builder.scene.model.vehicles.size()), static_cast<int>(i), vehicle.wheels[i].hub_B.y() > 0, meshes.wheel->look});
+    stage.wheels.push_back({static_cast<int>(builder.scene.model.vehicles.size()), static_cast<int>(i), vehicle.body, vehicle.wheels[i].hub_B.y() > 0, meshes.wheel->look});
   }
   stage.speeds.emplace_back(vehicle.body, vehicle.name);
 }

@@ -1,0 +1,195 @@
+// One worker process a core: several OSMesa contexts in one process are serialised by a lock, several processes are not. Frame i is
+// drawn by worker i mod n into slot i mod 2n of a ring in shared memory; the parent takes frames in order. A worker that dies is
+// replaced and its frame drawn again.
+#include "render/film.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <new>
+#include <optional>
+#include <thread>
+
+#include "render/error.h"
+#include "render/image/png.h"
+#include "render/video/encoder.h"
+
+namespace render {
+namespace {
+
+constexpr int kDeathsAllowed = 3;   // of one worker at one frame
+
+struct Slot {
+  std::atomic<int> frame{-1};       // the frame that lies here, drawn
+  std::atomic<int> taken{-1};       // the last frame the parent has taken from here
+  char error[480] = "";             // what the worker could not do
+};
+
+/// Shared anonymous memory that goes with its owner.
+class SharedMemory {
+ public:
+  explicit SharedMemory(std::size_t size) : size_(size) {
+    data_ = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (data_ == MAP_FAILED) throw RenderError(fmt::format("cannot share {} MB between drawing processes: {}", size >> 20, std::strerror(errno)));
+  }
+  ~SharedMemory() { munmap(data_, size_); }
+  SharedMemory(const SharedMemory&) = delete;
+  SharedMemory& operator=(const SharedMemory&) = delete;
+  std::uint8_t* data() const { return static_cast<std::uint8_t*>(data_); }
+
+ private:
+  void* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+std::string frame_path(const FilmJob& job, int index) {
+  if (job.container == Container::single_png) return job.output.string();
+  // the pattern has one %0Nd: replaced by hand, user text never reaches printf
+  const std::string pattern = job.output.string();
+  const std::size_t percent = pattern.rfind('%'), d = pattern.find('d', percent == std::string::npos ? 0 : percent);
+  if (percent == std::string::npos || d == std::string::npos) throw RenderError("a PNG sequence needs a pattern like frame_%05d.png, not " + pattern);
+  const std::string digits = pattern.substr(percent + 1, d - percent - 1);
+  const int width = digits.empty() ? 1 : std::atoi(digits.c_str());
+  return pattern.substr(0, percent) + fmt::format("{:0{}}", job.first_frame + index, std::clamp(width, 1, 12)) + pattern.substr(d + 1);
+}
+
+struct Job {
+  const Stage& stage;
+  const engine::Recording& recording;
+  const std::vector<Moment>& moments;
+  const FilmJob& job;
+  int workers, slots;
+  std::size_t frame_bytes;
+  Slot* ring;
+  std::uint8_t* pictures;
+};
+
+void draw_frame(const Job& j, Renderer& renderer, Image& image, int i) {
+  const Moment& moment = j.moments[static_cast<std::size_t>(i)];
+  renderer.draw(arrange(j.stage, j.recording, moment, static_cast<double>(j.job.width) / j.job.height), image);
+  if (j.job.container == Container::mp4) {
+    rgba_to_i420(image, j.pictures + j.frame_bytes * static_cast<std::size_t>(i % j.slots));
+    return;
+  }
+  TextChunks text(j.job.metadata.begin(), j.job.metadata.end());
+  text["time_s"] = fmt::format("{:.6f}", moment.time);
+  text["camera"] = moment.camera;
+  write_png(frame_path(j.job, i), image, text);
+}
+
+/// A worker's life: its frames from `first` on, in steps of the number of workers.
+[[noreturn]] void work(const Job& j, int first) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  setenv("LP_NUM_THREADS", "0", 1);
+  int at = first;
+  try {
+    Renderer renderer(j.job.width, j.job.height, j.job.quality);
+    Image image;
+    for (; at < static_cast<int>(j.moments.size()); at += j.workers) {
+      Slot& slot = j.ring[at % j.slots];
+      while (at >= j.slots && slot.taken.load() < at - j.slots) usleep(300);
+      draw_frame(j, renderer, image, at);
+      slot.frame.store(at);
+    }
+    _exit(0);
+  } catch (const std::exception& e) {
+    Slot& slot = j.ring[at % j.slots];
+    std::strncpy(slot.error, e.what(), sizeof slot.error - 1);
+    _exit(3);
+  }
+}
+
+class Workers {
+ public:
+  explicit Workers(const Job& job) : job_(job), pids_(static_cast<std::size_t>(job.workers), -1), deaths_(pids_.size(), 0) {
+    for (int w = 0; w < job.workers; ++w) start(w, w);
+  }
+  ~Workers() {
+    for (const pid_t pid : pids_)
+      if (pid > 0) kill(pid, SIGKILL);
+    for (const pid_t pid : pids_)
+      if (pid > 0) waitpid(pid, nullptr, 0);
+  }
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  /// Waits until frame i lies in its slot; draws it again if its worker died.
+  void await(int i) {
+    const int w = i % job_.workers;
+    Slot& slot = job_.ring[i % job_.slots];
+    while (slot.frame.load() != i) {
+      int status = 0;
+      pid_t& pid = pids_[static_cast<std::size_t>(w)];
+      if (pid > 0 && waitpid(pid, &status, WNOHANG) == pid) {
+        pid = -1;
+        if (slot.frame.load() == i) break;
+        if (WIFEXITED(status) && WEXITSTATUS(status) == 3) throw RenderError(slot.error);
+        if (++deaths_[static_cast<std::size_t>(w)] > kDeathsAllowed)
+          throw RenderError(fmt::format("drawing frame {} failed {} times ({})", i, kDeathsAllowed + 1,
+                                        WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "its process ended"));
+        start(w, i);
+      }
+      usleep(300);
+    }
+  }
+
+ private:
+  void start(int w, int first) {
+    const pid_t pid = fork();
+    if (pid < 0) throw RenderError(std::string("cannot start a drawing process: ") + std::strerror(errno));
+    if (pid == 0) work(job_, first);
+    pids_[static_cast<std::size_t>(w)] = pid;
+  }
+  const Job& job_;
+  std::vector<pid_t> pids_;
+  std::vector<int> deaths_;
+};
+
+void refuse_existing(const FilmJob& job, const std::vector<Moment>& moments) {
+  if (job.overwrite) return;
+  std::vector<std::string> paths;
+  if (job.container == Container::mp4) paths.push_back(job.output.string());
+  else
+    for (int i = 0; i < static_cast<int>(moments.size()); ++i) paths.push_back(frame_path(job, i));
+  for (const std::string& path : paths)
+    if (std::filesystem::exists(path)) throw RenderError(path + " exists already: remove it or add --overwrite");
+}
+
+}  // namespace
+
+void make_film(const Stage& stage, const engine::Recording& recording, const std::vector<Moment>& moments, const FilmJob& job,
+               const std::function<void(const FilmProgress&)>& progress) {
+  refuse_existing(job, moments);
+  const int frames = static_cast<int>(moments.size());
+  if (frames == 0) throw RenderError("there is no frame to draw: check --from, --to and --frames against the length of the film");
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int workers = std::min(job.workers > 0 ? job.workers : cores, frames);
+  const int slots = 2 * workers;
+  const std::size_t frame_bytes = job.container == Container::mp4 ? static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height) * 3 / 2 : 0;
+  std::optional<VideoEncoder> encoder;
+  if (job.container == Container::mp4) encoder.emplace(job.output, job.width, job.height, job.fps, job.metadata);
+
+  const std::size_t head = (sizeof(Slot) * static_cast<std::size_t>(slots) + 4095) / 4096 * 4096;
+  const SharedMemory shared(head + frame_bytes * static_cast<std::size_t>(slots));
+  Slot* ring = reinterpret_cast<Slot*>(shared.data());
+  for (int s = 0; s < slots; ++s) new (ring + s) Slot;
+  const Job j{stage, recording, moments, job, workers, slots, frame_bytes, ring, shared.data() + head};
+  Workers team(j);
+  for (int i = 0; i < frames; ++i) {
+    team.await(i);
+    if (encoder) encoder->append(j.pictures + frame_bytes * static_cast<std::size_t>(i % slots));
+    ring[i % slots].taken.store(i);
+    if (progress) progress({i + 1, frames});
+  }
+  if (encoder) encoder->finish();
+}
+
+}  // namespace render

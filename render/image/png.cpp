@@ -1,0 +1,115 @@
+#include "render/image/png.h"
+
+#include <fcntl.h>
+#include <png.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "render/error.h"
+
+namespace render {
+namespace {
+
+constexpr png_uint_32 kLargest = 16384;   // [pixels] a side
+
+struct FileCloser {
+  void operator()(std::FILE* f) const { std::fclose(f); }
+};
+using FilePtr = std::unique_ptr<std::FILE, FileCloser>;
+
+/// libpng reports by a callback that must not return: the message leaves as an exception, which its C code lets pass (built with unwind tables).
+[[noreturn]] void fail(png_structp png, png_const_charp message) {
+  throw RenderError(std::string(static_cast<const char*>(png_get_error_ptr(png))) + ": " + message);
+}
+void ignore(png_structp, png_const_charp) {}
+
+}  // namespace
+
+void write_png(const std::filesystem::path& path, const Image& image, const TextChunks& text) {
+  const std::string part = path.string() + ".part";
+  const std::string what = "cannot write " + path.string();
+  FilePtr file(std::fopen(part.c_str(), "wb"));
+  if (!file) throw RenderError(what + ": " + std::strerror(errno));
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, const_cast<char*>(what.c_str()), fail, ignore);
+  png_infop info = png_create_info_struct(png);
+  try {
+    png_init_io(png, file.get());
+    png_set_compression_level(png, 1);
+    png_set_compression_strategy(png, Z_RLE);
+    png_set_filter(png, 0, PNG_FILTER_SUB);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB_ALPHA,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    std::vector<png_text> chunks;
+    for (const auto& [key, value] : text) {
+      png_text chunk{};
+      chunk.compression = PNG_TEXT_COMPRESSION_NONE;
+      chunk.key = const_cast<char*>(key.c_str());
+      chunk.text = const_cast<char*>(value.c_str());
+      chunk.text_length = value.size();
+      chunks.push_back(chunk);
+    }
+    if (!chunks.empty()) png_set_text(png, info, chunks.data(), static_cast<int>(chunks.size()));
+    png_write_info(png, info);
+    for (int y = 0; y < image.height; ++y)
+      png_write_row(png, const_cast<png_bytep>(image.rgba.data() + static_cast<std::size_t>(4 * image.width) * static_cast<std::size_t>(y)));
+    png_write_end(png, info);
+    png_destroy_write_struct(&png, &info);
+    if (std::fflush(file.get()) != 0 || fsync(fileno(file.get())) != 0) throw RenderError(what + ": " + std::strerror(errno));
+    file.reset();
+    std::filesystem::rename(part, path);
+  } catch (...) {
+    if (png) png_destroy_write_struct(&png, &info);
+    file.reset();
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw;
+  }
+}
+
+Image read_png(const std::filesystem::path& path, TextChunks* text) {
+  const std::string what = "cannot read " + path.string();
+  FilePtr file(std::fopen(path.c_str(), "rb"));
+  if (!file) throw RenderError(what + ": " + std::strerror(errno));
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, const_cast<char*>(what.c_str()), fail, ignore);
+  png_infop info = png_create_info_struct(png);
+  Image image;
+  try {
+    png_init_io(png, file.get());
+    png_set_user_limits(png, kLargest, kLargest);
+    png_set_chunk_malloc_max(png, 8u << 20);
+    png_read_info(png, info);
+    png_set_expand(png);
+    png_set_scale_16(png);
+    png_set_gray_to_rgb(png);
+    png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
+    png_set_interlace_handling(png);
+    png_read_update_info(png, info);
+    image.width = static_cast<int>(png_get_image_width(png, info));
+    image.height = static_cast<int>(png_get_image_height(png, info));
+    image.rgba.resize(png_get_rowbytes(png, info) * static_cast<std::size_t>(image.height));
+    std::vector<png_bytep> rows;
+    for (int y = 0; y < image.height; ++y) rows.push_back(image.rgba.data() + png_get_rowbytes(png, info) * static_cast<std::size_t>(y));
+    png_read_image(png, rows.data());
+    png_read_end(png, info);
+    if (text) {
+      png_textp chunks = nullptr;
+      int count = 0;
+      png_get_text(png, info, &chunks, &count);
+      for (int i = 0; i < count; ++i) (*text)[chunks[i].key] = std::string(chunks[i].text, chunks[i].text_length);
+    }
+  } catch (...) {
+    png_destroy_read_struct(&png, &info, nullptr);
+    throw;
+  }
+  png_destroy_read_struct(&png, &info, nullptr);
+  return image;
+}
+
+}  // namespace render
