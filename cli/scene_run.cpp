@@ -21,6 +21,19 @@ std::string as_override(const std::string& wish) {
   return fmt::format("simulation.effects.{}={}", wish.substr(0, equals), state == "auto" ? "automatic" : state);
 }
 
+/// --verbose: what the run is made of, and what each part of it cost.
+void tell_plan(const engine::Plan& plan) {
+  for (const engine::PlanLine& line : plan.lines) {
+    if (line.active) fmt::print(stderr, "effect {}: {}\n", line.effect, line.reason);
+  }
+}
+
+void tell_costs(const engine::Recording& recording) {
+  for (const engine::EffectCost& cost : recording.costs) {
+    fmt::print(stderr, "effect {}: {} calls, {:.1f} ms\n", cost.effect, cost.calls, 1e3 * cost.wall_s);
+  }
+}
+
 }  // namespace
 
 void declare_scene(Arguments& arguments, SceneArguments& scene) {
@@ -29,8 +42,8 @@ void declare_scene(Arguments& arguments, SceneArguments& scene) {
   arguments.repeatable("--effects", scene.effects, "NAME=on|off|auto",
                        "force a physical effect on or off, or leave it to the plan");
   arguments.flag("--json", scene.json, "print the result as JSON");
-  arguments.flag("-q,--quiet", scene.quiet, "no progress, no warnings of the loader");
-  arguments.flag("-v,--verbose", scene.verbose, "say more");
+  arguments.flag("-q,--quiet", scene.quiet, "no progress, no warnings");
+  arguments.flag("-v,--verbose", scene.verbose, "tell the effects of the run and what each cost");
 }
 
 void declare_progress(Arguments& arguments, SceneArguments& scene) {
@@ -71,6 +84,7 @@ engine::Plan plan_of(const scenes::Scene& scene) {
 }
 
 engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan, const SceneArguments& wish) {
+  if (wish.verbose) tell_plan(plan);
   Progress progress("simulate", "s", scene.model.settings.duration, progress_of(wish));
   engine::RunOptions options;
   options.clock = clock_seconds;
@@ -82,6 +96,7 @@ engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan
   engine::Recording recording = engine::simulate(scene.model, plan, options);
   recording.wall_s = clock_seconds() - start;
   progress.finish(recording.end_time());
+  if (wish.verbose) tell_costs(recording);
 
   // a run that left something out says so wherever its results go
   std::vector<std::string>& warnings = recording.diagnostics.warnings;

@@ -200,6 +200,26 @@ TEST(Simulate, NumbersHaveAPointWhereTheUserWritesAComma) {
   EXPECT_EQ(contents(folder / "plain/contacts.csv"), contents(folder / "german/contacts.csv"));
 }
 
+TEST(Simulate, ADivergedRunIsKeptAndEndsWithExitCode4) {
+  const Folder folder;
+  // no road is that fast
+  folder.write("ball.toml", ball_with("velocity = \"1 0 0 m/s\"", "velocity = \"1e7 0 0 m/s\""));
+  const Result result = run(folder, {"simulate", "ball.toml", "-o", "out"});
+  EXPECT_EQ(result.code, 4);
+  EXPECT_THAT(result.err, testing::StartsWith("crashreel: the model diverged at 0.00"));
+  EXPECT_THAT(result.err, HasSubstr("body ball"));
+  EXPECT_EQ(Json::parse(contents(folder / "out/summary.json")).at("failure").at("body"), "ball");
+  EXPECT_FALSE(rows_of(contents(folder / "out/trajectory.csv")).empty()) << "the recording up to there can be drawn";
+}
+
+TEST(Simulate, VerboseTellsTheEffectsAndTheirCost) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  const Result result = run(folder, {"simulate", "ball.toml", "-o", "out", "--verbose"});
+  EXPECT_THAT(result.err, HasSubstr("effect gravity: "));
+  EXPECT_THAT(result.err, testing::ContainsRegex("effect ground_contact: [0-9]+ calls, [0-9.]+ ms"));
+}
+
 TEST(Plan, NamesEveryEffectWithItsReason) {
   const Folder folder;
   folder.write("ball.toml", kBall);
