@@ -1,0 +1,73 @@
+// crashreel compare on pictures whose difference is known.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "render/image/png.h"
+#include "tests/cli/program.h"
+
+using namespace cli_tests;
+using testing::HasSubstr;
+using testing::StartsWith;
+using Json = nlohmann::json;
+
+namespace {
+
+render::Image grey(int width, int height, std::uint8_t level) {
+  render::Image image{width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(4 * width * height), level)};
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+  return image;
+}
+
+}  // namespace
+
+TEST(Compare, APictureIsTheSameAsItself) {
+  const Folder folder;
+  render::write_png((folder / "a.png").string(), grey(100, 100, 80));
+  const Result result = run(folder, {"compare", "a.png", "a.png"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_THAT(result.out, StartsWith("same: 0.0000 % of pixels"));
+}
+
+TEST(Compare, ManyPixelsOffByALittleAreDifferent) {
+  const Folder folder;
+  render::Image b = grey(100, 100, 80);
+  // 60 of 10,000 pixels, one more than the limit of 0.5 % allows, each by 3 in red
+  for (std::size_t i = 0; i < 60; ++i) b.rgba[4 * i] = 83;
+  render::write_png((folder / "a.png").string(), grey(100, 100, 80));
+  render::write_png((folder / "b.png").string(), b);
+  const Result result = run(folder, {"compare", "a.png", "b.png", "--json", "--diff", "d.png"});
+  EXPECT_EQ(result.code, 1);
+  const Json figures = Json::parse(result.out);
+  EXPECT_FALSE(figures.at("same"));
+  EXPECT_DOUBLE_EQ(figures.at("share_above_2"), 0.006);
+  EXPECT_EQ(figures.at("pixels_above_32"), 0);
+  EXPECT_EQ(figures.at("largest"), 3);
+  // sqrt(60 * 9 / 40000)
+  EXPECT_NEAR(figures.at("rms").get<double>(), 0.1161895, 1e-6);
+  const render::Image d = render::read_png((folder / "d.png").string());
+  EXPECT_EQ(d.rgba[0], 255) << "a differing pixel is marked";
+  EXPECT_EQ(d.rgba[4 * 60], 26) << "an equal one is dimmed to a third";
+}
+
+TEST(Compare, PixelsOffByTwoAreTheSamePicture) {
+  const Folder folder;
+  render::Image b = grey(100, 100, 80);
+  for (std::size_t i = 0; i < 60; ++i) b.rgba[4 * i] = 82;
+  render::write_png((folder / "a.png").string(), grey(100, 100, 80));
+  render::write_png((folder / "b.png").string(), b);
+  EXPECT_EQ(run(folder, {"compare", "a.png", "b.png"}).code, 0);
+}
+
+TEST(Compare, DifferentSizesAreDifferentAndAMissingFileIsTheMachine) {
+  const Folder folder;
+  render::write_png((folder / "a.png").string(), grey(20, 20, 80));
+  render::write_png((folder / "b.png").string(), grey(20, 21, 80));
+  const Result sizes = run(folder, {"compare", "a.png", "b.png"});
+  EXPECT_EQ(sizes.code, 1);
+  EXPECT_EQ(sizes.err, "crashreel: a.png is 20x20, b.png is 20x21: pictures of different size are different\n");
+  const Result missing = run(folder, {"compare", "a.png", "none.png"});
+  EXPECT_EQ(missing.code, 3);
+  EXPECT_THAT(missing.err, HasSubstr("none.png"));
+}
