@@ -116,9 +116,9 @@ void read_body(Builder& builder, Reader r) {
   body.fixed = r.boolean("fixed");
   if (!r.has("mass") && !body.fixed) r.fail("mass", "is missing; write like mass = \"78 kg\", or fixed = true");
   if (r.has("mass")) body.mass = r.number("mass");
-  const std::size_t errors_before = builder.errors.lines.size();
+  const std::size_t errors_before = builder.errors.count();
   read_shape(builder, r, body);
-  if (body.mass > 0 && builder.errors.lines.size() == errors_before) read_inertia(r, body);
+  if (body.mass > 0 && builder.errors.count() == errors_before) read_inertia(r, body);
   body.surface = read_surface(r, {});
   body.collision_model = static_cast<engine::CollisionModel>(r.choice("collision"));
   body.X_WB = {r.vector("position"), read_attitude(r)};

@@ -178,7 +178,7 @@ Figure read_figure(Builder& builder, Reader& person, const PersonSize& size) {
     person.fail("figure", fmt::format("is not in the library of persons ({}){}", fmt::join(names, ", "), guess.empty() ? "" : fmt::format("; did you mean \"{}\"?", guess)));
     return {};
   }
-  const std::size_t errors_before = builder.errors.lines.size();
+  const std::size_t errors_before = builder.errors.count();
   const Value tree = parse_file(file);
   Reader r(tree, kFigureSection, name, builder.errors);
   const double along = size.stature / r.number("stature");
@@ -188,7 +188,7 @@ Figure read_figure(Builder& builder, Reader& person, const PersonSize& size) {
   for (Reader& segment : r.tables("segment")) read_segment(segment, scale, out.segments);
   for (Reader& joint : r.tables("joint")) read_joint_of_figure(joint, scale, out);
   sort_tree(r, out);
-  if (builder.errors.lines.size() != errors_before) return {};
+  if (builder.errors.count() != errors_before) return {};
 
   double sum = 0;
   for (const Segment& s : out.segments) sum += s.mass;

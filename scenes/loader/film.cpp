@@ -139,7 +139,7 @@ void read_overlays(Builder& builder, Reader r) {
   o.newtons_per_metre = r.number("force_scale");
   o.trace_bodies = r.texts("trace_bodies");
   for (const std::string& name : o.trace_bodies) {
-    const bool told = !builder.errors.lines.empty() && builder.is_declared(name);
+    const bool told = !builder.errors.empty() && builder.is_declared(name);
     if (builder.body_index(name) >= 0 || told) continue;
     const std::string guess = nearest(name, builder.body_names());
     r.fail("trace_bodies", fmt::format("must name bodies of the scene; \"{}\" is none{}", name, guess.empty() ? "" : fmt::format(", did you mean \"{}\"?", guess)));

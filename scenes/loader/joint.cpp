@@ -39,7 +39,7 @@ int find_body(Builder& builder, Reader& r, std::string_view key) {
   const std::string name = r.text(key);
   if (name == "world" && key == "parent") return -1;
   const int index = builder.body_index(name);
-  const bool told = !builder.errors.lines.empty() && builder.is_declared(name);
+  const bool told = !builder.errors.empty() && builder.is_declared(name);
   if (index < 0 && !told) {
     const std::string guess = nearest(name, builder.body_names());
     r.fail(key, guess.empty() ? "is no body of the scene" : fmt::format("is no body of the scene; did you mean \"{}\"?", guess));

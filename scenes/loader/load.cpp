@@ -126,8 +126,8 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   read_film(builder, r);
   read_closed_form(builder, r.table("closed_form"));
 
-  if (!builder.errors.lines.empty()) throw SceneErrors(std::move(builder.errors.lines));
-  builder.scene.warnings = std::move(builder.errors.warnings);
+  if (!builder.errors.empty()) throw SceneErrors(builder.errors.lines());
+  builder.scene.warnings = builder.errors.warnings();
   builder.scene.stage.title = builder.scene.title;
   builder.scene.stage.provenance = fmt::format("scene {}", builder.scene.sha256.substr(0, 12));
   return std::move(builder.scene);

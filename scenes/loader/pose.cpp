@@ -31,7 +31,11 @@ bool names_angle(const std::string& key, const FigureJoint& joint, const Anatomi
 void apply_angles(Reader angles, const Figure& figure, Pose& pose) {
   std::vector<std::string> known;
   for (const FigureJoint& joint : figure.joints)
-    for (const AnatomicalAngle& angle : joint.angles) known.push_back(joint.name + "_" + angle.name);
+    for (const AnatomicalAngle& angle : joint.angles) {
+      const std::string name = joint.name + "_" + angle.name;
+      known.push_back(name);
+      if (name.starts_with("left_")) known.push_back(name.substr(5));
+    }
   for (const Entry& entry : angles.value().entries) {
     const double value = angles.number(entry.key);
     bool found = false;

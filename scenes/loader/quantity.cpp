@@ -180,7 +180,8 @@ Quantities parse_quantities(std::string_view text, Dimension wanted) {
 std::string unit_examples(double number, Dimension d) {
   const auto factor = [&](std::string_view unit) { return take_unit(unit, d).factor; };
   const double second = number * factor(line(d).usual) / factor(line(d).second);
-  return fmt::format("\"{} {}\" or \"{:.3g} {}\"", number, line(d).usual, second, line(d).second);
+  const std::string rounded = std::abs(second) >= 100 && std::abs(second) < 1e6 ? fmt::format("{:.0f}", second) : fmt::format("{:.3g}", second);
+  return fmt::format("\"{} {}\" or \"{} {}\"", number, line(d).usual, rounded, line(d).second);
 }
 
 }  // namespace scenes

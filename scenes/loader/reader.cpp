@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 namespace scenes {
 namespace {
@@ -31,6 +33,23 @@ std::string range_message(const Key& key) {
 }
 
 }  // namespace
+
+std::vector<std::string> Errors::sorted(std::vector<Finding> findings) {
+  // files stay in the order in which they were first complained of: the scene before its library
+  std::vector<std::string> files;
+  for (const Finding& f : findings)
+    if (std::find(files.begin(), files.end(), f.place.file) == files.end()) files.push_back(f.place.file);
+  const auto rank = [&](const Finding& f) {
+    return std::tuple(std::find(files.begin(), files.end(), f.place.file) - files.begin(), f.place.line, f.place.column);
+  };
+  std::stable_sort(findings.begin(), findings.end(), [&](const Finding& a, const Finding& b) { return rank(a) < rank(b); });
+  std::vector<std::string> out;
+  for (const Finding& f : findings) {
+    std::string line = f.place.text() + ": " + f.what;
+    if (std::find(out.begin(), out.end(), line) == out.end()) out.push_back(std::move(line));
+  }
+  return out;
+}
 
 std::string element_path(const std::string& list_path, const Value& element, std::size_t number) {
   const Value* name = element.find("name");
@@ -187,9 +206,9 @@ bool Reader::read_numbers(const Value& value, const Key& key, const std::string&
     bad(value, at, fmt::format("must be {}", describe_type(key)));
     return false;
   }
-  const std::size_t before = errors_->lines.size();
+  const std::size_t before = errors_->count();
   for (std::size_t i = 0; i < value.items.size(); ++i) out.push_back(read_number(value.items[i], key, fmt::format("{}[{}]", at, i)));
-  return errors_->lines.size() == before;
+  return errors_->count() == before;
 }
 
 std::optional<engine::Vec3> Reader::vector_if(std::string_view key) {

@@ -15,11 +15,24 @@
 namespace scenes {
 
 /// What was found so far. Loading goes on after an error so that several are told at once.
-struct Errors {
-  std::vector<std::string> lines;
-  std::vector<std::string> warnings;
-  void add(const Place& place, const std::string& what) { lines.push_back(place.text() + ": " + what); }
-  void warn(const Place& place, const std::string& what) { warnings.push_back(place.text() + ": " + what); }
+class Errors {
+ public:
+  void add(const Place& place, const std::string& what) { found_.push_back({place, what}); }
+  void warn(const Place& place, const std::string& what) { odd_.push_back({place, what}); }
+  std::size_t count() const { return found_.size(); }
+  bool empty() const { return found_.empty(); }
+  /// "file:line:column: what" in the order of the file, each once.
+  std::vector<std::string> lines() const { return sorted(found_); }
+  std::vector<std::string> warnings() const { return sorted(odd_); }
+
+ private:
+  struct Finding {
+    Place place;
+    std::string what;
+  };
+  static std::vector<std::string> sorted(std::vector<Finding>);
+  std::vector<Finding> found_;
+  std::vector<Finding> odd_;
 };
 
 /// Every getter returns a usable value: after an error, the key's default or a harmless one. The key must be in the section's table.

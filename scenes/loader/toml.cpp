@@ -114,6 +114,11 @@ Value override_value(const std::string& text, const Place& place) {
   return value;
 }
 
+std::string singular(const std::string& word) {
+  if (word.size() > 3 && word.ends_with("ies")) return word.substr(0, word.size() - 3) + "y";
+  return word.size() > 1 && word.back() == 's' ? word.substr(0, word.size() - 1) : word;
+}
+
 std::vector<std::string> split(const std::string& path) {
   std::vector<std::string> parts;
   std::stringstream stream(path);
@@ -140,7 +145,7 @@ void apply_override(Value& root, const std::string& assignment) {
     }
     Value* child = at->find(parts[i]);
     // persons.pedestrian.speed reads naturally for what the file writes as [[person]]
-    if (!child && parts[i].size() > 1 && parts[i].back() == 's') child = at->find(parts[i].substr(0, parts[i].size() - 1));
+    if (!child) child = at->find(singular(parts[i]));
     if (!child) {
       Value table;
       table.kind = Value::Kind::table;

@@ -179,12 +179,12 @@ void read_vehicle(Builder& builder, Reader scene) {
   vehicle.name = scene.text("name");
   if (vehicle.name.empty()) scene.fail("name", "must be given; every vehicle needs a name");
   if (builder.body_index(vehicle.name) >= 0) scene.fail("name", "is taken; every body needs a name of its own");
-  const std::size_t errors_before = builder.errors.lines.size();
+  const std::size_t errors_before = builder.errors.count();
   need(r, "mesh", "\"my_car.obj\"");
   need(r, "mass", "\"1500 kg\"");
   need(r, "cg", "\"0.1 0 0.55 m\"");
   need(r, "inertia", "\"550 2500 2700 kg m^2\"");
-  if (builder.errors.lines.size() != errors_before) return;
+  if (builder.errors.count() != errors_before) return;
   const Meshes meshes = read_meshes(builder, r);
 
   engine::Body body;
