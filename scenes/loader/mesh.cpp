@@ -111,7 +111,7 @@ std::vector<std::string> audit(const std::vector<RawPart>& parts, const std::str
   int degenerate = 0;
   int duplicates = 0;
   double volume = 0;
-  double extent = 0;
+  engine::Aabb box;
   std::set<std::array<std::array<float, 3>, 3>> seen;
   for (const RawPart& part : parts) {
     const auto corner = [&](std::uint32_t i) { return std::array<float, 3>{part.positions[3 * i], part.positions[3 * i + 1], part.positions[3 * i + 2]}; };
@@ -122,7 +122,10 @@ std::vector<std::string> audit(const std::vector<RawPart>& parts, const std::str
       const double edge2 = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
       if ((b - a).cross(c - a).norm() < 1e-12 * edge2 || edge2 == 0) ++degenerate;
       volume += a.dot(b.cross(c)) / 6;
-      extent = std::max(extent, a.norm());
+      for (const engine::Vec3& p : {a, b, c}) {
+        box.lower = box.lower.cwiseMin(p);
+        box.upper = box.upper.cwiseMax(p);
+      }
       std::sort(t.begin(), t.end());
       if (!seen.insert(t).second) ++duplicates;
     }
@@ -131,7 +134,7 @@ std::vector<std::string> audit(const std::vector<RawPart>& parts, const std::str
   if (degenerate > 0) out.push_back(fmt::format("{} has {} degenerate triangles; they are left out of contact", file, degenerate));
   if (duplicates > 0) out.push_back(fmt::format("{} has {} duplicate triangles; they are left out of contact", file, duplicates));
   // a clearly negative volume means faces turned inwards; sheets and open terrain have none to speak of
-  if (volume < -1e-3 * extent * extent * extent) out.push_back(fmt::format("{} is inside out: its triangles run clockwise seen from outside", file));
+  if (box.upper.x() >= box.lower.x() && volume < -0.05 * (box.upper - box.lower).prod()) out.push_back(fmt::format("{} is inside out: its triangles run clockwise seen from outside", file));
   return out;
 }
 

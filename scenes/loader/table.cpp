@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/loader/figure.h"
+
 namespace scenes {
 
 const Key* Section::find(std::string_view key) const {
@@ -42,6 +44,8 @@ std::string quantity_in_words(Dimension d) {
 std::vector<const Section*> all_sections() {
   std::vector<const Section*> out;
   collect(scene_section(), out);
+  collect(kFigureSection, out);
+  collect(kPoseSection, out);
   return out;
 }
 

@@ -1,0 +1,129 @@
+// Meshes through the cage: what comes back, what is warned of, and what cannot get out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene_file.h"
+#include "scenes/loader/mesh.h"
+
+namespace scenes {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using scenes::testing::SceneFolder;
+
+/// A box as OBJ, outward faces, length x 1.8 x 1.4 m, from the ground up.
+std::string box(double length, bool inside_out = false) {
+  std::string out = "mtllib box.mtl\nusemtl paint\n";
+  for (int i = 0; i < 8; ++i) {
+    out += "v " + std::to_string((i & 1 ? 0.5 : -0.5) * length) + (i & 2 ? " 0.9" : " -0.9") + (i & 4 ? " 1.4\n" : " 0.0\n");
+  }
+  const int quads[6][4] = {{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5}, {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}};
+  for (const auto& q : quads) {
+    out += "f";
+    for (int k = 0; k < 4; ++k) out += " " + std::to_string(q[inside_out ? 3 - k : k]);
+    out += "\n";
+  }
+  return out;
+}
+
+const std::string kCar = R"(
+[[vehicle]]
+name = "car"
+mesh = "car.obj"
+mass = "1500 kg"
+cg = "0.1 0 0.5 m"
+inertia = "500 2500 2600 kg m^2"
+front = "-1 2 m"
+speed = "36 km/h"
+)";
+
+TEST(MeshImport, BringsABoxBackWhole) {
+  const SceneFolder folder;
+  folder.write("car.obj", box(4));
+  folder.write("box.mtl", "newmtl paint\nKd 0.5 0.1 0.1\n");
+  const Scene scene = folder.load(kCar);
+  EXPECT_THAT(scene.warnings, IsEmpty());
+  const auto& solid = *std::get<engine::MeshShape>(scene.model.bodies[0].shape).mesh;
+  ASSERT_EQ(solid.triangles().size(), 12u);
+  // faces that were apart for their normals are one closed surface again
+  for (int t = 0; t < 12; ++t)
+    for (int edge = 0; edge < 3; ++edge) EXPECT_GE(solid.neighbour(t, edge), 0);
+  ASSERT_EQ(scene.stage.meshes.size(), 1u);
+  const render::Mesh& look = *scene.stage.meshes[0].mesh;
+  EXPECT_EQ(look.indices.size(), 36u);
+  EXPECT_EQ(look.normals.size(), look.positions.size());
+  EXPECT_EQ(look.materials[0].kind, render::MaterialKind::paint);
+  // the front bumper's middle at (-1, 2): the box is 4 m long, its centre of mass 0.1 m ahead of its middle
+  EXPECT_NEAR(scene.model.bodies[0].X_WB.p.x(), -1 - 2 + 0.1, 1e-9);
+  EXPECT_NEAR(scene.model.bodies[0].X_WB.p.y(), 2, 1e-9);
+  EXPECT_NEAR(scene.model.bodies[0].V_WB.v.x(), 10, 1e-12);
+}
+
+TEST(MeshImport, LoadsOneMeshForTenCars) {
+  const SceneFolder folder;
+  folder.write("car.obj", box(4));
+  std::string text;
+  for (int i = 0; i < 10; ++i) {
+    std::string car = kCar;
+    car.replace(car.find("\"car\""), 5, "\"car" + std::to_string(i) + "\"");
+    text += car;
+  }
+  const Scene scene = folder.load(text);
+  for (const render::MeshActor& actor : scene.stage.meshes) EXPECT_EQ(actor.mesh, scene.stage.meshes[0].mesh);
+}
+
+TEST(MeshAudit, WarnsOfScaleAndOfFacesTurnedInwards) {
+  const SceneFolder folder;
+  folder.write("car.obj", box(400, true));
+  const Scene scene = folder.load(kCar);
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("is 400 m long; is its scale right?")));
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("car.obj is inside out")));
+}
+
+TEST(MeshAudit, CountsDegenerateAndDuplicateTriangles) {
+  RawPart part;
+  part.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0};
+  part.indices = {0, 1, 2, 0, 1, 2, 0, 1, 3};
+  EXPECT_THAT(audit({part}, "m"), ::testing::ElementsAre("m has 1 degenerate triangles; they are left out of contact",
+                                                        "m has 1 duplicate triangles; they are left out of contact"));
+}
+
+TEST(MeshCage, OpensNothingOutsideItsFolder) {
+  const SceneFolder folder;
+  folder.write("secret/colour.mtl", "newmtl paint\nKd 1 0 0\n");
+  const auto file = folder.write("inner/car.obj", "mtllib ../secret/colour.mtl\n" + box(4));
+  const CageResult caged = import_in_cage(file, folder.path() / "inner");
+  ASSERT_EQ(caged.problem, "");
+  // the material's red never arrived
+  EXPECT_NE(caged.parts[0].colour[1], 0.0f);
+  const CageResult open = import_in_cage(file, folder.path());
+  ASSERT_EQ(open.problem, "");
+  EXPECT_EQ(open.parts[0].colour[1], 0.0f);
+}
+
+TEST(MeshCage, SurvivesRubbish) {
+  const SceneFolder folder;
+  for (const char* name : {"a.obj", "a.ply", "a.stl", "a.3ds", "a.glb", "a.fbx"}) {
+    std::string bytes = name[2] == 'p' ? "ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n" : "";
+    for (int i = 0; i < 3000; ++i) bytes += static_cast<char>((i * 7919 + i * i * 31) >> 3);
+    const CageResult result = import_in_cage(folder.write(name, bytes), folder.path());
+    EXPECT_TRUE(!result.problem.empty() || result.parts.empty() || result.parts[0].indices.size() % 3 == 0) << name;
+  }
+}
+
+TEST(MeshKinds, OutsideTheListAreRefused) {
+  const SceneFolder folder;
+  folder.write("car.blend", "BLENDER");
+  std::string car = kCar;
+  car.replace(car.find("car.obj"), 7, "car.blend");
+  const auto errors = folder.errors(car);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_THAT(errors[0], HasSubstr("must be a mesh file of a known kind: .obj .stl"));
+}
+
+}  // namespace
+}  // namespace scenes
