@@ -18,19 +18,19 @@ struct Output {
   int height = 720;
   double fps = 30;
   std::string quality = "standard";
-  std::vector<std::pair<double, std::string>> stills;   // [s], camera: what snapshot tests draw
+  std::vector<std::pair<double, std::string>> stills;  // [s], camera: what snapshot tests draw
 };
 
 struct Scene {
   std::string title;
   std::filesystem::path path;
-  std::string sha256;                       // of the file's bytes and the overrides
-  std::vector<std::string> overrides;       // "path.to.key=value" as given
+  std::string sha256;                  // of the file's bytes and the overrides
+  std::vector<std::string> overrides;  // "path.to.key=value" as given
   engine::Model model;
   render::Stage stage;
   Output output;
-  std::vector<std::string> warnings;        // file:line:column: what looked odd but loads
-  std::map<std::string, double> closed_form;   // expected measures the scene carries, SI, by metric key
+  std::vector<std::string> warnings;          // file:line:column: what looked odd but loads
+  std::map<std::string, double> closed_form;  // expected measures the scene carries, SI, by metric key
 };
 
 /// Reads, checks and completes a scene. Overrides are applied before checking. Throws SceneErrors with everything found.

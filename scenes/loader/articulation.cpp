@@ -1,11 +1,11 @@
 // From anatomical angles to the engine's joints.
 //
 // The child's attitude in the parent is A = R(flexion) R(abduction) R(turn), each about its axis of the standing person. The engine
-// measures its angles from the joint frame: the parent carries F_p = M, the attitude A in the middle of the range, the child F_c = 1,
-// so R_FpFc = M^T A, which is 1 in the middle. Its swing (x, y) and twist (z) then stay far from 180 deg: with the shoulder's ranges
-// of 240 and 210 deg the corner of the limits lies at 162 deg. A flexed and abducted arm also twists, seen from the middle, so the
-// limits are not the anatomical half ranges; they are the smallest box that holds the motion through each angle's whole range with
-// the other angles at zero (or their nearest value), and the pose at the start.
+// measures its angles from the joint frame: the parent carries F_p = M, the attitude A in the middle of the range, the child F_c =
+// 1, so R_FpFc = M^T A, which is 1 in the middle. Its swing (x, y) and twist (z) then stay far from 180 deg: with the shoulder's
+// ranges of 240 and 210 deg the corner of the limits lies at 162 deg. A flexed and abducted arm also twists, seen from the middle,
+// so the limits are not the anatomical half ranges; they are the smallest box that holds the motion through each angle's whole
+// range with the other angles at zero (or their nearest value), and the pose at the start.
 #include <algorithm>
 #include <cmath>
 
@@ -36,7 +36,7 @@ std::vector<double> middle(const FigureJoint& joint) {
 
 /// The box of engine angles over every motion in one plane.
 void widen_over_ranges(const FigureJoint& joint, const Quat& q_mid, Vec3& lower, Vec3& upper) {
-  constexpr int kSamples = 60;   // the box is found to 0.1 deg
+  constexpr int kSamples = 60;  // the box is found to 0.1 deg
   std::vector<double> angles;
   for (const AnatomicalAngle& angle : joint.angles) angles.push_back(std::clamp(0.0, angle.lower, angle.upper));
   for (std::size_t k = 0; k < angles.size(); ++k) {

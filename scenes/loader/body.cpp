@@ -13,21 +13,32 @@ const Key kKeys[] = {
     {"name", Type::text, Dimension::none, kRequired, "Name in every output."},
     {"mass", Type::number, Dimension::mass, "", "Mass; needed unless the body is fixed.", kPositive},
     {"axes", Type::vector3, Dimension::length, "", "Semi-axes a, b, c of a hyper-ellipsoid, eq. (60).", kPositive},
-    {"exponent", Type::number, Dimension::none, "2", "Its exponent n: 2 an ellipsoid, 30 almost a box.", between(2, 100), {}, nullptr,
+    {"exponent",
+     Type::number,
+     Dimension::none,
+     "2",
+     "Its exponent n: 2 an ellipsoid, 30 almost a box.",
+     between(2, 100),
+     {},
+     nullptr,
      "a hyper-ellipsoid needs n >= 2"},
     {"mesh", Type::path, Dimension::none, "", "A mesh file in place of axes; its origin is the centre of mass."},
-    {"inertia", Type::inertia, Dimension::inertia, "", "About the centre of mass in body axes. Left out: that of the even hyper-ellipsoid."},
+    {"inertia", Type::inertia, Dimension::inertia, "",
+     "About the centre of mass in body axes. Left out: that of the even hyper-ellipsoid."},
     {"position", Type::vector3, Dimension::length, "'0 0 0 m'", "Centre of mass at the start."},
-    {"attitude", Type::vector3, Dimension::angle, "'0 0 0 deg'", "Roll, pitch, yaw at the start: turned about x, then y, then z of the world."},
+    {"attitude", Type::vector3, Dimension::angle, "'0 0 0 deg'",
+     "Roll, pitch, yaw at the start: turned about x, then y, then z of the world."},
     {"quaternion", Type::numbers, Dimension::none, "", "Attitude as [w, x, y, z] in place of roll, pitch, yaw."},
     {"velocity", Type::vector3, Dimension::speed, "'0 0 0 m/s'", "Of the centre of mass, world axes."},
     {"angular_velocity", Type::vector3, Dimension::angular_speed, "", "In world axes."},
     {"angular_velocity_body", Type::vector3, Dimension::angular_speed, "", "In body axes, in place of angular_velocity."},
     CRASHREEL_SURFACE_KEYS,
     {"fixed", Type::boolean, Dimension::none, "false", "Part of the world: never moves."},
-    {"collision", Type::choice, Dimension::none, "'default_auto'", "Collision model the body asks for.", kAny, "default_auto|kudlich_slibar"},
+    {"collision", Type::choice, Dimension::none, "'default_auto'", "Collision model the body asks for.", kAny,
+     "default_auto|kudlich_slibar"},
     {"colour", Type::colour, Dimension::none, "'#c87838'", "Colour in pictures."},
-    {"material", Type::choice, Dimension::none, "'matte'", "Surface in pictures.", kAny, "matte|paint|glass|lamp|rubber|metal|skin|cloth"},
+    {"material", Type::choice, Dimension::none, "'matte'", "Surface in pictures.", kAny,
+     "matte|paint|glass|lamp|rubber|metal|skin|cloth"},
 };
 
 void read_shape(Builder& builder, Reader& r, engine::Body& body) {
@@ -44,7 +55,8 @@ void read_inertia(Reader& r, engine::Body& body) {
   if (r.has("inertia")) {
     body.inertia_B = r.inertia("inertia");
     check_inertia(r, "inertia", body.inertia_B);
-  } else if (const auto* ellipsoid = std::get_if<engine::HyperEllipsoid>(&body.shape); ellipsoid && (ellipsoid->semi_axes.array() > 0).all()) {
+  } else if (const auto* ellipsoid = std::get_if<engine::HyperEllipsoid>(&body.shape);
+             ellipsoid && (ellipsoid->semi_axes.array() > 0).all()) {
     body.inertia_B = engine::principal_inertia(*ellipsoid, body.mass).asDiagonal();
   } else if (!body.fixed && !r.has("axes")) {
     r.fail("inertia", "is missing; a body without axes needs its inertia, like inertia = \"1 2 2 kg m^2\"");
@@ -101,12 +113,14 @@ void check_inertia(Reader& r, std::string_view key, const engine::Mat3& inertia)
     r.fail(key, fmt::format("must be positive definite; its smallest principal moment is {:.6g} kg m^2", moments[0]));
     // rounding of a tensor that is exactly flat must pass
   } else if (moments[0] + moments[1] < moments[2] * (1 - 1e-9)) {
-    r.fail(key, fmt::format("must be physically possible; of its principal moments {:.6g} + {:.6g} is less than {:.6g} kg m^2", moments[0],
-                            moments[1], moments[2]));
+    r.fail(key, fmt::format("must be physically possible; of its principal moments {:.6g} + {:.6g} is less than {:.6g} kg m^2",
+                            moments[0], moments[1], moments[2]));
   }
 }
 
-render::MaterialKind read_material_kind(Reader& r, std::string_view key) { return static_cast<render::MaterialKind>(r.choice(key)); }
+render::MaterialKind read_material_kind(Reader& r, std::string_view key) {
+  return static_cast<render::MaterialKind>(r.choice(key));
+}
 
 void read_body(Builder& builder, Reader r) {
   engine::Body body;

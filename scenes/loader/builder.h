@@ -17,14 +17,14 @@ struct ImportedMesh;
 struct Builder {
   Scene scene;
   Errors errors;
-  std::filesystem::path folder;                                    // of the scene file
-  std::map<std::string, std::shared_ptr<const ImportedMesh>> meshes;   // by path: ten cars load one mesh
+  std::filesystem::path folder;                                       // of the scene file
+  std::map<std::string, std::shared_ptr<const ImportedMesh>> meshes;  // by path: ten cars load one mesh
 
-  std::vector<std::string> declared;                               // names of vehicles, persons and bodies in the file, read or not
+  std::vector<std::string> declared;  // names of vehicles, persons and bodies in the file, read or not
 
   /// Whether a name, or the person it is a part of, stands in the file: an error in it was told already.
   bool is_declared(const std::string& name) const;
-  int body_index(const std::string& name) const;                   // -1: no such body
+  int body_index(const std::string& name) const;  // -1: no such body
   std::vector<std::string> body_names() const;
 };
 
@@ -34,14 +34,15 @@ void read_body(Builder&, Reader);
 void read_joint(Builder&, Reader);
 void read_person(Builder&, Reader);
 void read_vehicle(Builder&, Reader);
-void read_film(Builder&, Reader& scene);                           // camera, shot, overlays, output, road, sky
+void read_film(Builder&, Reader& scene);  // camera, shot, overlays, output, road, sky
 
 extern const Section kSimulationSection, kGroundSection, kBodySection, kJointSection, kPersonSection, kVehicleSection;
 extern const Section kCameraSection, kShotSection, kOverlaysSection, kOutputSection, kRoadSection, kSkySection;
 
 // Shared by several sections.
 
-/// Attitude from the keys attitude (roll pitch yaw) or quaternion. Roll about x, then pitch about y, then yaw about z, all world axes.
+/// Attitude from the keys attitude (roll pitch yaw) or quaternion. Roll about x, then pitch about y, then yaw about z, all world
+/// axes.
 engine::Quat read_attitude(Reader&);
 /// friction, restitution, each also as _body and _ground, and stiffness on top of `base`.
 engine::SurfaceProperties read_surface(Reader&, engine::SurfaceProperties base);
@@ -52,16 +53,27 @@ engine::ArticulationAngle read_angle(Reader&, engine::ArticulationAngle base);
 render::MaterialKind read_material_kind(Reader&, std::string_view key);
 
 /// Keys that several sections list in their tables.
-#define CRASHREEL_SURFACE_KEYS                                                                                                          \
-  {"friction", Type::schedule, Dimension::none, "", "Coulomb coefficient, sets both kinds below. Of two objects the smaller acts.",     \
-   kNotNegative},                                                                                                                       \
-      {"friction_body", Type::schedule, Dimension::none, "", "Coulomb coefficient against every other object.", kNotNegative},          \
-      {"friction_ground", Type::schedule, Dimension::none, "", "Coulomb coefficient against the ground.", kNotNegative},                \
-      {"restitution", Type::schedule, Dimension::none, "",                                                                              \
-       "Ratio of separating to closing normal speed, sets both kinds below. Of two objects the larger acts.", kShare},                  \
-      {"restitution_body", Type::schedule, Dimension::none, "", "The same against every other object.", kShare},                        \
-      {"restitution_ground", Type::schedule, Dimension::none, "", "The same against the ground.", kShare},                              \
-      {"stiffness", Type::schedule, Dimension::stiffness, "", "S of the compliant law, eq. (68); not used by Default-Auto.", kPositive}
+#define CRASHREEL_SURFACE_KEYS                                                                                                 \
+  {                                                                                                                            \
+      "friction",                                                                                                              \
+      Type::schedule,                                                                                                          \
+      Dimension::none,                                                                                                         \
+      "",                                                                                                                      \
+      "Coulomb coefficient, sets both kinds below. Of two objects the smaller acts.",                                          \
+      kNotNegative},                                                                                                           \
+      {"friction_body", Type::schedule, Dimension::none, "", "Coulomb coefficient against every other object.", kNotNegative}, \
+      {"friction_ground", Type::schedule, Dimension::none, "", "Coulomb coefficient against the ground.", kNotNegative},       \
+      {"restitution",                                                                                                          \
+       Type::schedule,                                                                                                         \
+       Dimension::none,                                                                                                        \
+       "",                                                                                                                     \
+       "Ratio of separating to closing normal speed, sets both kinds below. Of two objects the larger acts.",                  \
+       kShare},                                                                                                                \
+      {"restitution_body", Type::schedule, Dimension::none, "", "The same against every other object.", kShare},               \
+      {"restitution_ground", Type::schedule, Dimension::none, "", "The same against the ground.", kShare}, {                   \
+    "stiffness", Type::schedule, Dimension::stiffness, "", "S of the compliant law, eq. (68); not used by Default-Auto.",      \
+        kPositive                                                                                                              \
+  }
 
 /// The library beside the scene format: poses, persons, vehicles. CRASHREEL_HOME first, then where the program was built.
 std::filesystem::path home_folder();

@@ -1,4 +1,5 @@
-// The library file of a person, and how it is sized: lengths with stature, cross axes with sqrt(mass/stature), masses by regression.
+// The library file of a person, and how it is sized: lengths with stature, cross axes with sqrt(mass/stature), masses by
+// regression.
 #include "scenes/loader/figure.h"
 
 #include <fmt/format.h>
@@ -16,7 +17,8 @@ const Key kSegmentKeys[] = {
     {"centre", Type::vector3, Dimension::length, kRequired, "Centre when standing, x forward, y left, z above the soles."},
     {"axes", Type::vector3, Dimension::length, kRequired, "Semi-axes.", kPositive},
     {"exponent", Type::number, Dimension::none, "2", "Exponent n.", between(2, 100), {}, nullptr, "a hyper-ellipsoid needs n >= 2"},
-    {"mass_male", Type::numbers, Dimension::none, kRequired, "[b0, b1, b2]: mass in kg = b0 + b1 mass/kg + b2 stature/cm, scaled to the sum."},
+    {"mass_male", Type::numbers, Dimension::none, kRequired,
+     "[b0, b1, b2]: mass in kg = b0 + b1 mass/kg + b2 stature/cm, scaled to the sum."},
     {"mass_female", Type::numbers, Dimension::none, kRequired, "The same for women."},
     {"lengthwise", Type::boolean, Dimension::none, "false", "Its x axis grows with stature, like a foot."},
     {"cloth", Type::colour, Dimension::none, "'#808080'", "Colour."},
@@ -25,10 +27,12 @@ const Section kSegmentSection{"figure.segment", "[[segment]]", "In a person's li
 
 const Key kAngleKeys[] = {
     {"name", Type::text, Dimension::none, kRequired, "The word used in poses: JOINT_NAME, like knee_flexion."},
-    {"about", Type::choice, Dimension::none, kRequired, "Axis of the standing person that a positive angle turns about.", kAny, "+x|-x|+y|-y|+z|-z"},
+    {"about", Type::choice, Dimension::none, kRequired, "Axis of the standing person that a positive angle turns about.", kAny,
+     "+x|-x|+y|-y|+z|-z"},
     {"range", Type::range, Dimension::angle, kRequired, "Range of motion."},
 };
-const Section kAngleSection{"figure.joint.angle", "[[joint.angle]]", "In a person's library file: one angle of a joint.", kAngleKeys};
+const Section kAngleSection{"figure.joint.angle", "[[joint.angle]]", "In a person's library file: one angle of a joint.",
+                            kAngleKeys};
 
 const Key kJointKeys[] = {
     {"name", Type::text, Dimension::none, kRequired, "Name of the joint; with sides left_NAME and right_NAME."},
@@ -36,12 +40,20 @@ const Key kJointKeys[] = {
     {"parent", Type::text, Dimension::none, kRequired, "The part nearer to the root."},
     {"child", Type::text, Dimension::none, kRequired, "The part it carries."},
     {"at", Type::vector3, Dimension::length, kRequired, "Its centre when standing."},
-    {"angle", Type::tables, Dimension::none, kRequired, "One angle about y makes a revolute joint, three about y, x, z a ragdoll joint.", kAny, {}, &kAngleSection},
+    {"angle",
+     Type::tables,
+     Dimension::none,
+     kRequired,
+     "One angle about y makes a revolute joint, three about y, x, z a ragdoll joint.",
+     kAny,
+     {},
+     &kAngleSection},
     {"damping", Type::number, Dimension::angular_damping, "0", "Resistance per angular speed.", kNotNegative},
     {"friction_torque", Type::number, Dimension::torque, "0", "Constant resistance.", kNotNegative},
     {"stiffness", Type::number, Dimension::angular_stiffness, "0", "Spring towards the standing pose.", kNotNegative},
 };
-const Section kJointSectionOfFigure{"figure.joint", "[[joint]] of a person's file", "In a person's library file: one joint.", kJointKeys};
+const Section kJointSectionOfFigure{"figure.joint", "[[joint]] of a person's file", "In a person's library file: one joint.",
+                                    kJointKeys};
 
 const Key kFigureKeys[] = {
     {"title", Type::text, Dimension::none, "''", "What it is."},
@@ -55,8 +67,8 @@ const Key kFigureKeys[] = {
 const engine::Vec3 kMirror{1, -1, 1};
 
 struct Scaling {
-  double along;    // lengths, stature over the file's stature
-  double across;   // sqrt(mass/stature) over the file's
+  double along;   // lengths, stature over the file's stature
+  double across;  // sqrt(mass/stature) over the file's
   PersonSize size;
 };
 
@@ -102,7 +114,8 @@ std::vector<AnatomicalAngle> read_angles(Reader& r) {
     out.push_back({angle.text("name"), engine::Vec3::Unit(about / 2) * (about % 2 == 0 ? 1 : -1), lower, upper});
   }
   const bool revolute = out.size() == 1 && std::abs(out[0].axis.y()) == 1;
-  const bool ragdoll = out.size() == 3 && std::abs(out[0].axis.y()) == 1 && std::abs(out[1].axis.x()) == 1 && std::abs(out[2].axis.z()) == 1;
+  const bool ragdoll =
+      out.size() == 3 && std::abs(out[0].axis.y()) == 1 && std::abs(out[1].axis.x()) == 1 && std::abs(out[2].axis.z()) == 1;
   if (!revolute && !ragdoll) r.fail_here("must have one angle about y, or three about y, x and z in this order");
   return out;
 }
@@ -132,7 +145,8 @@ void read_joint_of_figure(Reader& r, const Scaling& scale, Figure& figure) {
     j.child = segment_index(r, figure.segments, "child", sides ? side : "");
     j.at = right ? at.cwiseProduct(kMirror) : at;
     // the mirror image of a turn about x or z has the other sense, about y the same
-    if (right) for (AnatomicalAngle& angle : j.angles) angle.axis = angle.axis.cwiseProduct(engine::Vec3{-1, 1, -1});
+    if (right)
+      for (AnatomicalAngle& angle : j.angles) angle.axis = angle.axis.cwiseProduct(engine::Vec3{-1, 1, -1});
     figure.joints.push_back(j);
     if (!sides) return;
   }
@@ -167,7 +181,8 @@ void sort_tree(Reader& r, Figure& figure) {
 
 }  // namespace
 
-const Section kFigureSection{"figure", "scenes/library/persons/NAME.toml", "A person as data; a scene's own lies beside it or in its folder persons/.", kFigureKeys};
+const Section kFigureSection{"figure", "scenes/library/persons/NAME.toml",
+                             "A person as data; a scene's own lies beside it or in its folder persons/.", kFigureKeys};
 
 Figure read_figure(Builder& builder, Reader& person, const PersonSize& size) {
   const std::string name = person.text("figure");
@@ -175,7 +190,8 @@ Figure read_figure(Builder& builder, Reader& person, const PersonSize& size) {
   if (file.empty()) {
     const auto names = library_names(builder, "persons");
     const std::string guess = nearest(name, names);
-    person.fail("figure", fmt::format("is not in the library of persons ({}){}", fmt::join(names, ", "), guess.empty() ? "" : fmt::format("; did you mean \"{}\"?", guess)));
+    person.fail("figure", fmt::format("is not in the library of persons ({}){}", fmt::join(names, ", "),
+                                      guess.empty() ? "" : fmt::format("; did you mean \"{}\"?", guess)));
     return {};
   }
   const std::size_t errors_before = builder.errors.count();

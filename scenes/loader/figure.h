@@ -12,40 +12,40 @@ namespace scenes {
 
 /// One anatomical angle: a word, the standing person's axis it turns about, and its range of motion.
 struct AnatomicalAngle {
-  std::string name;                  // "flexion"
-  engine::Vec3 axis;                 // unit, positive turn in the sense of the word
-  double lower = 0;                  // [rad]
-  double upper = 0;                  // [rad]
+  std::string name;   // "flexion"
+  engine::Vec3 axis;  // unit, positive turn in the sense of the word
+  double lower = 0;   // [rad]
+  double upper = 0;   // [rad]
 };
 
 struct Segment {
-  std::string name;                  // "left_thigh"
-  engine::Vec3 centre;               // [m] standing, soles at z = 0
+  std::string name;     // "left_thigh"
+  engine::Vec3 centre;  // [m] standing, soles at z = 0
   engine::HyperEllipsoid shape;
-  double mass = 0;                   // [kg]
+  double mass = 0;  // [kg]
   engine::Mat3 inertia = engine::Mat3::Zero();
   render::Material material;
 };
 
 struct FigureJoint {
-  std::string name;                  // "left_hip"
-  int parent = 0;                    // segments
+  std::string name;  // "left_hip"
+  int parent = 0;    // segments
   int child = 0;
-  engine::Vec3 at;                   // [m] standing
-  std::vector<AnatomicalAngle> angles;   // one: revolute; three: ragdoll; applied in this order
-  double damping = 0;                // [N m s/rad]
-  double friction_torque = 0;        // [N m]
-  double stiffness = 0;              // [N m/rad]
+  engine::Vec3 at;                      // [m] standing
+  std::vector<AnatomicalAngle> angles;  // one: revolute; three: ragdoll; applied in this order
+  double damping = 0;                   // [N m s/rad]
+  double friction_torque = 0;           // [N m]
+  double stiffness = 0;                 // [N m/rad]
 };
 
 struct Figure {
-  std::vector<Segment> segments;     // the root first
-  std::vector<FigureJoint> joints;   // parents before children
+  std::vector<Segment> segments;    // the root first
+  std::vector<FigureJoint> joints;  // parents before children
 };
 
 struct PersonSize {
-  double stature = 1.75;             // [m]
-  double mass = 78;                  // [kg]
+  double stature = 1.75;  // [m]
+  double mass = 78;       // [kg]
   bool female = false;
 };
 
@@ -63,7 +63,7 @@ engine::Joint engine_joint(const Figure&, const FigureJoint&, const std::vector<
 /// Angles of a pose by joint and angle, in the order of the figure; and the attitude of the root.
 struct Pose {
   std::vector<std::vector<double>> angles;
-  double roll = 0;                   // [rad] of the root: about x (forward), then pitch about y (left)
+  double roll = 0;  // [rad] of the root: about x (forward), then pitch about y (left)
   double pitch = 0;
 };
 

@@ -10,7 +10,8 @@ namespace {
 
 const Key kCameraKeys[] = {
     {"name", Type::text, Dimension::none, kRequired, "Name for --camera and for shots."},
-    {"kind", Type::choice, Dimension::none, "'fixed'", "Stands still; keeps its offset; circles; or looks straight down.", kAny, "fixed|follow|orbit|top"},
+    {"kind", Type::choice, Dimension::none, "'fixed'", "Stands still; keeps its offset; circles; or looks straight down.", kAny,
+     "fixed|follow|orbit|top"},
     {"position", Type::vector3, Dimension::length, "'-8 -8 3 m'", "Fixed: in the world. Follow: offset from the subject."},
     {"target", Type::vector3, Dimension::length, "'0 0 1 m'", "Fixed: point looked at. Others: offset from the subject."},
     {"follow", Type::text, Dimension::none, "''", "The subject: a body, a vehicle or a person. Empty: the world."},
@@ -20,7 +21,8 @@ const Key kCameraKeys[] = {
     {"start", Type::number, Dimension::angle, "'0 deg'", "Orbit: where it begins, from +x towards +y."},
     {"rate", Type::number, Dimension::angular_speed, "'0.3 rad/s'", "Orbit: how fast."},
     {"span", Type::number, Dimension::length, "'14 m'", "Top: metres from the lower to the upper edge of the picture.", kPositive},
-    {"smoothing", Type::number, Dimension::time, "'0.25 s'", "A following camera averages its subject over this time.", kNotNegative},
+    {"smoothing", Type::number, Dimension::time, "'0.25 s'", "A following camera averages its subject over this time.",
+     kNotNegative},
 };
 
 const Key kShotKeys[] = {
@@ -57,9 +59,11 @@ const Key kOutputKeys[] = {
 };
 
 const Key kRoadKeys[] = {
-    {"kind", Type::choice, Dimension::none, "'plain'", "Asphalt with lane markings along x, or plain ground with a metre grid.", kAny, "road|plain"},
+    {"kind", Type::choice, Dimension::none, "'plain'", "Asphalt with lane markings along x, or plain ground with a metre grid.",
+     kAny, "road|plain"},
     {"width", Type::number, Dimension::length, "'7 m'", "Kerb to kerb.", kPositive},
-    {"centre_y", Type::number, Dimension::length, "'0 m'", "Where its middle runs. Traffic keeps right: lanes along +x lie at smaller y."},
+    {"centre_y", Type::number, Dimension::length, "'0 m'",
+     "Where its middle runs. Traffic keeps right: lanes along +x lie at smaller y."},
     {"lanes", Type::integer, Dimension::none, "2", "Lanes in all.", between(1, 12)},
     {"grid", Type::boolean, Dimension::none, "false", "A grid of metres on the road as well."},
     {"zebra", Type::number, Dimension::length, "", "x of a pedestrian crossing; left out: none."},
@@ -74,7 +78,8 @@ const Key kSkyKeys[] = {
 bool subject_exists(const Builder& builder, const std::string& name) {
   const engine::Model& model = builder.scene.model;
   if (builder.is_declared(name) && name.find('/') == std::string::npos) return true;
-  return builder.body_index(name) >= 0 || std::any_of(model.persons.begin(), model.persons.end(), [&](const auto& p) { return p.name == name; }) ||
+  return builder.body_index(name) >= 0 ||
+         std::any_of(model.persons.begin(), model.persons.end(), [&](const auto& p) { return p.name == name; }) ||
          std::any_of(model.vehicles.begin(), model.vehicles.end(), [&](const auto& v) { return v.name == name; });
 }
 
@@ -112,7 +117,8 @@ void check_camera_name(Builder& builder, Reader& r, const std::string& name) {
   for (const render::Camera& camera : builder.scene.stage.cameras) names.push_back(camera.name);
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
   const std::string guess = nearest(name, names);
-  r.fail("camera", guess.empty() ? "is no camera of the scene" : fmt::format("is no camera of the scene; did you mean \"{}\"?", guess));
+  r.fail("camera",
+         guess.empty() ? "is no camera of the scene" : fmt::format("is no camera of the scene; did you mean \"{}\"?", guess));
 }
 
 void read_shot(Builder& builder, Reader& r) {
@@ -124,7 +130,8 @@ void read_shot(Builder& builder, Reader& r) {
   shot.speed = r.number("speed");
   shot.hold = r.number("hold");
   if (shot.to < shot.from) r.fail("to", "must not be earlier than from");
-  if (shot.speed == 0 && shot.hold == 0) r.fail("hold", "must be greater than 0 s where speed is 0; a frozen picture needs a duration");
+  if (shot.speed == 0 && shot.hold == 0)
+    r.fail("hold", "must be greater than 0 s where speed is 0; a frozen picture needs a duration");
   builder.scene.stage.shots.push_back(shot);
 }
 
@@ -142,7 +149,8 @@ void read_overlays(Builder& builder, Reader r) {
     const bool told = !builder.errors.empty() && builder.is_declared(name);
     if (builder.body_index(name) >= 0 || told) continue;
     const std::string guess = nearest(name, builder.body_names());
-    r.fail("trace_bodies", fmt::format("must name bodies of the scene; \"{}\" is none{}", name, guess.empty() ? "" : fmt::format(", did you mean \"{}\"?", guess)));
+    r.fail("trace_bodies", fmt::format("must name bodies of the scene; \"{}\" is none{}", name,
+                                       guess.empty() ? "" : fmt::format(", did you mean \"{}\"?", guess)));
   }
   if (o.trace_bodies.empty()) {
     for (const engine::Person& person : builder.scene.model.persons) {
@@ -183,8 +191,11 @@ void read_road_and_sky(Builder& builder, Reader road, Reader sky) {
 
 }  // namespace
 
-const Section kCameraSection{"camera", "[[camera]]", "A camera. A scene without one gets \"overview\", which looks at where things are at the start.", kCameraKeys};
-const Section kShotSection{"shot", "[[shot]]", "A stretch of film. Without shots: the whole run from the first camera at natural speed.", kShotKeys};
+const Section kCameraSection{"camera", "[[camera]]",
+                             "A camera. A scene without one gets \"overview\", which looks at where things are at the start.",
+                             kCameraKeys};
+const Section kShotSection{"shot", "[[shot]]",
+                           "A stretch of film. Without shots: the whole run from the first camera at natural speed.", kShotKeys};
 const Section kOverlaysSection{"overlays", "[overlays]", "What is drawn over the picture.", kOverlayKeys};
 const Section kOutputSection{"output", "[output]", "Size and rate of pictures; the command line overrides.", kOutputKeys};
 const Section kRoadSection{"road", "[road]", "What the ground plane looks like; its friction stands in [ground].", kRoadKeys};

@@ -6,11 +6,14 @@ namespace scenes {
 namespace {
 
 const Key kKeys[] = {
-    {"kind", Type::choice, Dimension::none, "'plane'", "An infinite plane z = height, or none (free fall, or terrain only).", kAny, "plane|none"},
+    {"kind", Type::choice, Dimension::none, "'plane'", "An infinite plane z = height, or none (free fall, or terrain only).", kAny,
+     "plane|none"},
     {"height", Type::number, Dimension::length, "'0 m'", "Height of the plane."},
-    {"friction", Type::schedule, Dimension::none, "1", "Coulomb coefficient of the ground. Of two objects the smaller acts, so 1 leaves it to the other.", kNotNegative},
+    {"friction", Type::schedule, Dimension::none, "1",
+     "Coulomb coefficient of the ground. Of two objects the smaller acts, so 1 leaves it to the other.", kNotNegative},
     {"restitution", Type::schedule, Dimension::none, "0", "Restitution of the ground. Of two objects the larger acts.", kShare},
-    {"stiffness", Type::schedule, Dimension::stiffness, "'1e6 kN/m'", "S of the compliant law; stiff, so that the other object yields.", kPositive},
+    {"stiffness", Type::schedule, Dimension::stiffness, "'1e6 kN/m'",
+     "S of the compliant law; stiff, so that the other object yields.", kPositive},
     {"terrain", Type::path, Dimension::none, "", "A mesh file in world axes (z up), besides or in place of the plane."},
 };
 

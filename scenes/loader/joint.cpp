@@ -6,28 +6,33 @@
 namespace scenes {
 namespace {
 
-#define CRASHREEL_ANGLE_KEYS                                                                                                        \
-  {"range", Type::range, Dimension::angle, "", "Lower and upper limit of the angle. Left out: free."},                              \
-      {"stiffness", Type::number, Dimension::angular_stiffness, "", "Resistive spring torque per angle.", kNotNegative},            \
-      {"rest", Type::number, Dimension::angle, "", "Angle at which the spring is slack."},                                          \
-      {"damping", Type::number, Dimension::angular_damping, "", "Resistance per angular speed.", kNotNegative},                     \
-      {"friction_torque", Type::number, Dimension::torque, "", "Constant resistance against turning.", kNotNegative}
+#define CRASHREEL_ANGLE_KEYS                                                                                             \
+  {"range", Type::range, Dimension::angle, "", "Lower and upper limit of the angle. Left out: free."},                   \
+      {"stiffness", Type::number, Dimension::angular_stiffness, "", "Resistive spring torque per angle.", kNotNegative}, \
+      {"rest", Type::number, Dimension::angle, "", "Angle at which the spring is slack."},                               \
+      {"damping", Type::number, Dimension::angular_damping, "", "Resistance per angular speed.", kNotNegative}, {        \
+    "friction_torque", Type::number, Dimension::torque, "", "Constant resistance against turning.", kNotNegative         \
+  }
 
 const Key kAngleKeys[] = {CRASHREEL_ANGLE_KEYS};
-const Section kAngleSection{"joint.angle", "[joint.x]",
-                            "One articulation angle, also [joint.y], [joint.z]: swing about x, swing about y, twist about z of the joint frame. "
-                            "What is not given here is taken from the joint.", kAngleKeys};
+const Section kAngleSection{
+    "joint.angle", "[joint.x]",
+    "One articulation angle, also [joint.y], [joint.z]: swing about x, swing about y, twist about z of the joint frame. "
+    "What is not given here is taken from the joint.",
+    kAngleKeys};
 
 const Key kKeys[] = {
     {"name", Type::text, Dimension::none, "''", "Name in messages; left out: parent-child."},
-    {"kind", Type::choice, Dimension::none, "'spherical'", "Which turns it leaves: about axis; a cardan cross; all; all with limits; none.", kAny,
+    {"kind", Type::choice, Dimension::none, "'spherical'",
+     "Which turns it leaves: about axis; a cardan cross; all; all with limits; none.", kAny,
      "revolute|universal|spherical|ragdoll|fixed"},
     {"parent", Type::text, Dimension::none, "'world'", "A body, or the world."},
     {"child", Type::text, Dimension::none, kRequired, "The body that hangs on the parent."},
     {"at", Type::vector3, Dimension::length, "", "The joint's centre at the start, in the world. Left out: the child's centre."},
     {"axis", Type::vector3, Dimension::none, "[0, 1, 0]",
      "World direction of the joint frame's y at the start: the axis of a revolute, the parent's arm of a cardan cross."},
-    {"second_axis", Type::vector3, Dimension::none, "", "World direction of the joint frame's x, at right angles to axis: the child's arm of a cardan cross."},
+    {"second_axis", Type::vector3, Dimension::none, "",
+     "World direction of the joint frame's x, at right angles to axis: the child's arm of a cardan cross."},
     CRASHREEL_ANGLE_KEYS,
     {"x", Type::table, Dimension::none, "", "The first swing angle.", kAny, {}, &kAngleSection},
     {"y", Type::table, Dimension::none, "", "The second swing angle; the angle of a revolute.", kAny, {}, &kAngleSection},
@@ -57,7 +62,8 @@ engine::Quat read_frame(Reader& r) {
   // any direction across will do when none is asked for: the world axis farthest from y
   engine::Vec3 x = std::abs(y_W.x()) < 0.9 ? engine::Vec3::UnitX() : engine::Vec3(0, -1, 0);
   if (const auto given = r.vector_if("second_axis")) {
-    if (std::abs(given->normalized().dot(y_W)) > 1e-6 || given->norm() < 1e-9) r.fail("second_axis", "must stand at right angles to axis");
+    if (std::abs(given->normalized().dot(y_W)) > 1e-6 || given->norm() < 1e-9)
+      r.fail("second_axis", "must stand at right angles to axis");
     x = *given;
   }
   engine::Mat3 frame;
@@ -68,10 +74,12 @@ engine::Quat read_frame(Reader& r) {
 
 }  // namespace
 
-const Section kJointSection{"joint", "[[joint]]", "Ties a body to another or to the world. All angles are zero in the pose at the start.", kKeys};
+const Section kJointSection{"joint", "[[joint]]",
+                            "Ties a body to another or to the world. All angles are zero in the pose at the start.", kKeys};
 
 engine::ArticulationAngle read_angle(Reader& r, engine::ArticulationAngle out) {
-  if (r.has("range")) std::tie(out.lower, out.upper) = [](std::array<double, 2> a) { return std::pair{a[0], a[1]}; }(r.range("range"));
+  if (r.has("range"))
+    std::tie(out.lower, out.upper) = [](std::array<double, 2> a) { return std::pair{a[0], a[1]}; }(r.range("range"));
   if (r.has("stiffness")) out.stiffness = r.number("stiffness");
   if (r.has("rest")) out.rest = r.number("rest");
   if (r.has("damping")) out.damping = r.number("damping");

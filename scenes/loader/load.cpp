@@ -19,7 +19,8 @@ namespace {
 const Key kClosedFormKeys[] = {
     {"*", Type::number, Dimension::none, "", "The value of the metric of this name in summary.json, in the unit of its name."},
 };
-const Section kClosedFormSection{"closed_form", "[closed_form]", "Answers known in closed form; `crashreel study` measures errors against them.", kClosedFormKeys};
+const Section kClosedFormSection{"closed_form", "[closed_form]",
+                                 "Answers known in closed form; `crashreel study` measures errors against them.", kClosedFormKeys};
 
 const Key kSceneKeys[] = {
     {"title", Type::text, Dimension::none, "'Untitled scene'", "Shown in pictures and files."},
@@ -67,13 +68,16 @@ void read_closed_form(Builder& builder, std::optional<Reader> reader) {
 
 }  // namespace
 
-SceneErrors::SceneErrors(std::vector<std::string> found) : std::runtime_error(fmt::format("{}", fmt::join(found, "\n"))), lines(std::move(found)) {}
+SceneErrors::SceneErrors(std::vector<std::string> found)
+    : std::runtime_error(fmt::format("{}", fmt::join(found, "\n"))), lines(std::move(found)) {}
 
 bool Builder::is_declared(const std::string& name) const {
   return std::find(declared.begin(), declared.end(), name.substr(0, name.find('/'))) != declared.end();
 }
 
-const Section& scene_section() { return kSceneSection; }
+const Section& scene_section() {
+  return kSceneSection;
+}
 
 std::filesystem::path home_folder() {
   const char* home = std::getenv("CRASHREEL_HOME");

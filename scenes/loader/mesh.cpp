@@ -11,7 +11,8 @@
 namespace scenes {
 namespace {
 
-constexpr std::array<std::string_view, 11> kFormats{".obj", ".stl", ".gltf", ".glb", ".dae", ".3ds", ".ac", ".fbx", ".off", ".ply", ".x"};
+constexpr std::array<std::string_view, 11> kFormats{".obj", ".stl", ".gltf", ".glb", ".dae", ".3ds",
+                                                    ".ac",  ".fbx", ".off",  ".ply", ".x"};
 
 std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -19,24 +20,29 @@ std::string lower_case(std::string text) {
 }
 
 struct MaterialLine {
-  std::string_view word;          // in the material's name
+  std::string_view word;  // in the material's name
   render::MaterialKind kind;
   float roughness;
 };
 
 /// What a surface is, by its name: meshes carry colours, rarely how they shine.
 constexpr MaterialLine kMaterials[] = {
-    {"glass", render::MaterialKind::glass, 0.05f},  {"window", render::MaterialKind::glass, 0.05f}, {"lamp", render::MaterialKind::lamp, 0.15f},
-    {"light", render::MaterialKind::lamp, 0.15f},   {"tyre", render::MaterialKind::rubber, 0.9f},   {"tire", render::MaterialKind::rubber, 0.9f},
-    {"rubber", render::MaterialKind::rubber, 0.9f}, {"trim", render::MaterialKind::rubber, 0.7f},   {"chrome", render::MaterialKind::metal, 0.15f},
-    {"rim", render::MaterialKind::metal, 0.35f},    {"metal", render::MaterialKind::metal, 0.35f},  {"paint", render::MaterialKind::paint, 0.25f},
+    {"glass", render::MaterialKind::glass, 0.05f},  {"window", render::MaterialKind::glass, 0.05f},
+    {"lamp", render::MaterialKind::lamp, 0.15f},    {"light", render::MaterialKind::lamp, 0.15f},
+    {"tyre", render::MaterialKind::rubber, 0.9f},   {"tire", render::MaterialKind::rubber, 0.9f},
+    {"rubber", render::MaterialKind::rubber, 0.9f}, {"trim", render::MaterialKind::rubber, 0.7f},
+    {"chrome", render::MaterialKind::metal, 0.15f}, {"rim", render::MaterialKind::metal, 0.35f},
+    {"metal", render::MaterialKind::metal, 0.35f},  {"paint", render::MaterialKind::paint, 0.25f},
     {"body", render::MaterialKind::paint, 0.25f}};
 
 render::Material material_of(const RawPart& part) {
   // colours in mesh files are meant for the screen (sRGB); the stage wants light
   const auto linear = [](float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); };
-  render::Material out{part.material, render::MaterialKind::matte, {linear(part.colour[0]), linear(part.colour[1]), linear(part.colour[2])},
-                       0.7f, std::clamp(part.opacity, 0.05f, 1.0f)};
+  render::Material out{part.material,
+                       render::MaterialKind::matte,
+                       {linear(part.colour[0]), linear(part.colour[1]), linear(part.colour[2])},
+                       0.7f,
+                       std::clamp(part.opacity, 0.05f, 1.0f)};
   const std::string name = lower_case(part.material);
   for (const MaterialLine& line : kMaterials) {
     if (name.find(line.word) == std::string::npos) continue;
@@ -51,7 +57,8 @@ std::shared_ptr<const render::Mesh> look_of(const std::vector<RawPart>& parts) {
   auto out = std::make_shared<render::Mesh>();
   for (const RawPart& part : parts) {
     const auto base = static_cast<std::uint32_t>(out->positions.size() / 3);
-    out->parts.push_back({static_cast<std::uint32_t>(out->indices.size()), static_cast<std::uint32_t>(part.indices.size()), static_cast<int>(out->materials.size())});
+    out->parts.push_back({static_cast<std::uint32_t>(out->indices.size()), static_cast<std::uint32_t>(part.indices.size()),
+                          static_cast<int>(out->materials.size())});
     out->materials.push_back(material_of(part));
     out->positions.insert(out->positions.end(), part.positions.begin(), part.positions.end());
     out->normals.insert(out->normals.end(), part.normals.begin(), part.normals.end());
@@ -66,7 +73,8 @@ std::shared_ptr<const engine::TriangleMesh> solid_of(const std::vector<RawPart>&
   std::vector<engine::Triangle> triangles;
   for (const RawPart& part : parts) {
     const auto base = static_cast<std::int32_t>(vertices.size());
-    for (std::size_t i = 0; i < part.positions.size(); i += 3) vertices.emplace_back(part.positions[i], part.positions[i + 1], part.positions[i + 2]);
+    for (std::size_t i = 0; i < part.positions.size(); i += 3)
+      vertices.emplace_back(part.positions[i], part.positions[i + 1], part.positions[i + 2]);
     for (std::size_t i = 0; i < part.indices.size(); i += 3) {
       triangles.push_back({base + static_cast<std::int32_t>(part.indices[i]), base + static_cast<std::int32_t>(part.indices[i + 1]),
                            base + static_cast<std::int32_t>(part.indices[i + 2])});
@@ -80,7 +88,9 @@ void turn_upright(std::vector<RawPart>& parts, const std::string& extension) {
   if (extension != ".gltf" && extension != ".glb" && extension != ".dae") return;
   for (RawPart& part : parts) {
     for (auto* array : {&part.positions, &part.normals}) {
-      for (std::size_t i = 0; i + 2 < array->size(); i += 3) std::rotate(array->begin() + static_cast<long>(i), array->begin() + static_cast<long>(i) + 2, array->begin() + static_cast<long>(i) + 3);
+      for (std::size_t i = 0; i + 2 < array->size(); i += 3)
+        std::rotate(array->begin() + static_cast<long>(i), array->begin() + static_cast<long>(i) + 2,
+                    array->begin() + static_cast<long>(i) + 3);
     }
   }
 }
@@ -100,7 +110,8 @@ int drop_not_finite(std::vector<RawPart>& parts) {
       }
     }
     part.indices = std::move(kept);
-    for (float& x : part.positions) if (!std::isfinite(x)) x = 0;
+    for (float& x : part.positions)
+      if (!std::isfinite(x)) x = 0;
   }
   return dropped;
 }
@@ -114,7 +125,9 @@ std::vector<std::string> audit(const std::vector<RawPart>& parts, const std::str
   engine::Aabb box;
   std::set<std::array<std::array<float, 3>, 3>> seen;
   for (const RawPart& part : parts) {
-    const auto corner = [&](std::uint32_t i) { return std::array<float, 3>{part.positions[3 * i], part.positions[3 * i + 1], part.positions[3 * i + 2]}; };
+    const auto corner = [&](std::uint32_t i) {
+      return std::array<float, 3>{part.positions[3 * i], part.positions[3 * i + 1], part.positions[3 * i + 2]};
+    };
     for (std::size_t i = 0; i < part.indices.size(); i += 3) {
       std::array<std::array<float, 3>, 3> t{corner(part.indices[i]), corner(part.indices[i + 1]), corner(part.indices[i + 2])};
       const auto vec = [](const std::array<float, 3>& a) { return engine::Vec3(a[0], a[1], a[2]); };
@@ -134,7 +147,8 @@ std::vector<std::string> audit(const std::vector<RawPart>& parts, const std::str
   if (degenerate > 0) out.push_back(fmt::format("{} has {} degenerate triangles; they are left out of contact", file, degenerate));
   if (duplicates > 0) out.push_back(fmt::format("{} has {} duplicate triangles; they are left out of contact", file, duplicates));
   // a clearly negative volume means faces turned inwards; sheets and open terrain have none to speak of
-  if (box.upper.x() >= box.lower.x() && volume < -0.05 * (box.upper - box.lower).prod()) out.push_back(fmt::format("{} is inside out: its triangles run clockwise seen from outside", file));
+  if (box.upper.x() >= box.lower.x() && volume < -0.05 * (box.upper - box.lower).prod())
+    out.push_back(fmt::format("{} is inside out: its triangles run clockwise seen from outside", file));
   return out;
 }
 

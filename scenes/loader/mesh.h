@@ -15,28 +15,34 @@ namespace scenes {
 /// One mesh of a file with one material, as the cage hands it back.
 struct RawPart {
   std::string material;
-  float colour[3] = {0.6f, 0.6f, 0.6f};   // linear
+  float colour[3] = {0.6f, 0.6f, 0.6f};  // linear
   float opacity = 1;
-  std::vector<float> positions;           // xyz
-  std::vector<float> normals;             // xyz, as many as positions
+  std::vector<float> positions;  // xyz
+  std::vector<float> normals;    // xyz, as many as positions
   std::vector<std::uint32_t> indices;
 };
 
 struct CageResult {
   std::vector<RawPart> parts;
-  std::string problem;                    // empty: imported
+  std::string problem;  // empty: imported
+};
+
+struct CageLimits {
+  int cpu_time = 10;  // [s] a vehicle of a million triangles takes about three
+  int patience = 60;  // [s] of wall time until the parent gives up
 };
 
 /// Imports a mesh in a forked child with limits on memory, time and files; files outside `root` cannot be opened. Never throws.
-CageResult import_in_cage(const std::filesystem::path& file, const std::filesystem::path& root);
+CageResult import_in_cage(const std::filesystem::path& file, const std::filesystem::path& root, const CageLimits& = {});
 
 struct ImportedMesh {
-  std::shared_ptr<const engine::TriangleMesh> solid;   // welded, for contact
-  std::shared_ptr<const render::Mesh> look;            // with normals and materials
+  std::shared_ptr<const engine::TriangleMesh> solid;  // welded, for contact
+  std::shared_ptr<const render::Mesh> look;           // with normals and materials
   std::vector<std::string> warnings;
 };
 
-/// The mesh file named by the reader's key, found in the scene's folder or the assets, loaded once per load. Null after an error, which is collected.
+/// The mesh file named by the reader's key, found in the scene's folder or the assets, loaded once per load. Null after an error,
+/// which is collected.
 std::shared_ptr<const ImportedMesh> import_mesh(Builder&, Reader&, std::string_view key);
 
 /// What is odd about a mesh (without changing it): not finite, degenerate, duplicate, inside out.

@@ -31,10 +31,8 @@
 namespace scenes {
 namespace {
 
-constexpr rlim_t kMemory = rlim_t{4} << 30;       // [byte] a detailed vehicle needs some hundred MB in the importer
-constexpr rlim_t kCpuTime = 30;                   // [s]
-constexpr int kPatience = 60;                     // [s] wall time until the parent gives up
-constexpr std::size_t kLargest = std::size_t{1} << 29;   // [byte] of arrays accepted from the child
+constexpr rlim_t kMemory = rlim_t{4} << 30;             // [byte] a detailed vehicle needs some hundred MB in the importer
+constexpr std::size_t kLargest = std::size_t{1} << 29;  // [byte] of arrays accepted from the child
 
 /// Reads only, and only below one folder: `mtllib ../../etc/passwd` opens nothing.
 class CagedFiles : public Assimp::DefaultIOSystem {
@@ -54,7 +52,9 @@ class CagedFiles : public Assimp::DefaultIOSystem {
   std::filesystem::path root_;
 };
 
-void append(std::string& out, const void* data, std::size_t bytes) { out.append(static_cast<const char*>(data), bytes); }
+void append(std::string& out, const void* data, std::size_t bytes) {
+  out.append(static_cast<const char*>(data), bytes);
+}
 template <class T>
 void append_array(std::string& out, const T* data, std::size_t count) {
   const std::uint64_t n = count;
@@ -91,11 +91,12 @@ void write_mesh(std::string& out, const aiMesh& mesh) {
 
 std::string import_here(const std::filesystem::path& file, const std::filesystem::path& root) {
   Assimp::Importer importer;
-  importer.SetIOHandler(new CagedFiles(root));   // the importer deletes it
-  importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, 50.0f);   // sharper edges than this stay edges
+  importer.SetIOHandler(new CagedFiles(root));                             // the importer deletes it
+  importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, 50.0f);  // sharper edges than this stay edges
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType |
-                                                              aiProcess_GenSmoothNormals | aiProcess_PreTransformVertices);
+  const aiScene* scene =
+      importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType |
+                                           aiProcess_GenSmoothNormals | aiProcess_PreTransformVertices);
   if (!scene) return "E" + std::string(importer.GetErrorString());
   if (scene->mNumMeshes == 0) return "Ethe file has no triangles";
   std::string out = "M";
@@ -111,7 +112,7 @@ void limit(int resource, rlim_t value) {
   setrlimit(static_cast<__rlimit_resource>(resource), &both);
 }
 
-[[noreturn]] void child(int out, const std::filesystem::path& file, const std::filesystem::path& root) {
+[[noreturn]] void child(int out, const std::filesystem::path& file, const std::filesystem::path& root, const CageLimits& limits) {
   if (const int null = open("/dev/null", O_RDWR); null >= 0) {
     dup2(null, 0);
     dup2(null, 1);
@@ -119,7 +120,7 @@ void limit(int resource, rlim_t value) {
   }
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, 0);
-  limit(RLIMIT_CPU, kCpuTime);
+  limit(RLIMIT_CPU, static_cast<rlim_t>(limits.cpu_time));
   limit(RLIMIT_NOFILE, 64);
   if (CRASHREEL_ADDRESS_LIMIT) limit(RLIMIT_AS, kMemory);
   std::string bytes;
@@ -145,10 +146,16 @@ class Message {
   template <class T, class Container>
   void take(Container& out) {
     std::uint64_t n = 0;
-    if (bytes_.size() < sizeof n) { good_ = false; return; }
+    if (bytes_.size() < sizeof n) {
+      good_ = false;
+      return;
+    }
     std::memcpy(&n, bytes_.data(), sizeof n);
     bytes_.remove_prefix(sizeof n);
-    if (n > bytes_.size() / sizeof(T)) { good_ = false; return; }
+    if (n > bytes_.size() / sizeof(T)) {
+      good_ = false;
+      return;
+    }
     out.resize(n);
     std::memcpy(out.data(), bytes_.data(), n * sizeof(T));
     bytes_.remove_prefix(n * sizeof(T));
@@ -185,10 +192,10 @@ CageResult unpacked(const std::string& bytes) {
 }
 
 /// Everything the child sends, or nothing when it dawdles, sends too much or dies.
-std::string received(int in, pid_t worker) {
+std::string received(int in, pid_t worker, int patience) {
   std::string bytes;
   bool whole = false;
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(kPatience);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(patience);
   std::vector<char> buffer(1 << 16);
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now()).count();
@@ -199,24 +206,29 @@ std::string received(int in, pid_t worker) {
     if (events <= 0) break;
     const ssize_t n = read(in, buffer.data(), buffer.size());
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) { whole = n == 0; break; }
+    if (n <= 0) {
+      whole = n == 0;
+      break;
+    }
     bytes.append(buffer.data(), static_cast<std::size_t>(n));
   }
   if (!whole) kill(worker, SIGKILL);
   int status = 0;
-  while (waitpid(worker, &status, 0) < 0 && errno == EINTR) {}
+  while (waitpid(worker, &status, 0) < 0 && errno == EINTR) {
+  }
   return whole && WIFEXITED(status) && WEXITSTATUS(status) == 0 ? bytes : std::string();
 }
 
 }  // namespace
 
-CageResult import_in_cage(const std::filesystem::path& file, const std::filesystem::path& root) {
+CageResult import_in_cage(const std::filesystem::path& file, const std::filesystem::path& root, const CageLimits& limits) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return {{}, std::string("no pipe to the import: ") + std::strerror(errno)};
   const pid_t worker = fork();
-  if (worker == 0) child(ends[1], file, root);
+  if (worker == 0) child(ends[1], file, root, limits);
   close(ends[1]);
-  CageResult out = worker < 0 ? CageResult{{}, std::string("no process for the import: ") + std::strerror(errno)} : unpacked(received(ends[0], worker));
+  CageResult out = worker < 0 ? CageResult{{}, std::string("no process for the import: ") + std::strerror(errno)}
+                              : unpacked(received(ends[0], worker, limits.patience));
   close(ends[0]);
   return out;
 }

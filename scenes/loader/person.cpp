@@ -18,7 +18,8 @@ const Key kSegmentKeys[] = {
     CRASHREEL_SURFACE_KEYS,
     {"colour", Type::colour, Dimension::none, "", "Colour in pictures."},
 };
-const Section kSegmentSection{"person.segment", "[person.segment.NAME]", "Changes to one part: head, neck, torso, hips, left_thigh ...", kSegmentKeys};
+const Section kSegmentSection{"person.segment", "[person.segment.NAME]",
+                              "Changes to one part: head, neck, torso, hips, left_thigh ...", kSegmentKeys};
 
 const Key kRangeKeys[] = {{"*", Type::range, Dimension::angle, "", "Range of motion of the angle of this name, like flexion."}};
 const Section kRangesSection{"person.joint.ranges", "[person.joint.NAME.ranges]", "Other ranges of motion.", kRangeKeys};
@@ -29,13 +30,21 @@ const Key kJointKeys[] = {
     {"stiffness", Type::number, Dimension::angular_stiffness, "", "Resistive spring towards standing.", kNotNegative},
     {"ranges", Type::table, Dimension::none, "", "Ranges of motion.", kAny, {}, &kRangesSection},
 };
-const Section kJointSectionOfPerson{"person.joint", "[person.joint.NAME]", "Changes to one joint: trunk, neck, head, left_hip, left_knee ...", kJointKeys};
+const Section kJointSectionOfPerson{"person.joint", "[person.joint.NAME]",
+                                    "Changes to one joint: trunk, neck, head, left_hip, left_knee ...", kJointKeys};
 
 const Key kKeys[] = {
     {"name", Type::text, Dimension::none, kRequired, "Name; its parts are NAME/head, NAME/left_thigh ..."},
     {"figure", Type::text, Dimension::none, "'person-14'", "A person of the library or of the scene's folder."},
     {"sex", Type::choice, Dimension::none, "'male'", "Which regression gives the masses of the parts.", kAny, "male|female"},
-    {"stature", Type::number, Dimension::length, "'1.75 m'", "Height standing.", between(1.3, 2.3), {}, nullptr,
+    {"stature",
+     Type::number,
+     Dimension::length,
+     "'1.75 m'",
+     "Height standing.",
+     between(1.3, 2.3),
+     {},
+     nullptr,
      "smaller persons need a figure with a child's proportions"},
     {"mass", Type::number, Dimension::mass, "'78 kg'", "Mass of the whole person.", between(25, 250)},
     {"pose", Type::text, Dimension::none, "'standing'", "A pose of the library or of the scene's folder."},
@@ -44,12 +53,15 @@ const Key kKeys[] = {
     {"heading", Type::number, Dimension::angle, "'0 deg'", "Where the person faces, from +x towards +y."},
     {"speed", Type::number, Dimension::speed, "'0 m/s'", "Walking velocity along the heading."},
     {"velocity", Type::vector3, Dimension::speed, "", "Velocity in world axes, in place of speed."},
-    {"angular_velocity", Type::vector3, Dimension::angular_speed, "", "Of the whole person about its centre of gravity, world axes."},
+    {"angular_velocity", Type::vector3, Dimension::angular_speed, "",
+     "Of the whole person about its centre of gravity, world axes."},
     {"height", Type::number, Dimension::length, "'0 m'", "Of the lowest point above the ground."},
     {"cg_height", Type::number, Dimension::length, "", "Of the centre of gravity above z = 0, in place of height."},
     {"zero_condition", Type::boolean, Dimension::none, "true", "Keeps pose and velocity at no cost until something touches it."},
-    {"appearance", Type::choice, Dimension::none, "'skin'", "Ellipsoids, one skin over them, or their wire grid.", kAny, "segments|skin|raster"},
-    {"collision", Type::choice, Dimension::none, "'default_auto'", "Collision model the person asks for.", kAny, "default_auto|kudlich_slibar"},
+    {"appearance", Type::choice, Dimension::none, "'skin'", "Ellipsoids, one skin over them, or their wire grid.", kAny,
+     "segments|skin|raster"},
+    {"collision", Type::choice, Dimension::none, "'default_auto'", "Collision model the person asks for.", kAny,
+     "default_auto|kudlich_slibar"},
     CRASHREEL_SURFACE_KEYS,
     {"segment", Type::map, Dimension::none, "", "Changes to single parts.", kAny, {}, &kSegmentSection},
     {"joint", Type::map, Dimension::none, "", "Changes to single joints.", kAny, {}, &kJointSectionOfPerson},
@@ -57,12 +69,14 @@ const Key kKeys[] = {
 
 void change_segments(Reader& r, Figure& figure, std::vector<engine::SurfaceProperties>& surfaces) {
   for (auto& [name, change] : r.map("segment")) {
-    const auto at = std::find_if(figure.segments.begin(), figure.segments.end(), [&n = name](const Segment& s) { return s.name == n; });
+    const auto at =
+        std::find_if(figure.segments.begin(), figure.segments.end(), [&n = name](const Segment& s) { return s.name == n; });
     if (at == figure.segments.end()) {
       std::vector<std::string> names;
       for (const Segment& s : figure.segments) names.push_back(s.name);
       const std::string guess = nearest(name, names);
-      change.fail_here(guess.empty() ? "is no part of this person" : fmt::format("is no part of this person; did you mean \"{}\"?", guess));
+      change.fail_here(guess.empty() ? "is no part of this person"
+                                     : fmt::format("is no part of this person; did you mean \"{}\"?", guess));
       continue;
     }
     if (const auto axes = change.vector_if("axes")) at->shape.semi_axes = *axes;
@@ -82,7 +96,8 @@ void change_segments(Reader& r, Figure& figure, std::vector<engine::SurfacePrope
 
 void change_ranges(Reader& ranges, FigureJoint& joint) {
   for (const Entry& entry : ranges.value().entries) {
-    const auto angle = std::find_if(joint.angles.begin(), joint.angles.end(), [&](const AnatomicalAngle& a) { return a.name == entry.key; });
+    const auto angle =
+        std::find_if(joint.angles.begin(), joint.angles.end(), [&](const AnatomicalAngle& a) { return a.name == entry.key; });
     const auto [lower, upper] = ranges.range(entry.key);
     if (angle == joint.angles.end()) {
       ranges.fail(entry.key, fmt::format("is no angle of joint {}", joint.name));
@@ -95,12 +110,14 @@ void change_ranges(Reader& ranges, FigureJoint& joint) {
 
 void change_joints(Reader& r, Figure& figure) {
   for (auto& [name, change] : r.map("joint")) {
-    const auto at = std::find_if(figure.joints.begin(), figure.joints.end(), [&n = name](const FigureJoint& j) { return j.name == n; });
+    const auto at =
+        std::find_if(figure.joints.begin(), figure.joints.end(), [&n = name](const FigureJoint& j) { return j.name == n; });
     if (at == figure.joints.end()) {
       std::vector<std::string> names;
       for (const FigureJoint& j : figure.joints) names.push_back(j.name);
       const std::string guess = nearest(name, names);
-      change.fail_here(guess.empty() ? "is no joint of this person" : fmt::format("is no joint of this person; did you mean \"{}\"?", guess));
+      change.fail_here(guess.empty() ? "is no joint of this person"
+                                     : fmt::format("is no joint of this person; did you mean \"{}\"?", guess));
       continue;
     }
     if (change.has("damping")) at->damping = change.number("damping");
@@ -140,7 +157,8 @@ double ground_height(const engine::Ground& ground, double x, double y) {
 double clearance(const engine::Ground& ground, const Figure& figure, const std::vector<engine::Pose>& X_WB) {
   double least = 1e300;
   for (std::size_t i = 0; i < X_WB.size(); ++i) {
-    const engine::Vec3 p = X_WB[i] * engine::support_point(figure.segments[i].shape, X_WB[i].q.conjugate() * -engine::Vec3::UnitZ());
+    const engine::Vec3 p =
+        X_WB[i] * engine::support_point(figure.segments[i].shape, X_WB[i].q.conjugate() * -engine::Vec3::UnitZ());
     least = std::min(least, p.z() - ground_height(ground, p.x(), p.y()));
   }
   return least;
@@ -167,7 +185,8 @@ void set_down(Reader& r, const engine::Ground& ground, const Figure& figure, std
   for (engine::Pose& X : X_WB) X.p.z() += up;
 }
 
-void add_actor(Builder& builder, const std::string& name, int look, int first_body, const Figure& figure, const std::vector<engine::Pose>& X_WB) {
+void add_actor(Builder& builder, const std::string& name, int look, int first_body, const Figure& figure,
+               const std::vector<engine::Pose>& X_WB) {
   render::PersonActor actor;
   actor.name = name;
   actor.look = static_cast<render::PersonLook>(look);
@@ -185,7 +204,8 @@ void add_actor(Builder& builder, const std::string& name, int look, int first_bo
 
 }  // namespace
 
-const Section kPersonSection{"person", "[[person]]", "A person: parts joined by joints. Angles in words, sizes by stature and mass.", kKeys};
+const Section kPersonSection{"person", "[[person]]",
+                             "A person: parts joined by joints. Angles in words, sizes by stature and mass.", kKeys};
 
 void read_person(Builder& builder, Reader r) {
   engine::Model& model = builder.scene.model;
@@ -204,13 +224,15 @@ void read_person(Builder& builder, Reader r) {
   change_joints(r, figure);
   const Pose pose = read_pose(builder, r, figure);
   const double heading = r.number("heading");
-  const engine::Quat q_root(Eigen::AngleAxisd(heading, engine::Vec3::UnitZ()) * Eigen::AngleAxisd(pose.pitch, engine::Vec3::UnitY()) *
+  const engine::Quat q_root(Eigen::AngleAxisd(heading, engine::Vec3::UnitZ()) *
+                            Eigen::AngleAxisd(pose.pitch, engine::Vec3::UnitY()) *
                             Eigen::AngleAxisd(pose.roll, engine::Vec3::UnitX()));
   std::vector<engine::Pose> X_WB = placed(figure, pose, q_root);
   set_down(r, model.ground, figure, X_WB);
 
   if (r.has("velocity") && r.has("speed")) r.fail("velocity", "must not be given together with speed");
-  const engine::Vec3 v = r.vector_if("velocity").value_or(r.number("speed") * engine::Vec3(std::cos(heading), std::sin(heading), 0));
+  const engine::Vec3 v =
+      r.vector_if("velocity").value_or(r.number("speed") * engine::Vec3(std::cos(heading), std::sin(heading), 0));
   const engine::Vec3 w = r.vector("angular_velocity");
   const engine::Vec3 cg = centre_of_gravity(figure, X_WB);
   const auto collision = static_cast<engine::CollisionModel>(r.choice("collision"));

@@ -8,17 +8,20 @@
 namespace scenes {
 namespace {
 
-const Key kAngleKeys[] = {{"*", Type::number, Dimension::angle, "", "SIDE_JOINT_ANGLE like left_knee_flexion, or JOINT_ANGLE for both sides."}};
+const Key kAngleKeys[] = {
+    {"*", Type::number, Dimension::angle, "", "SIDE_JOINT_ANGLE like left_knee_flexion, or JOINT_ANGLE for both sides."}};
 }  // namespace
 
-const Section kAnglesSection{"person.angles", "[person.angles]", "Joint angles in anatomical words; those not named are zero, as in standing.", kAngleKeys};
+const Section kAnglesSection{"person.angles", "[person.angles]",
+                             "Joint angles in anatomical words; those not named are zero, as in standing.", kAngleKeys};
 
 namespace {
 
 const Key kPoseKeys[] = {
     {"title", Type::text, Dimension::none, "''", "What it is."},
     {"roll", Type::number, Dimension::angle, "'0 deg'", "Attitude of the hips: about the forward axis, first."},
-    {"pitch", Type::number, Dimension::angle, "'0 deg'", "Attitude of the hips: about the axis to the left, second; 90 deg lies face down."},
+    {"pitch", Type::number, Dimension::angle, "'0 deg'",
+     "Attitude of the hips: about the axis to the left, second; 90 deg lies face down."},
     {"angles", Type::table, Dimension::none, "", "Joint angles.", kAny, {}, &kAnglesSection},
 };
 
@@ -45,11 +48,11 @@ void apply_angles(Reader angles, const Figure& figure, Pose& pose) {
         const AnatomicalAngle& angle = figure.joints[j].angles[a];
         if (!names_angle(entry.key, figure.joints[j], angle)) continue;
         found = true;
-        constexpr double kRounding = 1e-9;   // [rad] "140 deg" is in a range that ends at "140 deg"
+        constexpr double kRounding = 1e-9;  // [rad] "140 deg" is in a range that ends at "140 deg"
         if ((value < angle.lower - kRounding || value > angle.upper + kRounding) && !refused) {
           constexpr double kDegree = std::numbers::pi / 180;
-          angles.fail(entry.key, fmt::format("must lie in {:.4g}..{:.4g} deg; that is the range of {} of joint {}", angle.lower / kDegree,
-                                             angle.upper / kDegree, angle.name, figure.joints[j].name));
+          angles.fail(entry.key, fmt::format("must lie in {:.4g}..{:.4g} deg; that is the range of {} of joint {}",
+                                             angle.lower / kDegree, angle.upper / kDegree, angle.name, figure.joints[j].name));
           refused = true;
         }
         pose.angles[j][a] = value;
@@ -57,14 +60,16 @@ void apply_angles(Reader angles, const Figure& figure, Pose& pose) {
     }
     if (!found) {
       const std::string guess = nearest(entry.key, known);
-      angles.fail(entry.key, guess.empty() ? "is no angle of this person; write like left_knee_flexion" : fmt::format("is no angle of this person; did you mean \"{}\"?", guess));
+      angles.fail(entry.key, guess.empty() ? "is no angle of this person; write like left_knee_flexion"
+                                           : fmt::format("is no angle of this person; did you mean \"{}\"?", guess));
     }
   }
 }
 
 }  // namespace
 
-const Section kPoseSection{"pose", "scenes/library/poses/NAME.toml", "A pose as data; a scene's own lies beside it or in its folder poses/.", kPoseKeys};
+const Section kPoseSection{"pose", "scenes/library/poses/NAME.toml",
+                           "A pose as data; a scene's own lies beside it or in its folder poses/.", kPoseKeys};
 
 Pose read_pose(Builder& builder, Reader& person, const Figure& figure) {
   Pose out;
@@ -74,7 +79,8 @@ Pose read_pose(Builder& builder, Reader& person, const Figure& figure) {
   if (file.empty()) {
     const auto names = library_names(builder, "poses");
     const std::string guess = nearest(name, names);
-    person.fail("pose", fmt::format("is not in the library of poses ({}){}", fmt::join(names, ", "), guess.empty() ? "" : fmt::format("; did you mean \"{}\"?", guess)));
+    person.fail("pose", fmt::format("is not in the library of poses ({}){}", fmt::join(names, ", "),
+                                    guess.empty() ? "" : fmt::format("; did you mean \"{}\"?", guess)));
   } else {
     const Value tree = parse_file(file);
     Reader r(tree, kPoseSection, name, builder.errors);

@@ -19,7 +19,7 @@ struct Powers {
 };
 
 struct DimensionLine {
-  std::string_view name, si, usual, second;   // `second`: the other way to write it, for the remedy
+  std::string_view name, si, usual, second;  // `second`: the other way to write it, for the remedy
   Powers powers;
 };
 
@@ -41,7 +41,9 @@ constexpr std::array<DimensionLine, 15> kDimensions{{
     {"a moment of inertia", "kg m^2", "kg m^2", "g cm^2", {2, 1, 0, 0}},
 }};
 
-const DimensionLine& line(Dimension d) { return kDimensions[static_cast<std::size_t>(d)]; }
+const DimensionLine& line(Dimension d) {
+  return kDimensions[static_cast<std::size_t>(d)];
+}
 
 struct Unit {
   std::string_view symbol;
@@ -49,23 +51,47 @@ struct Unit {
   Powers powers;
 };
 
-constexpr double kPound = 0.45359237;   // [kg] international pound, exact since 1959
-constexpr double kInch = 0.0254;        // [m] exact
+constexpr double kPound = 0.45359237;  // [kg] international pound, exact since 1959
+constexpr double kInch = 0.0254;       // [m] exact
 
 constexpr Unit kUnits[] = {
-    {"m", 1, {1, 0, 0, 0}}, {"km", 1e3, {1, 0, 0, 0}}, {"cm", 1e-2, {1, 0, 0, 0}}, {"mm", 1e-3, {1, 0, 0, 0}}, {"um", 1e-6, {1, 0, 0, 0}},
-    {"in", kInch, {1, 0, 0, 0}}, {"ft", 12 * kInch, {1, 0, 0, 0}}, {"yd", 36 * kInch, {1, 0, 0, 0}}, {"mi", 63360 * kInch, {1, 0, 0, 0}},
-    {"kg", 1, {0, 1, 0, 0}}, {"g", 1e-3, {0, 1, 0, 0}}, {"t", 1e3, {0, 1, 0, 0}}, {"lb", kPound, {0, 1, 0, 0}},
+    {"m", 1, {1, 0, 0, 0}},
+    {"km", 1e3, {1, 0, 0, 0}},
+    {"cm", 1e-2, {1, 0, 0, 0}},
+    {"mm", 1e-3, {1, 0, 0, 0}},
+    {"um", 1e-6, {1, 0, 0, 0}},
+    {"in", kInch, {1, 0, 0, 0}},
+    {"ft", 12 * kInch, {1, 0, 0, 0}},
+    {"yd", 36 * kInch, {1, 0, 0, 0}},
+    {"mi", 63360 * kInch, {1, 0, 0, 0}},
+    {"kg", 1, {0, 1, 0, 0}},
+    {"g", 1e-3, {0, 1, 0, 0}},
+    {"t", 1e3, {0, 1, 0, 0}},
+    {"lb", kPound, {0, 1, 0, 0}},
     {"slug", kPound * 9.80665 / (12 * kInch), {0, 1, 0, 0}},
-    {"s", 1, {0, 0, 1, 0}}, {"ms", 1e-3, {0, 0, 1, 0}}, {"us", 1e-6, {0, 0, 1, 0}}, {"min", 60, {0, 0, 1, 0}}, {"h", 3600, {0, 0, 1, 0}},
-    {"rad", 1, {0, 0, 0, 1}}, {"deg", std::numbers::pi / 180, {0, 0, 0, 1}}, {"°", std::numbers::pi / 180, {0, 0, 0, 1}},
-    {"rev", 2 * std::numbers::pi, {0, 0, 0, 1}}, {"rpm", 2 * std::numbers::pi / 60, {0, 0, -1, 1}},
-    {"kph", 1 / 3.6, {1, 0, -1, 0}}, {"mph", 63360 * kInch / 3600, {1, 0, -1, 0}},
-    {"N", 1, {1, 1, -2, 0}}, {"kN", 1e3, {1, 1, -2, 0}}, {"MN", 1e6, {1, 1, -2, 0}}, {"lbf", kPound * 9.80665, {1, 1, -2, 0}},
-    {"Hz", 1, {0, 0, -1, 0}}, {"%", 0.01, {}},
+    {"s", 1, {0, 0, 1, 0}},
+    {"ms", 1e-3, {0, 0, 1, 0}},
+    {"us", 1e-6, {0, 0, 1, 0}},
+    {"min", 60, {0, 0, 1, 0}},
+    {"h", 3600, {0, 0, 1, 0}},
+    {"rad", 1, {0, 0, 0, 1}},
+    {"deg", std::numbers::pi / 180, {0, 0, 0, 1}},
+    {"°", std::numbers::pi / 180, {0, 0, 0, 1}},
+    {"rev", 2 * std::numbers::pi, {0, 0, 0, 1}},
+    {"rpm", 2 * std::numbers::pi / 60, {0, 0, -1, 1}},
+    {"kph", 1 / 3.6, {1, 0, -1, 0}},
+    {"mph", 63360 * kInch / 3600, {1, 0, -1, 0}},
+    {"N", 1, {1, 1, -2, 0}},
+    {"kN", 1e3, {1, 1, -2, 0}},
+    {"MN", 1e6, {1, 1, -2, 0}},
+    {"lbf", kPound * 9.80665, {1, 1, -2, 0}},
+    {"Hz", 1, {0, 0, -1, 0}},
+    {"%", 0.01, {}},
 };
 
-bool is_space(char c) { return c == ' ' || c == '\t'; }
+bool is_space(char c) {
+  return c == ' ' || c == '\t';
+}
 bool is_number_start(std::string_view t) {
   return !t.empty() && ((t[0] >= '0' && t[0] <= '9') || t[0] == '.' || ((t[0] == '-' || t[0] == '+') && t.size() > 1));
 }
@@ -90,7 +116,7 @@ std::optional<double> take_number(std::string_view& t) {
 struct UnitValue {
   double factor = 1;
   Powers powers;
-  std::string unknown;   // the symbol that is not a unit
+  std::string unknown;  // the symbol that is not a unit
 };
 
 /// Product of units: "N m s/rad", "kg*m^2", "m/s^2". One slash divides by what directly follows it.
@@ -100,23 +126,38 @@ UnitValue take_unit(std::string_view& t, Dimension wanted) {
   for (;;) {
     skip_spaces(t);
     if (t.empty() || is_number_start(t)) return out;
-    if (t.front() == '*') { t.remove_prefix(1); continue; }
-    if (t.front() == '/') { divide = true; t.remove_prefix(1); continue; }
+    if (t.front() == '*') {
+      t.remove_prefix(1);
+      continue;
+    }
+    if (t.front() == '/') {
+      divide = true;
+      t.remove_prefix(1);
+      continue;
+    }
     std::size_t length = 0;
     while (length < t.size() && !is_space(t[length]) && t[length] != '/' && t[length] != '*' && t[length] != '^' &&
-           !(t[length] >= '0' && t[length] <= '9')) ++length;
+           !(t[length] >= '0' && t[length] <= '9'))
+      ++length;
     const std::string_view symbol = t.substr(0, length);
     t.remove_prefix(length);
     int power = 1;
     if (!t.empty() && t.front() == '^') t.remove_prefix(1);
-    if (!t.empty() && (t.front() == '2' || t.front() == '3')) { power = t.front() - '0'; t.remove_prefix(1); }
+    if (!t.empty() && (t.front() == '2' || t.front() == '3')) {
+      power = t.front() - '0';
+      t.remove_prefix(1);
+    }
     if (divide) power = -power;
     divide = false;
     const Unit* unit = nullptr;
-    for (const Unit& candidate : kUnits) if (candidate.symbol == symbol) unit = &candidate;
+    for (const Unit& candidate : kUnits)
+      if (candidate.symbol == symbol) unit = &candidate;
     constexpr Unit kGravityUnit{"g", engine::kGravity, {1, 0, -2, 0}};
     if (symbol == "g" && wanted == Dimension::acceleration) unit = &kGravityUnit;
-    if (!unit) { out.unknown = symbol.empty() ? std::string(t.substr(0, 1)) : std::string(symbol); return out; }
+    if (!unit) {
+      out.unknown = symbol.empty() ? std::string(t.substr(0, 1)) : std::string(symbol);
+      return out;
+    }
     out.factor *= std::pow(unit->factor, power);
     out.powers.m += power * unit->powers.m;
     out.powers.kg += power * unit->powers.kg;
@@ -132,9 +173,15 @@ std::string must_be(Dimension d) {
 
 }  // namespace
 
-std::string_view name_of(Dimension d) { return line(d).name; }
-std::string_view si_unit(Dimension d) { return line(d).si; }
-std::string_view usual_unit(Dimension d) { return line(d).usual; }
+std::string_view name_of(Dimension d) {
+  return line(d).name;
+}
+std::string_view si_unit(Dimension d) {
+  return line(d).si;
+}
+std::string_view usual_unit(Dimension d) {
+  return line(d).usual;
+}
 
 Quantity parse_quantity(std::string_view text, Dimension wanted) {
   Quantity out;
@@ -171,7 +218,10 @@ Quantities parse_quantities(std::string_view text, Dimension wanted) {
   const UnitValue unit = take_unit(t, wanted);
   if (!unit.unknown.empty()) return {{}, fmt::format("\"{}\" is not a unit; {}", unit.unknown, must_be(wanted))};
   if (!(unit.powers == line(wanted).powers) || !t.empty()) {
-    return {{}, wanted == Dimension::none ? "must be plain numbers" : fmt::format("must end in a unit of {}, like \"1 2 3 {}\"", line(wanted).name.substr(line(wanted).name.find(' ') + 1), line(wanted).usual)};
+    return {{},
+            wanted == Dimension::none ? "must be plain numbers"
+                                      : fmt::format("must end in a unit of {}, like \"1 2 3 {}\"",
+                                                    line(wanted).name.substr(line(wanted).name.find(' ') + 1), line(wanted).usual)};
   }
   for (double& value : out.values) value *= unit.factor;
   return out;
@@ -180,7 +230,8 @@ Quantities parse_quantities(std::string_view text, Dimension wanted) {
 std::string unit_examples(double number, Dimension d) {
   const auto factor = [&](std::string_view unit) { return take_unit(unit, d).factor; };
   const double second = number * factor(line(d).usual) / factor(line(d).second);
-  const std::string rounded = std::abs(second) >= 100 && std::abs(second) < 1e6 ? fmt::format("{:.0f}", second) : fmt::format("{:.3g}", second);
+  const std::string rounded =
+      std::abs(second) >= 100 && std::abs(second) < 1e6 ? fmt::format("{:.0f}", second) : fmt::format("{:.3g}", second);
   return fmt::format("\"{} {}\" or \"{} {}\"", number, line(d).usual, rounded, line(d).second);
 }
 

@@ -9,8 +9,21 @@
 namespace scenes {
 
 enum class Dimension {
-  none, length, mass, time, angle, speed, angular_speed, acceleration, force, stiffness, damping,
-  torque, angular_stiffness, angular_damping, inertia
+  none,
+  length,
+  mass,
+  time,
+  angle,
+  speed,
+  angular_speed,
+  acceleration,
+  force,
+  stiffness,
+  damping,
+  torque,
+  angular_stiffness,
+  angular_damping,
+  inertia
 };
 
 /// The name of a dimension ("speed"), its SI unit ("m/s"), and the unit people write ("km/h").
@@ -19,11 +32,12 @@ std::string_view si_unit(Dimension);
 std::string_view usual_unit(Dimension);
 
 struct Quantity {
-  double value = 0;          // SI
-  std::string problem;       // empty: understood. Else what is wrong, to follow "key is VALUE, "
+  double value = 0;     // SI
+  std::string problem;  // empty: understood. Else what is wrong, to follow "key is VALUE, "
 };
 
-/// Reads `text` as a quantity of the dimension. "g" is the acceleration of gravity (9.81 m/s^2) where an acceleration is asked for, else grams.
+/// Reads `text` as a quantity of the dimension. "g" is the acceleration of gravity (9.81 m/s^2) where an acceleration is asked for,
+/// else grams.
 Quantity parse_quantity(std::string_view text, Dimension);
 
 /// "1 2 3 m": several numbers that share one unit. `problem` as above.

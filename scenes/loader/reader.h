@@ -35,7 +35,8 @@ class Errors {
   std::vector<Finding> odd_;
 };
 
-/// Every getter returns a usable value: after an error, the key's default or a harmless one. The key must be in the section's table.
+/// Every getter returns a usable value: after an error, the key's default or a harmless one. The key must be in the section's
+/// table.
 class Reader {
  public:
   /// Reports keys the section does not know and required ones that are missing.
@@ -49,14 +50,14 @@ class Reader {
   std::string text(std::string_view key);
   /// Index of the chosen word in the key's list of choices.
   int choice(std::string_view key);
-  engine::Vec3 vector(std::string_view key);                      // of a vector2 the third is zero
+  engine::Vec3 vector(std::string_view key);  // of a vector2 the third is zero
   std::optional<engine::Vec3> vector_if(std::string_view key);
   std::vector<double> numbers(std::string_view key);
   std::array<double, 2> range(std::string_view key);
   std::vector<std::string> texts(std::string_view key);
   engine::Schedule schedule(std::string_view key);
   engine::Mat3 inertia(std::string_view key);
-  std::array<float, 3> colour(std::string_view key);              // linear RGB
+  std::array<float, 3> colour(std::string_view key);  // linear RGB
 
   std::optional<Reader> table(std::string_view key);
   std::vector<Reader> tables(std::string_view key);

@@ -30,16 +30,23 @@ json list_of(json items, int least, int most) {
 json value_schema(const Key& key) {
   const json text{{"type", "string"}};
   switch (key.type) {
-    case Type::boolean: return {{"type", "boolean"}};
+    case Type::boolean:
+      return {{"type", "boolean"}};
     case Type::integer:
-    case Type::number: return {{"anyOf", scalar(key)}};
+    case Type::number:
+      return {{"anyOf", scalar(key)}};
     case Type::text:
-    case Type::path: return text;
-    case Type::choice: return {{"enum", split_choices(key.choices)}};
-    case Type::vector2: return {{"anyOf", {text, list_of(scalar(key), 2, 2)}}};
+    case Type::path:
+      return text;
+    case Type::choice:
+      return {{"enum", split_choices(key.choices)}};
+    case Type::vector2:
+      return {{"anyOf", {text, list_of(scalar(key), 2, 2)}}};
     case Type::vector3:
-    case Type::colour: return {{"anyOf", {text, list_of(scalar(key), 3, 3)}}};
-    case Type::range: return {{"anyOf", {text, list_of(scalar(key), 2, 2)}}};
+    case Type::colour:
+      return {{"anyOf", {text, list_of(scalar(key), 3, 3)}}};
+    case Type::range:
+      return {{"anyOf", {text, list_of(scalar(key), 2, 2)}}};
     case Type::inertia: {
       json components = scalar(key);
       components.push_back({{"type", "array"}, {"items", {{"anyOf", scalar(key)}}}});
@@ -56,10 +63,14 @@ json value_schema(const Key& key) {
       out.push_back({{"type", "array"}, {"items", {{"anyOf", scalar(key)}}}});
       return {{"anyOf", out}};
     }
-    case Type::texts: return {{"type", "array"}, {"items", text}};
-    case Type::table: return schema_of(*key.section);
-    case Type::tables: return {{"type", "array"}, {"items", schema_of(*key.section)}};
-    case Type::map: return {{"type", "object"}, {"additionalProperties", schema_of(*key.section)}};
+    case Type::texts:
+      return {{"type", "array"}, {"items", text}};
+    case Type::table:
+      return schema_of(*key.section);
+    case Type::tables:
+      return {{"type", "array"}, {"items", schema_of(*key.section)}};
+    case Type::map:
+      return {{"type", "object"}, {"additionalProperties", schema_of(*key.section)}};
   }
   return {};
 }

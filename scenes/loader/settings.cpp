@@ -7,24 +7,29 @@ namespace scenes {
 namespace {
 
 constexpr Key kEffectKeys[] = {
-    {"*", Type::choice, Dimension::none, "", "An effect by its name in `crashreel plan`: left to the plan, forced on, or forced off. "
-     "Off is shown as a warning in every output.", kAny, "automatic|on|off"},
+    {"*", Type::choice, Dimension::none, "",
+     "An effect by its name in `crashreel plan`: left to the plan, forced on, or forced off. "
+     "Off is shown as a warning in every output.",
+     kAny, "automatic|on|off"},
 };
-const Section kEffectsSection{"simulation.effects", "[simulation.effects]", "Physical effects forced on or off. Normally none.", kEffectKeys};
+const Section kEffectsSection{"simulation.effects", "[simulation.effects]", "Physical effects forced on or off. Normally none.",
+                              kEffectKeys};
 
 constexpr double kRightAngle = 1.5707963267948966;
 
 const Key kKeys[] = {
     {"duration", Type::number, Dimension::time, "'4 s'", "Simulated time.", Range{0, 600, true}},
     {"step", Type::number, Dimension::time, "'1 ms'", "Time step.", Range{0, 0.1, true}, {}, nullptr, "1 ms is a good start"},
-    {"record_interval", Type::number, Dimension::time, "'5 ms'", "Time between recorded instants, rounded to whole steps.", Range{0, 1, true}},
-    {"scheme", Type::choice, Dimension::none, "'stepping'", "Integration: velocity stepping, Runge-Kutta 4, or with an adaptive step.", kAny,
-     "stepping|rk4|adaptive"},
-    {"contact_law", Type::choice, Dimension::none, "'default_auto'", "Impulses at first touch, or the compliant law of eqs. (68), (69).", kAny,
-     "default_auto|compliant"},
+    {"record_interval", Type::number, Dimension::time, "'5 ms'", "Time between recorded instants, rounded to whole steps.",
+     Range{0, 1, true}},
+    {"scheme", Type::choice, Dimension::none, "'stepping'",
+     "Integration: velocity stepping, Runge-Kutta 4, or with an adaptive step.", kAny, "stepping|rk4|adaptive"},
+    {"contact_law", Type::choice, Dimension::none, "'default_auto'",
+     "Impulses at first touch, or the compliant law of eqs. (68), (69).", kAny, "default_auto|compliant"},
     {"gravity", Type::number, Dimension::acceleration, "'9.81 m/s^2'", "Acceleration of gravity; 0 for none.", kNotNegative},
     {"slope", Type::number, Dimension::angle, "'0 deg'",
-     "Tilts the whole world: the ground stays z = height and gravity turns, so that +x runs downhill at this angle.", between(-kRightAngle, kRightAngle)},
+     "Tilts the whole world: the ground stays z = height and gravity turns, so that +x runs downhill at this angle.",
+     between(-kRightAngle, kRightAngle)},
     {"solver_tolerance", Type::number, Dimension::speed, "'0.01 mm/s'", "Residual at which the contact solver stops.", kPositive},
     {"adaptive_tolerance", Type::number, Dimension::length, "'0.01 mm'", "Error of one step, scheme adaptive.", kPositive},
     {"locate_events", Type::boolean, Dimension::none, "true", "Place impacts inside the step."},
@@ -57,7 +62,8 @@ void read_settings(Builder& builder, std::optional<Reader> reader) {
   s.stop_at_rest = r.boolean("stop_at_rest");
   if (s.step > 0 && s.record_interval < s.step) r.fail("record_interval", "must not be shorter than the step");
   if (auto effects = r.table("effects")) {
-    for (const Entry& entry : effects->value().entries) s.effects[entry.key] = static_cast<engine::Force>(effects->choice(entry.key));
+    for (const Entry& entry : effects->value().entries)
+      s.effects[entry.key] = static_cast<engine::Force>(effects->choice(entry.key));
   }
 }
 

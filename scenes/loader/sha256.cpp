@@ -17,7 +17,7 @@ using Word = std::uint32_t;
 Word root_fraction(unsigned p, int k) {
   __extension__ using Wide = unsigned __int128;
   std::uint64_t low = 0;
-  std::uint64_t high = std::uint64_t{1} << 38;   // the largest root here, sqrt(311), is below 2^5
+  std::uint64_t high = std::uint64_t{1} << 38;  // the largest root here, sqrt(311), is below 2^5
   while (high - low > 1) {
     const std::uint64_t middle = (low + high) / 2;
     // for cubes compare m^3 with p * 2^96 as m^2 <= p * 2^96 / m, which stays below 2^128
@@ -72,7 +72,8 @@ std::string sha256(std::string_view bytes) {
   padded += '\x80';
   while (padded.size() % 64 != 56) padded += '\0';
   for (int shift = 56; shift >= 0; shift -= 8) padded += static_cast<char>((std::uint64_t{bytes.size()} * 8) >> shift);
-  for (std::size_t at = 0; at < padded.size(); at += 64) hash_block(h, constants.k, reinterpret_cast<const unsigned char*>(padded.data()) + at);
+  for (std::size_t at = 0; at < padded.size(); at += 64)
+    hash_block(h, constants.k, reinterpret_cast<const unsigned char*>(padded.data()) + at);
   std::string out;
   for (Word word : h) out += fmt::format("{:08x}", word);
   return out;

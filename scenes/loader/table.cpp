@@ -52,24 +52,40 @@ std::vector<const Section*> all_sections() {
 std::string describe_type(const Key& key) {
   const std::string unit = key.dimension == Dimension::none ? "" : " " + std::string(usual_unit(key.dimension));
   switch (key.type) {
-    case Type::boolean: return "true or false";
-    case Type::integer: return "a whole number";
-    case Type::number: return quantity_in_words(key.dimension);
-    case Type::text: return "a text";
-    case Type::choice: return fmt::format("one of \"{}\"", fmt::join(split_choices(key.choices), "\", \""));
-    case Type::path: return "a path";
-    case Type::vector2: return unit.empty() ? "two numbers, like [1, 2]" : fmt::format("two values, like \"1 2{}\"", unit);
-    case Type::vector3: return unit.empty() ? "three numbers, like [1, 2, 3]" : fmt::format("three values, like \"1 2 3{}\"", unit);
-    case Type::inertia: return "three principal moments, like \"1 2 2 kg m^2\", or a symmetric 3x3 tensor";
+    case Type::boolean:
+      return "true or false";
+    case Type::integer:
+      return "a whole number";
+    case Type::number:
+      return quantity_in_words(key.dimension);
+    case Type::text:
+      return "a text";
+    case Type::choice:
+      return fmt::format("one of \"{}\"", fmt::join(split_choices(key.choices), "\", \""));
+    case Type::path:
+      return "a path";
+    case Type::vector2:
+      return unit.empty() ? "two numbers, like [1, 2]" : fmt::format("two values, like \"1 2{}\"", unit);
+    case Type::vector3:
+      return unit.empty() ? "three numbers, like [1, 2, 3]" : fmt::format("three values, like \"1 2 3{}\"", unit);
+    case Type::inertia:
+      return "three principal moments, like \"1 2 2 kg m^2\", or a symmetric 3x3 tensor";
     case Type::schedule:
       return quantity_in_words(key.dimension) + ", or a table over time";
-    case Type::range: return fmt::format("two values, like \"-1 1{}\"", unit);
-    case Type::numbers: return quantity_in_words(key.dimension) + ", or a list of them";
-    case Type::texts: return "a list of texts";
-    case Type::colour: return "a colour, like \"#a03020\"";
-    case Type::table: return "a table";
-    case Type::tables: return "a list of tables";
-    case Type::map: return "tables by name";
+    case Type::range:
+      return fmt::format("two values, like \"-1 1{}\"", unit);
+    case Type::numbers:
+      return quantity_in_words(key.dimension) + ", or a list of them";
+    case Type::texts:
+      return "a list of texts";
+    case Type::colour:
+      return "a colour, like \"#a03020\"";
+    case Type::table:
+      return "a table";
+    case Type::tables:
+      return "a list of tables";
+    case Type::map:
+      return "tables by name";
   }
   return {};
 }
@@ -90,10 +106,14 @@ std::string reference_markdown() {
     for (const Key& key : section->keys) {
       std::string fallback(key.fallback);
       std::replace(fallback.begin(), fallback.end(), '\'', '"');
-      std::string type = key.type == Type::choice ? fmt::format("`{}`", fmt::join(split_choices(key.choices), "`, `")) : describe_type(key);
+      std::string type =
+          key.type == Type::choice ? fmt::format("`{}`", fmt::join(split_choices(key.choices), "`, `")) : describe_type(key);
       if (const std::string range = describe_range(key); !range.empty()) type += "; " + range;
       out += fmt::format("| `{}` | {} | {} | {} |\n", key.name == "*" ? "(any name)" : key.name, type,
-                         fallback.empty() ? "" : fallback == kRequired ? "required" : "`" + fallback + "`", key.doc);
+                         fallback.empty()        ? ""
+                         : fallback == kRequired ? "required"
+                                                 : "`" + fallback + "`",
+                         key.doc);
     }
     out += "\n";
   }

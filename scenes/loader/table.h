@@ -1,4 +1,5 @@
-// The value tables: one line a key. The same lines read a scene, make the JSON Schema, answer "did you mean" and write the reference.
+// The value tables: one line a key. The same lines read a scene, make the JSON Schema, answer "did you mean" and write the
+// reference.
 #pragma once
 
 #include <limits>
@@ -12,15 +13,23 @@
 namespace scenes {
 
 enum class Type {
-  boolean, integer, number, text, choice, path,
-  vector2, vector3,        // "1 2 3 m" or ["1 m", "2 m", "30 cm"]
-  inertia,                 // three principal values or a symmetric 3x3 tensor
-  schedule,                // a value, or [["0 s", value], ["1 s", value]]
-  range,                   // ["-30 deg", "45 deg"]
-  numbers,                 // a list of any length
-  texts,                   // a list of texts
-  colour,                  // "#a03020" or [0.6, 0.2, 0.1]
-  table, tables, map       // a section; a list of sections; sections by name of the user's choosing
+  boolean,
+  integer,
+  number,
+  text,
+  choice,
+  path,
+  vector2,
+  vector3,   // "1 2 3 m" or ["1 m", "2 m", "30 cm"]
+  inertia,   // three principal values or a symmetric 3x3 tensor
+  schedule,  // a value, or [["0 s", value], ["1 s", value]]
+  range,     // ["-30 deg", "45 deg"]
+  numbers,   // a list of any length
+  texts,     // a list of texts
+  colour,    // "#a03020" or [0.6, 0.2, 0.1]
+  table,
+  tables,
+  map  // a section; a list of sections; sections by name of the user's choosing
 };
 
 /// What values are allowed, in SI.
@@ -33,28 +42,32 @@ constexpr Range kAny{};
 constexpr Range kPositive{0, std::numeric_limits<double>::infinity(), true};
 constexpr Range kNotNegative{0};
 constexpr Range kShare{0, 1};
-constexpr Range at_least(double lower) { return {lower}; }
-constexpr Range between(double lower, double upper) { return {lower, upper}; }
+constexpr Range at_least(double lower) {
+  return {lower};
+}
+constexpr Range between(double lower, double upper) {
+  return {lower, upper};
+}
 
 struct Section;
 
 constexpr std::string_view kRequired = "required";
 
 struct Key {
-  std::string_view name;                 // "*" in the section of a map: any name
+  std::string_view name;  // "*" in the section of a map: any name
   Type type;
   Dimension dimension = Dimension::none;
-  std::string_view fallback;             // as in a scene file, with ' for "; empty: left out means derived or absent; kRequired
-  std::string_view doc;                  // a sentence
+  std::string_view fallback;  // as in a scene file, with ' for "; empty: left out means derived or absent; kRequired
+  std::string_view doc;       // a sentence
   Range range = kAny;
-  std::string_view choices = {};         // "plane|none"
-  const Section* section = nullptr;      // of table, tables and map
-  std::string_view remedy = {};          // follows the message of a value out of range
+  std::string_view choices = {};     // "plane|none"
+  const Section* section = nullptr;  // of table, tables and map
+  std::string_view remedy = {};      // follows the message of a value out of range
 };
 
 struct Section {
-  std::string_view name;                 // as in paths of keys: "simulation", "person.segment"
-  std::string_view header;               // as in a file: "[simulation]", "[[person]]"
+  std::string_view name;    // as in paths of keys: "simulation", "person.segment"
+  std::string_view header;  // as in a file: "[simulation]", "[[person]]"
   std::string_view doc;
   std::span<const Key> keys;
   const Key* find(std::string_view key) const;

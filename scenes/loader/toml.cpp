@@ -139,7 +139,8 @@ void apply_override(Value& root, const std::string& assignment) {
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
     if (at->kind == Value::Kind::array) {
       Value* found = element(*at, parts[i]);
-      if (!found) throw SceneErrors{{fmt::format("{}: there is no {} named or numbered \"{}\"", place.text(), parts[i - 1], parts[i])}};
+      if (!found)
+        throw SceneErrors{{fmt::format("{}: there is no {} named or numbered \"{}\"", place.text(), parts[i - 1], parts[i])}};
       at = found;
       continue;
     }

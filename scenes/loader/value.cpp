@@ -9,7 +9,9 @@
 
 namespace scenes {
 
-std::string Place::text() const { return line > 0 ? fmt::format("{}:{}:{}", file, line, column) : file; }
+std::string Place::text() const {
+  return line > 0 ? fmt::format("{}:{}:{}", file, line, column) : file;
+}
 
 const Value* Value::find(std::string_view key) const {
   for (const Entry& entry : entries)
@@ -17,7 +19,9 @@ const Value* Value::find(std::string_view key) const {
   return nullptr;
 }
 
-Value* Value::find(std::string_view key) { return const_cast<Value*>(std::as_const(*this).find(key)); }
+Value* Value::find(std::string_view key) {
+  return const_cast<Value*>(std::as_const(*this).find(key));
+}
 
 const Value& empty_table() {
   static const Value empty = [] {
@@ -31,10 +35,13 @@ const Value& empty_table() {
 std::string written(const Value& value) {
   constexpr std::size_t kLongest = 60;
   switch (value.kind) {
-    case Value::Kind::boolean: return value.boolean ? "true" : "false";
+    case Value::Kind::boolean:
+      return value.boolean ? "true" : "false";
     case Value::Kind::integer:
-    case Value::Kind::real: return fmt::format("{}", value.number);
-    case Value::Kind::text: return '"' + (value.text.size() > kLongest ? value.text.substr(0, kLongest) + "..." : value.text) + '"';
+    case Value::Kind::real:
+      return fmt::format("{}", value.number);
+    case Value::Kind::text:
+      return '"' + (value.text.size() > kLongest ? value.text.substr(0, kLongest) + "..." : value.text) + '"';
     case Value::Kind::array: {
       std::string out = "[";
       for (const Value& item : value.items) {
@@ -43,8 +50,10 @@ std::string written(const Value& value) {
       }
       return out + "]";
     }
-    case Value::Kind::table: return "a table";
-    case Value::Kind::other: break;
+    case Value::Kind::table:
+      return "a table";
+    case Value::Kind::other:
+      break;
   }
   return "a date or time";
 }

@@ -11,7 +11,7 @@ namespace scenes {
 /// Where a value was written: "case.toml:41:11", or the override that set it.
 struct Place {
   std::string file;
-  int line = 0;      // 0: not in a file (an override, a default)
+  int line = 0;  // 0: not in a file (an override, a default)
   int column = 0;
   std::string text() const;
 };
@@ -22,11 +22,11 @@ struct Value {
   enum class Kind { boolean, integer, real, text, array, table, other };
   Kind kind = Kind::other;
   bool boolean = false;
-  double number = 0;             // integer and real
-  bool plain_number = true;      // false: written as hexadecimal, octal or binary
+  double number = 0;         // integer and real
+  bool plain_number = true;  // false: written as hexadecimal, octal or binary
   std::string text;
-  std::vector<Value> items;      // array
-  std::vector<Entry> entries;    // table, in the order of their keys
+  std::vector<Value> items;    // array
+  std::vector<Entry> entries;  // table, in the order of their keys
   Place place;
 
   bool is_number() const { return kind == Kind::integer || kind == Kind::real; }

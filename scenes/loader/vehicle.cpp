@@ -30,15 +30,18 @@ const Key kBrakeKeys[] = {
     {"lag", Type::number, Dimension::time, "'0 s'", "Until the first force.", kNotNegative},
     {"build_up", Type::number, Dimension::time, "'0.2 s'", "From the first force to the full one.", kNotNegative},
     {"until", Type::number, Dimension::time, "", "When the pedal is let go; left out: never."},
-    {"deceleration", Type::number, Dimension::acceleration, "'0.7 g'", "That the full brake force would give this mass; the tyres may give less.", kNotNegative},
+    {"deceleration", Type::number, Dimension::acceleration, "'0.7 g'",
+     "That the full brake force would give this mass; the tyres may give less.", kNotNegative},
 };
 const Section kBrakeSection{"vehicle.brake", "[vehicle.brake]", "One braking by the driver.", kBrakeKeys};
 
 const Key kKeys[] = {
     {"name", Type::text, Dimension::none, "''", "Name in every output. (Required in a scene; a library file has none.)"},
-    {"model", Type::text, Dimension::none, "''", "A vehicle of the library or the scene's folder, whose keys are used where the scene gives none. Empty: all is given here."},
+    {"model", Type::text, Dimension::none, "''",
+     "A vehicle of the library or the scene's folder, whose keys are used where the scene gives none. Empty: all is given here."},
     {"title", Type::text, Dimension::none, "''", "What the library's vehicle is and where its figures come from."},
-    {"mesh", Type::path, Dimension::none, "", "The bodywork. Mesh frame: x forward, y left, z up, origin on the ground midway between the axles."},
+    {"mesh", Type::path, Dimension::none, "",
+     "The bodywork. Mesh frame: x forward, y left, z up, origin on the ground midway between the axles."},
     {"collision_mesh", Type::path, Dimension::none, "", "A coarser mesh for contact in the same frame; left out: the bodywork."},
     {"wheel_mesh", Type::path, Dimension::none, "", "One wheel about its centre, axle along y, outside towards +y."},
     {"mass", Type::number, Dimension::mass, "", "Mass with occupants.", kPositive},
@@ -57,7 +60,8 @@ const Key kKeys[] = {
     {"steer", Type::schedule, Dimension::angle, "'0 deg'", "Angle of the steered wheels, left positive."},
     {"drive_force", Type::schedule, Dimension::force, "'0 N'", "Shared by the driven wheels."},
     CRASHREEL_SURFACE_KEYS,
-    {"collision", Type::choice, Dimension::none, "'default_auto'", "Collision model the vehicle asks for.", kAny, "default_auto|kudlich_slibar"},
+    {"collision", Type::choice, Dimension::none, "'default_auto'", "Collision model the vehicle asks for.", kAny,
+     "default_auto|kudlich_slibar"},
     {"colour", Type::colour, Dimension::none, "", "Of the paint, in place of the mesh's own."},
     {"wheel", Type::tables, Dimension::none, "", "Wheels.", kAny, {}, &kWheelSection},
 };
@@ -70,7 +74,8 @@ std::optional<Value> with_model(Builder& builder, Reader& r) {
   if (!file.empty()) return overlaid(parse_file(file), r.value());
   const auto names = library_names(builder, "vehicles");
   const std::string guess = nearest(name, names);
-  r.fail("model", fmt::format("is not in the library of vehicles ({}){}", fmt::join(names, ", "), guess.empty() ? "" : fmt::format("; did you mean \"{}\"?", guess)));
+  r.fail("model", fmt::format("is not in the library of vehicles ({}){}", fmt::join(names, ", "),
+                              guess.empty() ? "" : fmt::format("; did you mean \"{}\"?", guess)));
   return std::nullopt;
 }
 
@@ -96,7 +101,8 @@ void read_wheels(Reader& r, const engine::Vec3& cg, engine::Vehicle& vehicle) {
     shares += wheel.brake_share;
     vehicle.wheels.push_back(std::move(wheel));
   }
-  if (!vehicle.wheels.empty() && std::abs(shares - 1) > 1e-6) r.fail_here(fmt::format("has brake shares that sum to {:.6g}, must sum to 1", shares));
+  if (!vehicle.wheels.empty() && std::abs(shares - 1) > 1e-6)
+    r.fail_here(fmt::format("has brake shares that sum to {:.6g}, must sum to 1", shares));
 }
 
 void read_brake(Reader& r, double mass, engine::Vehicle& vehicle) {
@@ -121,8 +127,10 @@ void read_brake(Reader& r, double mass, engine::Vehicle& vehicle) {
 /// A car is some metres long; a mesh in centimetres or feet is the commonest slip of all.
 void check_scale(Reader& r, const engine::Aabb& box) {
   const engine::Vec3 size = box.upper - box.lower;
-  if (size.x() > 7 || size.x() < 2.5) r.warn("mesh", fmt::format("is {:.4g} m long; is its scale right? Meshes are read in metres", size.x()));
-  if (size.z() > size.x()) r.warn("mesh", fmt::format("is {:.4g} m high and {:.4g} m long; is z its up axis and x its forward axis?", size.z(), size.x()));
+  if (size.x() > 7 || size.x() < 2.5)
+    r.warn("mesh", fmt::format("is {:.4g} m long; is its scale right? Meshes are read in metres", size.x()));
+  if (size.z() > size.x())
+    r.warn("mesh", fmt::format("is {:.4g} m high and {:.4g} m long; is z its up axis and x its forward axis?", size.z(), size.x()));
 }
 
 struct Meshes {
@@ -150,7 +158,8 @@ void add_actors(Builder& builder, Reader& r, const engine::Vehicle& vehicle, con
   }
   stage.meshes.push_back({vehicle.name, vehicle.body, X_BM, meshes.bodywork->look, std::move(repaint)});
   for (std::size_t i = 0; meshes.wheel && i < vehicle.wheels.size(); ++i) {
-    stage.wheels.push_back({static_cast<int>(builder.scene.model.vehicles.size()), static_cast<int>(i), vehicle.body, vehicle.wheels[i].hub_B.y() > 0, meshes.wheel->look});
+    stage.wheels.push_back({static_cast<int>(builder.scene.model.vehicles.size()), static_cast<int>(i), vehicle.body,
+                            vehicle.wheels[i].hub_B.y() > 0, meshes.wheel->look});
   }
   stage.speeds.emplace_back(vehicle.body, vehicle.name);
 }

@@ -7,8 +7,8 @@
 namespace scenes {
 namespace {
 
-using ::testing::ElementsAre;
 using scenes::testing::SceneFolder;
+using ::testing::ElementsAre;
 
 const SceneFolder& folder() {
   static const SceneFolder one;
@@ -38,12 +38,14 @@ TEST(SceneErrorTexts, NegativeMass) {
 }
 
 TEST(SceneErrorTexts, ImpossibleInertia) {
-  EXPECT_THAT(folder().errors(kBall + "inertia = \"1 2 5 kg m^2\"\n"),
-              ElementsAre("case.toml:5:11: body.ball.inertia is \"1 2 5 kg m^2\", must be physically possible; of its principal moments "
-                          "1 + 2 is less than 5 kg m^2"));
-  EXPECT_THAT(folder().errors(kBall + "inertia = \"-1 2 2 kg m^2\"\n"),
-              ElementsAre("case.toml:5:11: body.ball.inertia is \"-1 2 2 kg m^2\", must be positive definite; its smallest principal "
-                          "moment is -1 kg m^2"));
+  EXPECT_THAT(
+      folder().errors(kBall + "inertia = \"1 2 5 kg m^2\"\n"),
+      ElementsAre("case.toml:5:11: body.ball.inertia is \"1 2 5 kg m^2\", must be physically possible; of its principal moments "
+                  "1 + 2 is less than 5 kg m^2"));
+  EXPECT_THAT(
+      folder().errors(kBall + "inertia = \"-1 2 2 kg m^2\"\n"),
+      ElementsAre("case.toml:5:11: body.ball.inertia is \"-1 2 2 kg m^2\", must be positive definite; its smallest principal "
+                  "moment is -1 kg m^2"));
 }
 
 TEST(SceneErrorTexts, ExponentBelowTwo) {
@@ -67,19 +69,24 @@ TEST(SceneErrorTexts, BareNumber) {
 }
 
 TEST(SceneErrorTexts, StepOfZero) {
-  EXPECT_THAT(folder().errors("[simulation]\nstep = \"0 s\"\n"),
-              ElementsAre("case.toml:2:8: simulation.step is \"0 s\", must be greater than 0 and at most 0.1 s; 1 ms is a good start"));
+  EXPECT_THAT(
+      folder().errors("[simulation]\nstep = \"0 s\"\n"),
+      ElementsAre("case.toml:2:8: simulation.step is \"0 s\", must be greater than 0 and at most 0.1 s; 1 ms is a good start"));
 }
 
 TEST(SceneErrorTexts, NotANumber) {
-  EXPECT_THAT(folder().errors(kBall + "friction = nan\n"), ElementsAre("case.toml:5:12: body.ball.friction is nan, must be a finite decimal number"));
-  EXPECT_THAT(folder().errors(kBall + "friction = 0x10\n"), ElementsAre("case.toml:5:12: body.ball.friction is 16, must be a finite decimal number"));
+  EXPECT_THAT(folder().errors(kBall + "friction = nan\n"),
+              ElementsAre("case.toml:5:12: body.ball.friction is nan, must be a finite decimal number"));
+  EXPECT_THAT(folder().errors(kBall + "friction = 0x10\n"),
+              ElementsAre("case.toml:5:12: body.ball.friction is 16, must be a finite decimal number"));
 }
 
 TEST(SceneErrorTexts, MissingMesh) {
-  EXPECT_THAT(folder().errors("[[body]]\nname = \"rock\"\nmass = \"1 kg\"\ninertia = \"1 1 1 kg m^2\"\nmesh = \"rock.obj\"\n"),
-              ElementsAre("case.toml:5:8: body.rock.mesh is \"rock.obj\", must be a mesh file; there is no rock.obj and no " CRASHREEL_SOURCE_DIR
-                          "/rock.obj"));
+  EXPECT_THAT(
+      folder().errors("[[body]]\nname = \"rock\"\nmass = \"1 kg\"\ninertia = \"1 1 1 kg m^2\"\nmesh = \"rock.obj\"\n"),
+      ElementsAre(
+          "case.toml:5:8: body.rock.mesh is \"rock.obj\", must be a mesh file; there is no rock.obj and no " CRASHREEL_SOURCE_DIR
+          "/rock.obj"));
 }
 
 TEST(SceneErrorTexts, OddPictureWidth) {
@@ -88,17 +95,19 @@ TEST(SceneErrorTexts, OddPictureWidth) {
 }
 
 TEST(SceneErrorTexts, PoseOutsideTheRangeOfMotionNamesTheJoint) {
-  EXPECT_THAT(folder().errors("[[person]]\nname = \"p\"\n[person.angles]\nleft_knee_flexion = \"-20 deg\"\n"),
-              ElementsAre("case.toml:4:21: person.p.angles.left_knee_flexion is \"-20 deg\", must lie in 0..140 deg; that is the range of "
-                          "flexion of joint left_knee"));
+  EXPECT_THAT(
+      folder().errors("[[person]]\nname = \"p\"\n[person.angles]\nleft_knee_flexion = \"-20 deg\"\n"),
+      ElementsAre("case.toml:4:21: person.p.angles.left_knee_flexion is \"-20 deg\", must lie in 0..140 deg; that is the range of "
+                  "flexion of joint left_knee"));
 }
 
 TEST(SceneErrorTexts, ComeSeveralAtOnceInTheOrderOfTheFile) {
-  EXPECT_THAT(folder().errors("[simulation]\nstep = 1\nduraton = \"4 s\"\n" + kBall + "restitution = -0.2\n[[joint]]\nchild = \"bal\"\n"),
-              ElementsAre("case.toml:2:8: simulation.step = 1 needs a unit: write \"1 s\" or \"1000 ms\"",
-                          "case.toml:3:1: simulation.duraton is not a known key; did you mean \"duration\"?",
-                          "case.toml:8:15: body.ball.restitution is -0.2, must lie in 0..1",
-                          "case.toml:10:9: joint.0.child is \"bal\", is no body of the scene; did you mean \"ball\"?"));
+  EXPECT_THAT(
+      folder().errors("[simulation]\nstep = 1\nduraton = \"4 s\"\n" + kBall + "restitution = -0.2\n[[joint]]\nchild = \"bal\"\n"),
+      ElementsAre("case.toml:2:8: simulation.step = 1 needs a unit: write \"1 s\" or \"1000 ms\"",
+                  "case.toml:3:1: simulation.duraton is not a known key; did you mean \"duration\"?",
+                  "case.toml:8:15: body.ball.restitution is -0.2, must lie in 0..1",
+                  "case.toml:10:9: joint.0.child is \"bal\", is no body of the scene; did you mean \"ball\"?"));
 }
 
 TEST(Overrides, ReachElementsByNameAndNumber) {
@@ -109,8 +118,10 @@ TEST(Overrides, ReachElementsByNameAndNumber) {
 }
 
 TEST(Overrides, AreNamedInErrors) {
-  EXPECT_THAT(folder().errors(kBall, {"body.ball.mass=0"}), ElementsAre("--set body.ball.mass=0: body.ball.mass is 0, must be greater than 0 kg"));
-  EXPECT_THAT(folder().errors(kBall, {"body.bell.mass=1 kg"}), ElementsAre("--set body.bell.mass=1 kg: there is no body named or numbered \"bell\""));
+  EXPECT_THAT(folder().errors(kBall, {"body.ball.mass=0"}),
+              ElementsAre("--set body.ball.mass=0: body.ball.mass is 0, must be greater than 0 kg"));
+  EXPECT_THAT(folder().errors(kBall, {"body.bell.mass=1 kg"}),
+              ElementsAre("--set body.bell.mass=1 kg: there is no body named or numbered \"bell\""));
   EXPECT_THAT(folder().errors(kBall, {"nonsense"}),
               ElementsAre("--set nonsense: must be path.to.key=value; write --set simulation.step='0.5 ms'"));
 }

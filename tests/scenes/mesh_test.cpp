@@ -10,10 +10,10 @@
 namespace scenes {
 namespace {
 
+using scenes::testing::SceneFolder;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using scenes::testing::SceneFolder;
 
 /// A box as OBJ, outward faces, length x 1.8 x 1.4 m, from the ground up.
 std::string box(double length, bool inside_out = false) {
@@ -89,7 +89,7 @@ TEST(MeshAudit, CountsDegenerateAndDuplicateTriangles) {
   part.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0};
   part.indices = {0, 1, 2, 0, 1, 2, 0, 1, 3};
   EXPECT_THAT(audit({part}, "m"), ::testing::ElementsAre("m has 1 degenerate triangles; they are left out of contact",
-                                                        "m has 1 duplicate triangles; they are left out of contact"));
+                                                         "m has 1 duplicate triangles; they are left out of contact"));
 }
 
 TEST(MeshCage, OpensNothingOutsideItsFolder) {
@@ -108,11 +108,19 @@ TEST(MeshCage, OpensNothingOutsideItsFolder) {
 TEST(MeshCage, SurvivesRubbish) {
   const SceneFolder folder;
   for (const char* name : {"a.obj", "a.ply", "a.stl", "a.3ds", "a.glb", "a.fbx"}) {
-    std::string bytes = name[2] == 'p' ? "ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n" : "";
+    std::string bytes;
     for (int i = 0; i < 3000; ++i) bytes += static_cast<char>((i * 7919 + i * i * 31) >> 3);
     const CageResult result = import_in_cage(folder.write(name, bytes), folder.path());
     EXPECT_TRUE(!result.problem.empty() || result.parts.empty() || result.parts[0].indices.size() % 3 == 0) << name;
   }
+}
+
+TEST(MeshCage, EndsAnImportThatNeverEnds) {
+  // four thousand million vertices announced and none there: the reader of this format asks for each of them
+  const SceneFolder folder;
+  const auto file = folder.write("bomb.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\nrubbish\n");
+  const CageResult result = import_in_cage(file, folder.path(), {.cpu_time = 1, .patience = 5});
+  EXPECT_EQ(result.problem, "the import crashed or ran out of its limits; convert the file to OBJ and try again");
 }
 
 TEST(MeshKinds, OutsideTheListAreRefused) {

@@ -39,7 +39,8 @@ Vec3 centre_of_gravity(const Scene& scene) {
 }
 
 double lowest(const engine::Body& body) {
-  return (body.X_WB * engine::support_point(std::get<engine::HyperEllipsoid>(body.shape), body.X_WB.q.conjugate() * -Vec3::UnitZ())).z();
+  return (body.X_WB * engine::support_point(std::get<engine::HyperEllipsoid>(body.shape), body.X_WB.q.conjugate() * -Vec3::UnitZ()))
+      .z();
 }
 
 TEST(Person14, HasTheMassesAndTheCentreOfGravityOfItsClosedSet) {
@@ -125,8 +126,8 @@ TEST_P(Poses, StandsOnTheGroundWithItsJointsTogether) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Twelve, Poses,
-                         ::testing::Values("standing", "walking_left", "walking_right", "sitting", "sitting_upright", "lying_supine", "lying_prone",
-                                           "leaning", "cyclist", "motorcyclist", "cat", "prayer"));
+                         ::testing::Values("standing", "walking_left", "walking_right", "sitting", "sitting_upright",
+                                           "lying_supine", "lying_prone", "leaning", "cyclist", "motorcyclist", "cat", "prayer"));
 
 TEST(PoseHeights, OfLyingSittingAndStandingComeInThatOrder) {
   const auto height = [](const char* pose) { return centre_of_gravity(person("pose = \"" + std::string(pose) + "\"\n")).z(); };

@@ -30,7 +30,8 @@ TEST(Reference, OfTheReadmeIsTheOneTheTableWrites) {
   }
   const bool same = readme.find(reference_markdown()) != std::string::npos;
   if (!same) std::ofstream("reference.md") << reference_markdown();
-  EXPECT_TRUE(same) << "put the text of " << std::filesystem::current_path() / "reference.md" << " in place of the reference in scenes/README.md";
+  EXPECT_TRUE(same) << "put the text of " << std::filesystem::current_path() / "reference.md"
+                    << " in place of the reference in scenes/README.md";
 }
 
 TEST(Reference, SaysSomethingOfEveryKey) {
@@ -72,12 +73,14 @@ std::vector<std::filesystem::path> shipped() {
   return out;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedScenes, ::testing::ValuesIn(shipped()), [](const auto& one) { return one.param.stem().string(); });
+INSTANTIATE_TEST_SUITE_P(All, ShippedScenes, ::testing::ValuesIn(shipped()),
+                         [](const auto& one) { return one.param.stem().string(); });
 
 TEST(Sha256, GivesTheAnswersOfTheStandard) {
   // FIPS 180-4 examples: one block, two blocks, nothing
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"), "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
   EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
 }
 

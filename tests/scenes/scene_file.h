@@ -30,7 +30,9 @@ class SceneFolder {
     std::ofstream(folder_ / name) << text;
     return folder_ / name;
   }
-  Scene load(const std::string& text, const std::vector<std::string>& overrides = {}) const { return scenes::load(write("case.toml", text), overrides); }
+  Scene load(const std::string& text, const std::vector<std::string>& overrides = {}) const {
+    return scenes::load(write("case.toml", text), overrides);
+  }
 
   /// What the loader complains of, with the folder's name taken out of it.
   std::vector<std::string> errors(const std::string& text, const std::vector<std::string>& overrides = {}) const {
