@@ -257,7 +257,7 @@ TEST(Version, NamesWhatAReportNeedsToBeRepeatable) {
   const Json version = Json::parse(result.out);
   EXPECT_THAT(version.at("build").get<std::string>(), HasSubstr("Release"));
   EXPECT_THAT(version.at("libraries").get<std::string>(),
-              testing::MatchesRegex("Eigen [0-9.]+, assimp [0-9.]+, OSMesa [0-9.]+, .*"));
+              testing::MatchesRegex("Eigen [0-9.]+, assimp [0-9.]+, libpng [0-9.]+, .*"));
   EXPECT_THAT(version.at("gl").get<std::string>(), HasSubstr("llvmpipe"));
 }
 
