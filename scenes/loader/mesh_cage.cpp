@@ -37,7 +37,8 @@ constexpr std::size_t kLargest = std::size_t{1} << 29;  // [byte] of arrays acce
 /// Reads only, and only below one folder: `mtllib ../../etc/passwd` opens nothing.
 class CagedFiles : public Assimp::DefaultIOSystem {
  public:
-  explicit CagedFiles(const std::filesystem::path& root) : root_(std::filesystem::weakly_canonical(root)) {}
+  explicit CagedFiles(const std::filesystem::path& root)
+      : root_(std::filesystem::weakly_canonical(std::filesystem::absolute(root.empty() ? "." : root))) {}
   bool Exists(const char* file) const override { return inside(file) && DefaultIOSystem::Exists(file); }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     return inside(file) && mode && mode[0] == 'r' && !std::strchr(mode, '+') ? DefaultIOSystem::Open(file, mode) : nullptr;
@@ -46,7 +47,7 @@ class CagedFiles : public Assimp::DefaultIOSystem {
  private:
   bool inside(const char* file) const {
     std::error_code error;
-    const auto path = std::filesystem::weakly_canonical(file, error);
+    const auto path = std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
     return !error && std::mismatch(root_.begin(), root_.end(), path.begin(), path.end()).first == root_.end();
   }
   std::filesystem::path root_;

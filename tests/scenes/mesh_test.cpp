@@ -105,6 +105,19 @@ TEST(MeshCage, OpensNothingOutsideItsFolder) {
   EXPECT_EQ(open.parts[0].colour[1], 0.0f);
 }
 
+TEST(MeshCage, IsAsTightForAFileInTheWorkingFolder) {
+  // a scene given as "case.toml" has an empty folder name; that must not mean the whole disk
+  const SceneFolder folder;
+  folder.write("secret/colour.mtl", "newmtl paint\nKd 1 0 0\n");
+  folder.write("inner/car.obj", "mtllib ../secret/colour.mtl\n" + box(4));
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path() / "inner");
+  const CageResult caged = import_in_cage("car.obj", "");
+  std::filesystem::current_path(before);
+  ASSERT_EQ(caged.problem, "");
+  EXPECT_NE(caged.parts[0].colour[1], 0.0f);
+}
+
 TEST(MeshCage, SurvivesRubbish) {
   const SceneFolder folder;
   for (const char* name : {"a.obj", "a.ply", "a.stl", "a.3ds", "a.glb", "a.fbx"}) {
