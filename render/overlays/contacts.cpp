@@ -64,7 +64,9 @@ void add_forces(const Frame& frame, DrawList& list) {
   const auto& names = frame.recording.body_names;
   const std::string against = largest->body_b >= 0 ? names[static_cast<std::size_t>(largest->body_b)] : "ground";
   label.lines = {readable(names[static_cast<std::size_t>(largest->body_a)]) + " / " + against,
-                 fmt::format("F = {}", newtons(largest->force.norm()))};
+                 largest->state == engine::ContactState::impact
+                     ? fmt::format("impulse {:.0f} N s", std::hypot(largest->normal_impulse, largest->tangential_impulse))
+                     : fmt::format("F = {}", newtons(largest->force.norm()))};
   label.sizes = {20, 20};
   label.colours = {{1, 1, 1, 1}, {1, 0.68f, 0.25f, 1}};
   label.at_world_point = true;

@@ -1,0 +1,18 @@
+// A passenger car as curves along its length; sections between them are cubic B-splines.
+#pragma once
+
+#include "assets/generate/surface.h"
+
+namespace assets {
+
+/// Visual bodywork: windows, lamps, seams and wheel arches cut in, interior inside. Origin on the ground, middle of the wheelbase.
+Surface bodywork();
+/// Closed outer shell for contact, same frame.
+Surface shell();
+/// Wheel: axle along y, outside towards +y, centred.
+Surface wheel();
+
+std::vector<Paint> car_paints();
+std::vector<Paint> wheel_paints();
+
+}  // namespace assets

@@ -1,0 +1,23 @@
+// Makes the vehicle meshes: generate_assets FOLDER. The committed files are its output; a test compares them.
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "assets/generate/car.h"
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: generate_assets FOLDER\n");
+    return 2;
+  }
+  try {
+    const std::string folder = argv[1];
+    assets::write_obj(assets::bodywork(), assets::car_paints(), folder + "/sedan");
+    assets::write_obj(assets::shell(), {}, folder + "/sedan_collision");
+    assets::write_obj(assets::wheel(), assets::wheel_paints(), folder + "/wheel");
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 3;
+  }
+  return 0;
+}

@@ -1,0 +1,156 @@
+#include "assets/generate/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+
+namespace assets {
+
+V3 cross(V3 a, V3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+double dot(V3 a, V3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+V3 unit(V3 a) {
+  const double length = std::sqrt(dot(a, a));
+  return length > 0 ? (1 / length) * a : V3{0, 0, 1};
+}
+
+void Surface::add(const Vertex& a, const Vertex& b, const Vertex& c, const std::string& material) {
+  const V3 area = cross(b.p - a.p, c.p - a.p);
+  if (dot(area, area) < 1e-18) return;
+  faces.push_back({{a, b, c}, material});
+}
+
+void Surface::quad(V3 a, V3 b, V3 c, V3 d, const std::string& material) {
+  const V3 n = unit(cross(b - a, d - a));
+  add({a, n}, {b, n}, {c, n}, material);
+  add({a, n}, {c, n}, {d, n}, material);
+}
+
+void Surface::box(V3 m, V3 h, const std::string& material, double lean) {
+  auto at = [&](double i, double j, double k) {
+    const V3 q{i * h.x, j * h.y, k * h.z};
+    return m + V3{q.x * std::cos(lean) + q.z * std::sin(lean), q.y, -q.x * std::sin(lean) + q.z * std::cos(lean)};
+  };
+  quad(at(1, -1, -1), at(1, 1, -1), at(1, 1, 1), at(1, -1, 1), material);
+  quad(at(-1, 1, -1), at(-1, -1, -1), at(-1, -1, 1), at(-1, 1, 1), material);
+  quad(at(1, 1, -1), at(-1, 1, -1), at(-1, 1, 1), at(1, 1, 1), material);
+  quad(at(-1, -1, -1), at(1, -1, -1), at(1, -1, 1), at(-1, -1, 1), material);
+  quad(at(-1, -1, 1), at(1, -1, 1), at(1, 1, 1), at(-1, 1, 1), material);
+  quad(at(-1, 1, -1), at(1, 1, -1), at(1, -1, -1), at(-1, -1, -1), material);
+}
+
+void Surface::append(const Surface& other) { faces.insert(faces.end(), other.faces.begin(), other.faces.end()); }
+
+void Surface::mirror_y() {
+  const std::size_t count = faces.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    Face f = faces[i];
+    for (Vertex& v : f.v) v.p.y = -v.p.y, v.n.y = -v.n.y;
+    std::swap(f.v[1], f.v[2]);
+    faces.push_back(f);
+  }
+}
+
+namespace {
+
+using Polygon = std::vector<Vertex>;
+
+double side_of(Seen seen, const V3& p, const std::array<double, 2>& a, const std::array<double, 2>& b) {
+  const double u = seen == Seen::from_front ? p.y : p.x;
+  const double v = seen == Seen::from_above ? p.y : p.z;
+  return (b[0] - a[0]) * (v - a[1]) - (b[1] - a[1]) * (u - a[0]);
+}
+
+/// Splits a polygon by a line: `in` keeps the left, `out` the right.
+void split(const Polygon& whole, Seen seen, const std::array<double, 2>& a, const std::array<double, 2>& b, Polygon& in, Polygon& out) {
+  in.clear();
+  out.clear();
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    const Vertex& p = whole[i];
+    const Vertex& q = whole[(i + 1) % whole.size()];
+    const double sp = side_of(seen, p.p, a, b), sq = side_of(seen, q.p, a, b);
+    if (sp >= 0) in.push_back(p);
+    if (sp <= 0) out.push_back(p);
+    if ((sp > 0 && sq < 0) || (sp < 0 && sq > 0)) {
+      const double t = sp / (sp - sq);
+      const Vertex m{p.p + t * (q.p - p.p), unit(p.n + t * (q.n - p.n))};
+      in.push_back(m);
+      out.push_back(m);
+    }
+  }
+}
+
+void emit(Surface& to, const Polygon& polygon, const std::string& material) {
+  for (std::size_t i = 2; i < polygon.size(); ++i) to.add(polygon[0], polygon[i - 1], polygon[i], material);
+}
+
+}  // namespace
+
+void cut(Surface& surface, Seen seen, const std::vector<std::array<double, 2>>& border, const Filter& filter, const std::string& material) {
+  Surface result;
+  for (const Face& face : surface.faces) {
+    const V3 centroid = (1.0 / 3) * (face.v[0].p + face.v[1].p + face.v[2].p);
+    if (!filter(centroid, unit(face.v[0].n + face.v[1].n + face.v[2].n))) {
+      result.faces.push_back(face);
+      continue;
+    }
+    Polygon inside(face.v.begin(), face.v.end()), in, out;
+    std::vector<Polygon> outside;
+    for (std::size_t i = 0; i < border.size() && inside.size() >= 3; ++i) {
+      split(inside, seen, border[i], border[(i + 1) % border.size()], in, out);
+      if (out.size() >= 3) outside.push_back(out);
+      inside = in;
+    }
+    if (inside.size() < 3) {
+      result.faces.push_back(face);   // untouched: the pieces would only be slivers of it
+      continue;
+    }
+    for (const Polygon& piece : outside) emit(result, piece, face.material);
+    if (!material.empty()) emit(result, inside, material);
+  }
+  surface = std::move(result);
+}
+
+void write_obj(const Surface& surface, const std::vector<Paint>& paints, const std::string& path) {
+  std::ofstream obj(path + ".obj");
+  const std::string name = std::filesystem::path(path).filename().string();
+  if (!paints.empty()) obj << "mtllib " << name << ".mtl\n";
+  std::map<std::array<long, 3>, int> points, normals;
+  auto key = [](const V3& v, double grid) { return std::array<long, 3>{std::lround(v.x / grid), std::lround(v.y / grid), std::lround(v.z / grid)}; };
+  std::map<std::string, std::string> groups;
+  char line[128];
+  for (const Face& face : surface.faces) {
+    std::string text = "f";
+    for (const Vertex& v : face.v) {
+      const auto [p, new_p] = points.emplace(key(v.p, 1e-4), static_cast<int>(points.size()) + 1);
+      if (new_p) {
+        std::snprintf(line, sizeof line, "v %.4f %.4f %.4f\n", static_cast<double>(p->first[0]) * 1e-4, static_cast<double>(p->first[1]) * 1e-4, static_cast<double>(p->first[2]) * 1e-4);
+        obj << line;
+      }
+      const auto [n, new_n] = normals.emplace(key(v.n, 1e-2), static_cast<int>(normals.size()) + 1);
+      if (new_n) {
+        std::snprintf(line, sizeof line, "vn %.2f %.2f %.2f\n", static_cast<double>(n->first[0]) * 1e-2, static_cast<double>(n->first[1]) * 1e-2, static_cast<double>(n->first[2]) * 1e-2);
+        obj << line;
+      }
+      text += " " + std::to_string(p->second) + "//" + std::to_string(n->second);
+    }
+    groups[face.material] += text + "\n";
+  }
+  for (const auto& [material, text] : groups) {
+    if (!paints.empty()) obj << "usemtl " << material << "\n";
+    obj << text;
+  }
+  if (!obj.flush()) throw std::runtime_error("cannot write " + path + ".obj");
+  if (paints.empty()) return;
+  std::ofstream mtl(path + ".mtl");
+  for (const Paint& paint : paints) {
+    std::snprintf(line, sizeof line, "newmtl %s\nKd %.3f %.3f %.3f\nd %.2f\n", paint.name.c_str(), paint.colour[0], paint.colour[1], paint.colour[2], paint.opacity);
+    mtl << line;
+  }
+  if (!mtl.flush()) throw std::runtime_error("cannot write " + path + ".mtl");
+}
+
+}  // namespace assets
