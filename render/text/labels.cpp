@@ -133,7 +133,8 @@ std::vector<PanelBox> place_labels(const DrawList& list, int width, int height) 
       const bool taken = std::any_of(boxes.begin(), boxes.end(), [&](const PanelBox& b) { return b.shown && overlap(b, box); });
       if (!taken) break;
       if (attempt == 40) box.shown = false;
-      const double step = (attempt / 2 + 1) * 0.35 * box.height;
+      const int steps = attempt / 2 + 1;
+      const double step = steps * 0.35 * box.height;
       box.y = wanted_y + (attempt % 2 ? step : -step);
     }
     boxes.push_back(box);
