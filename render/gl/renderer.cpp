@@ -88,12 +88,11 @@ struct Renderer::Impl {
   }
 
   const VertexBuffer& ellipsoid(const EllipsoidItem& item) {
-    const int cells = cells_for(item.shape, settings.tolerance);
     const auto& a = item.shape.semi_axes;
-    const auto key = std::make_tuple(a.x(), a.y(), a.z(), item.shape.exponent, cells);
+    const auto key = std::make_tuple(a.x(), a.y(), a.z(), item.shape.exponent);
     auto at = ellipsoids.find(key);
     if (at == ellipsoids.end()) {
-      const Tessellation t = tessellate(item.shape, cells);
+      const Tessellation t = tessellate(item.shape, cells_for(item.shape, settings.tolerance));
       VertexBuffer buffer;
       buffer.upload(t.positions, t.normals, t.indices);
       at = ellipsoids.emplace(key, std::move(buffer)).first;
@@ -138,7 +137,7 @@ struct Renderer::Impl {
   Target multisampled, resolved;
   gl::OverlayPass overlays;
   unsigned empty_array = 0;
-  std::map<std::tuple<double, double, double, double, int>, VertexBuffer> ellipsoids;
+  std::map<std::tuple<double, double, double, double>, VertexBuffer> ellipsoids;
   std::map<const Mesh*, CachedMesh> meshes;
   std::vector<VertexBuffer> skins;
   std::vector<std::uint8_t> pixels;
@@ -146,7 +145,9 @@ struct Renderer::Impl {
 };
 
 Mat4 Renderer::Impl::fit_shadow(const DrawList& list, const Vec3& sun) {
-  const Mat4 view = look_at(sun, Vec3::Zero(), std::abs(sun.z()) > 0.95 ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitZ()));
+  Mat4 view = look_at(sun, Vec3::Zero(), std::abs(sun.z()) > 0.95 ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitZ()));
+  // the sun has a direction and no place: a shift along it would push the casters nearest to it out of the map
+  view.topRightCorner<3, 1>().setZero();
   Vec3 low = Vec3::Constant(1e30), high = Vec3::Constant(-1e30);
   const Vec3 eye(list.view.eye[0], list.view.eye[1], list.view.eye[2]);
   auto add = [&](const Matrix4& model, double radius) {
@@ -161,7 +162,11 @@ Mat4 Renderer::Impl::fit_shadow(const DrawList& list, const Vec3& sun) {
     }
   };
   for (const EllipsoidItem& e : list.ellipsoids) add(e.model, e.shape.semi_axes.norm());
-  for (const MeshItem& m : list.meshes) add(m.model, mesh(m.mesh).bounds.half.norm() + 0.3);
+  for (const MeshItem& m : list.meshes) {
+    // the mesh's origin need not be its middle
+    const MeshBounds& b = mesh(m.mesh).bounds;
+    add(m.model, b.centre.norm() + b.half.norm());
+  }
   for (const SkinItem& s : list.skins) {
     Matrix4 at{};
     for (std::size_t i = 0; i < 3 && i < s.positions.size(); ++i) at[12 + i] = s.positions[i];

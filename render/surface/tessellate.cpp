@@ -1,6 +1,7 @@
 #include "render/surface/tessellate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -24,12 +25,6 @@ Vec3 on_cube(int face, double u, double v) {
 }
 
 }  // namespace
-
-int cells_for(const engine::HyperEllipsoid& shape, double tolerance) {
-  const double a = shape.semi_axes.maxCoeff();
-  const int cells = static_cast<int>(std::ceil(std::numbers::pi / 4 * std::sqrt(a / (2 * tolerance))));
-  return std::clamp(cells + (shape.exponent > 4 ? 6 : 0), 6, 40);
-}
 
 Tessellation tessellate(const engine::HyperEllipsoid& shape, int cells) {
   Tessellation out;
@@ -55,6 +50,27 @@ Tessellation tessellate(const engine::HyperEllipsoid& shape, int cells) {
         for (const std::uint32_t index : {a, b, c, a, c, d}) out.indices.push_back(index);
       }
   return out;
+}
+
+double largest_gap(const engine::HyperEllipsoid& shape, const Tessellation& t) {
+  auto vertex = [&](std::size_t corner) {
+    const std::size_t v = 3 * std::size_t{t.indices[corner]};
+    return Vec3(t.positions[v], t.positions[v + 1], t.positions[v + 2]);
+  };
+  double gap = 0;
+  for (std::size_t i = 0; i < t.indices.size(); i += 3) {
+    const Vec3 a = vertex(i), b = vertex(i + 1), c = vertex(i + 2);
+    for (const Vec3& x : {Vec3((a + b + c) / 3), Vec3((a + b) / 2), Vec3((b + c) / 2), Vec3((c + a) / 2)})
+      gap = std::max(gap, x.norm() * std::abs(1 / engine::gauge(shape, x) - 1));
+  }
+  return gap;
+}
+
+int cells_for(const engine::HyperEllipsoid& shape, double tolerance) {
+  constexpr std::array<int, 7> kLevels{6, 8, 12, 16, 24, 36, 56};
+  for (const int cells : kLevels)
+    if (largest_gap(shape, tessellate(shape, cells)) <= tolerance) return cells;
+  return kLevels.back();
 }
 
 }  // namespace render

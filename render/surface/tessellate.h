@@ -17,7 +17,10 @@ struct Tessellation {
 /// `cells` per cube edge: 6 * cells^2 * 2 triangles, closed, counter-clockwise seen from outside.
 Tessellation tessellate(const engine::HyperEllipsoid&, int cells);
 
-/// Cells for which the chord error stays below `tolerance` [m]: error is about a (pi / (4 cells))^2 / 2 of the largest semi-axis.
+/// Largest distance [m] along the radius from triangles to surface, at centroids and middles of edges; never less than the true gap there.
+double largest_gap(const engine::HyperEllipsoid&, const Tessellation&);
+
+/// Fewest cells of a ladder up to 56 whose largest gap stays below `tolerance` [m], else 56. Measured, so call it once a shape.
 int cells_for(const engine::HyperEllipsoid&, double tolerance);
 
 }  // namespace render

@@ -1,0 +1,136 @@
+// Pictures by the renderer against geometry: silhouettes, shadows, and the promise that a frame depends on its list alone.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "gl_scene.h"
+#include "render/renderer.h"
+
+namespace render {
+namespace {
+
+using namespace test;
+
+constexpr int kWidth = 480, kHeight = 320;
+constexpr float kAspect = 1.5f;
+
+std::array<int, 3> pixel(const Image& image, int x, int y) {
+  const std::size_t at = 4 * static_cast<std::size_t>(y * image.width + x);
+  return {image.rgba[at], image.rgba[at + 1], image.rgba[at + 2]};
+}
+
+// red stands out from grey road and pale sky, in light and in shade
+bool is_ball(const Image& image, int x, int y) {
+  const auto [r, g, b] = pixel(image, x, y);
+  return r > g + 25 && r > b + 25;
+}
+
+struct Span {
+  int first = 100000, last = -1;
+};
+Span ball_columns(const Image& image) {
+  Span s;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (is_ball(image, x, y)) s.first = std::min(s.first, x), s.last = std::max(s.last, x);
+  return s;
+}
+
+int brightness(const Image& image, int x, int y) {
+  const auto [r, g, b] = pixel(image, x, y);
+  return r + g + b;
+}
+
+Image draw_with(Renderer& renderer, const DrawList& list) {
+  Image out;
+  renderer.draw(list, out);
+  return out;
+}
+
+// beside the road and above it nothing but plain ground: no marking is near
+DrawList plain(const View& view) {
+  DrawList list;
+  list.view = view;
+  list.road.road = true;
+  list.road.width = 400;
+  list.road.lanes = 1;
+  list.sky.haze = 0;
+  return list;
+}
+
+TEST(Silhouette, OfABallHasTheWidthAndPlaceOfItsTangentCone) {
+  // seen from the middle of its height, a ball of radius r at lateral offset x and depth d: its horizontal section is a circle, whose
+  // tangents from the eye make the angles atan(x / d) +- asin(r / sqrt(x^2 + d^2))
+  const float tan_half = 0.35f;
+  const double x = 0.8, d = 6, r = 0.5;
+  DrawList list = plain(look_along_y({0, 0, 20}, tan_half, kAspect));
+  list.ellipsoids.push_back(ball({static_cast<float>(x), static_cast<float>(d), 20}, r));
+  Renderer renderer(kWidth, kHeight, Quality::standard);
+  const Span seen = ball_columns(draw_with(renderer, list));
+  const double middle = std::atan2(x, d), half = std::asin(r / std::hypot(x, d));
+  const double focal = kHeight / 2.0 / static_cast<double>(tan_half);   // [pixels]
+  const double left = kWidth / 2.0 + focal * std::tan(middle - half), right = kWidth / 2.0 + focal * std::tan(middle + half);
+  // a pixel counts from about a third of its area red, so either edge is known to a pixel; radius and place are their half sum and difference
+  ASSERT_GE(seen.last, 0);
+  EXPECT_NEAR((seen.last + 1 - seen.first) / 2.0, (right - left) / 2, 0.75);
+  EXPECT_NEAR((seen.last + 1 + seen.first) / 2.0, (right + left) / 2, 0.75);
+}
+
+TEST(Silhouette, OfABallFromAboveIsTrueToScale) {
+  DrawList list = plain(look_down(3, 60, 4, kAspect));
+  list.ellipsoids.push_back(ball({3.5f, 60, 1}, 0.5));
+  Renderer renderer(kWidth, kHeight, Quality::standard);
+  const Span seen = ball_columns(draw_with(renderer, list));
+  const double scale = kHeight / 4.0;   // [pixels/m]
+  ASSERT_GE(seen.last, 0);
+  EXPECT_NEAR((seen.last + 1 - seen.first) / 2.0, 0.5 * scale, 0.75);
+  EXPECT_NEAR((seen.last + 1 + seen.first) / 2.0, kWidth / 2.0 + 0.5 * scale, 0.75);
+}
+
+TEST(Shadow, LiesWhereTheSunPutsIt) {
+  // the sun stands over +x at 45 degrees: what is at height h throws its shadow h towards -x
+  DrawList list = plain(look_down(0, 60, 8, kAspect));
+  list.sky.sun_azimuth = 0;
+  list.sky.sun_elevation = std::atan(1.0);
+  for (const float height : {0.4f, 2.0f}) {   // the upper one shows that what is nearest to the sun casts too
+    SCOPED_TRACE(height);
+    DrawList with = list;
+    with.ellipsoids.push_back(ball({0, 60, height}, 0.3));
+    with.ellipsoids.push_back(ball({0, 60, 0.4f}, 0.3));
+    Renderer renderer(kWidth, kHeight, Quality::standard);
+    const Image bare = draw_with(renderer, list), shaded = draw_with(renderer, with);
+    const int y = kHeight / 2, at = kWidth / 2 - static_cast<int>(height * kHeight / 8.0f), mirror = kWidth - at;
+    // the middle of the lower shadow may be hidden under the ball itself: look a third of a radius farther out
+    const int out = at - (height < 1 ? 12 : 0);
+    EXPECT_LT(brightness(shaded, out, y), 0.8 * brightness(bare, out, y));
+    // on the sunny side, 2.0 m away, nothing changes but occlusion, which fades long before
+    if (height > 1) {
+      EXPECT_NEAR(brightness(shaded, mirror, y), brightness(bare, mirror, y), 12);
+    }
+  }
+}
+
+TEST(Frame, DependsOnItsListAlone) {
+  DrawList one = plain(look_along_y({0, 0, 2}, 0.4f, kAspect));
+  one.ellipsoids.push_back(ball({0.5f, 6, 0.5f}, 0.5));
+  LineItem trace;
+  trace.points = {{-2, 8, 0.5f}, {2, 8, 0.5f}};
+  trace.hidden_behind = true;
+  DrawList two = plain(look_down(1, 6, 9, kAspect));
+  two.ellipsoids.push_back(ball({1, 6, 2}, 0.8));
+  two.lines.push_back(trace);
+  DrawList three = one;
+  three.lines.push_back(trace);
+
+  Renderer a(kWidth, kHeight, Quality::standard), b(kWidth, kHeight, Quality::standard);
+  const Image first = draw_with(a, one), top = draw_with(a, two), traced = draw_with(a, three), again = draw_with(a, one);
+  const Image b_traced = draw_with(b, three), b_top = draw_with(b, two), b_first = draw_with(b, one);
+  EXPECT_TRUE(first.rgba == again.rgba) << "drawn twice";
+  EXPECT_TRUE(first.rgba == b_first.rgba && top.rgba == b_top.rgba && traced.rgba == b_traced.rgba) << "drawn in another order";
+  EXPECT_FALSE(first.rgba == traced.rgba) << "the line must be seen, else the comparison proves little";
+}
+
+}  // namespace
+}  // namespace render
