@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace assets {
@@ -114,6 +115,31 @@ void cut(Surface& surface, Seen seen, const std::vector<std::array<double, 2>>& 
   surface = std::move(result);
 }
 
+namespace {
+
+constexpr double kGrid = 1e-4;   // [m] of coordinates in the file
+
+/// True for a triangle that rounding to the file's grid leaves without area, or that was written before.
+bool sliver_on_grid(const Face& face, std::set<std::array<long, 9>>& written) {
+  std::array<std::array<long, 3>, 3> corner;
+  std::array<V3, 3> p;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const V3& v = face.v[i].p;
+    corner[i] = {std::lround(v.x / kGrid), std::lround(v.y / kGrid), std::lround(v.z / kGrid)};
+    p[i] = {static_cast<double>(corner[i][0]), static_cast<double>(corner[i][1]), static_cast<double>(corner[i][2])};
+  }
+  const V3 a = p[1] - p[0], b = p[2] - p[0], c = p[2] - p[1];
+  const double longest = std::max({dot(a, a), dot(b, b), dot(c, c)});
+  const V3 area = cross(a, b);
+  if (longest == 0 || std::sqrt(dot(area, area)) < 1e-3 * longest) return true;
+  std::sort(corner.begin(), corner.end());
+  std::array<long, 9> key;
+  for (std::size_t i = 0; i < 9; ++i) key[i] = corner[i / 3][i % 3];
+  return !written.insert(key).second;
+}
+
+}  // namespace
+
 void write_obj(const Surface& surface, const std::vector<Paint>& paints, const std::string& path) {
   std::ofstream obj(path + ".obj");
   const std::string name = std::filesystem::path(path).filename().string();
@@ -122,7 +148,9 @@ void write_obj(const Surface& surface, const std::vector<Paint>& paints, const s
   auto key = [](const V3& v, double grid) { return std::array<long, 3>{std::lround(v.x / grid), std::lround(v.y / grid), std::lround(v.z / grid)}; };
   std::map<std::string, std::string> groups;
   char line[128];
+  std::set<std::array<long, 9>> written;   // corners on the file's grid, sorted: no triangle twice
   for (const Face& face : surface.faces) {
+    if (sliver_on_grid(face, written)) continue;
     std::string text = "f";
     for (const Vertex& v : face.v) {
       const auto [p, new_p] = points.emplace(key(v.p, 1e-4), static_cast<int>(points.size()) + 1);

@@ -32,7 +32,43 @@ struct Pair {
 struct Found {
   Vec3 n;
   double gap;
+  bool stationary = false;
 };
+
+/// Near the flats of n > 2 the support function has all but kinks where n is across a body axis, and the maximum often lies on one:
+/// Newton stalls there. Steps along and across the six circles of kinks, halved until nothing is gained.
+Found polish(const Pair& pair, Found at) {
+  constexpr double kFirstStep = 0.02, kLastStep = 1e-9;   // [rad]
+  for (double step = kFirstStep; step > kLastStep; step *= 0.5) {
+    for (int round = 0; round < 8; ++round) {
+      bool better = false;
+      for (int i = 0; i < 6; ++i) {
+        const Vec3 axis = i < 3 ? pair.R_WA.col(i) : pair.R_WB.col(i - 3);
+        const Vec3 along = at.n.cross(axis);
+        if (along.squaredNorm() < 1e-12) continue;
+        const Vec3 t = along.normalized();
+        for (const Vec3& direction : {t, Vec3(-t), Vec3(at.n.cross(t)), Vec3(-at.n.cross(t))}) {
+          const Vec3 next = (at.n + step * direction).normalized();
+          const double gap = pair.gap(next);
+          if (gap <= at.gap + 1e-15) continue;
+          at = {next, gap, false};
+          better = true;
+        }
+        // right onto the kink, when it is near
+        const Vec3 onto = (at.n - at.n.dot(axis) * axis).normalized();
+        if (std::abs(at.n.dot(axis)) < 4 * step) {
+          const double gap = pair.gap(onto);
+          if (gap > at.gap) {
+            at = {onto, gap, false};
+            better = true;
+          }
+        }
+      }
+      if (!better) break;
+    }
+  }
+  return at;
+}
 
 constexpr int kSweep = 48;                  // directions
 constexpr double kGoldenAngle = 2.399963;   // [rad]
@@ -46,7 +82,7 @@ Found climb(const Pair& pair, Vec3 n, int iterations) {
     Eigen::Matrix<double, 3, 2> E;
     E << t1, n.cross(t1);
     const Eigen::Vector2d slope = E.transpose() * (pair.d - pair.support_sum(n));
-    if (slope.norm() < kStationary) break;
+    if (slope.norm() < kStationary) return {n, g, true};
     const Eigen::Matrix2d H = E.transpose() * pair.hessian_sum(n) * E + g * Eigen::Matrix2d::Identity();
     bool better = false;
     for (int trial = 0; trial < 12 && !better; ++trial) {
@@ -66,7 +102,7 @@ Found climb(const Pair& pair, Vec3 n, int iterations) {
     }
     if (!better) break;
   }
-  return {n, g};
+  return {n, g, false};
 }
 
 }  // namespace
@@ -86,7 +122,8 @@ std::optional<SurfaceContact> contact_of_pair(const HyperEllipsoid& A, const Pos
   if (!warm || deep) {
     auto try_from = [&](const Vec3& n) {
       if (pair.gap(n) < 2 * best.gap - 0.5 * A.semi_axes.maxCoeff()) return;
-      const Found found = climb(pair, n, 25);
+      Found found = climb(pair, n, 25);
+      if (!found.stationary && !warm) found = polish(pair, found);
       if (found.gap > best.gap + 1e-12) best = found;
     };
     if (warm) try_from(towards);
@@ -111,6 +148,7 @@ std::optional<SurfaceContact> contact_of_pair(const HyperEllipsoid& A, const Pos
     }
     best = climb(pair, best.n, 60);
   }
+  if (!best.stationary && best.gap < margin) best = polish(pair, best);
   normal_guess = best.n;
   if (best.gap >= margin) return std::nullopt;
   SurfaceContact c;
