@@ -86,8 +86,9 @@ void draw_frame(const Job& j, Renderer& renderer, Image& image, int i) {
 }
 
 /// A worker's life: its frames from `first` on, in steps of the number of workers.
-[[noreturn]] void work(const Job& j, int first) {
+[[noreturn]] void work(const Job& j, int first, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(4);   // the parent died before the line above could bind us to it
   setenv("LP_NUM_THREADS", "0", 1);
   int at = first;
   try {
@@ -109,7 +110,7 @@ void draw_frame(const Job& j, Renderer& renderer, Image& image, int i) {
 
 class Workers {
  public:
-  explicit Workers(const Job& job) : job_(job), pids_(static_cast<std::size_t>(job.workers), -1), deaths_(pids_.size(), 0) {
+  explicit Workers(const Job& job) : job_(job), pids_(static_cast<std::size_t>(job.workers), -1) {
     for (int w = 0; w < job.workers; ++w) start(w, w);
   }
   ~Workers() {
@@ -125,14 +126,17 @@ class Workers {
   void await(int i) {
     const int w = i % job_.workers;
     Slot& slot = job_.ring[i % job_.slots];
+    int deaths = 0;
     while (slot.frame.load() != i) {
       int status = 0;
       pid_t& pid = pids_[static_cast<std::size_t>(w)];
-      if (pid > 0 && waitpid(pid, &status, WNOHANG) == pid) {
+      // a worker may deliver frame i and die at its next one between our two looks: then nobody is left for that next one
+      if (pid <= 0) start(w, i);
+      if (waitpid(pid, &status, WNOHANG) == pid) {
         pid = -1;
         if (slot.frame.load() == i) break;
         if (WIFEXITED(status) && WEXITSTATUS(status) == 3) throw RenderError(slot.error);
-        if (++deaths_[static_cast<std::size_t>(w)] > kDeathsAllowed)
+        if (++deaths > kDeathsAllowed)
           throw RenderError(fmt::format("drawing frame {} failed {} times ({})", i, kDeathsAllowed + 1,
                                         WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "its process ended"));
         start(w, i);
@@ -143,14 +147,14 @@ class Workers {
 
  private:
   void start(int w, int first) {
+    const pid_t parent = getpid();
     const pid_t pid = fork();
     if (pid < 0) throw RenderError(std::string("cannot start a drawing process: ") + std::strerror(errno));
-    if (pid == 0) work(job_, first);
+    if (pid == 0) work(job_, first, parent);
     pids_[static_cast<std::size_t>(w)] = pid;
   }
   const Job& job_;
   std::vector<pid_t> pids_;
-  std::vector<int> deaths_;
 };
 
 void refuse_existing(const FilmJob& job, const std::vector<Moment>& moments) {

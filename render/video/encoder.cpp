@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 
@@ -28,7 +29,7 @@ void check(int code, const std::string& what) {
 }
 
 /// Copies the fragmented file into one with its index in front.
-void remux(const std::string& from, const std::string& to, const std::map<std::string, std::string>& metadata) {
+void remux(const std::string& from, const std::string& to, std::int64_t frames, const std::map<std::string, std::string>& metadata) {
   AVFormatContext* in = nullptr;
   AVFormatContext* out = nullptr;
   check(avformat_open_input(&in, from.c_str(), nullptr, nullptr), "cannot read back " + from);
@@ -46,22 +47,27 @@ void remux(const std::string& from, const std::string& to, const std::map<std::s
   check(avformat_write_header(out, &options), "cannot write " + to);
   av_dict_free(&options);
   AVPacket* packet = av_packet_alloc();
-  while (av_read_frame(in, packet) >= 0) {
+  std::int64_t copied = 0;
+  int got = 0;
+  for (; (got = av_read_frame(in, packet)) >= 0; ++copied) {
     av_packet_rescale_ts(packet, in->streams[0]->time_base, stream->time_base);
     packet->stream_index = 0;
     packet->pos = -1;
     check(av_interleaved_write_frame(out, packet), "cannot write " + to);
   }
   av_packet_free(&packet);
+  if (got != AVERROR_EOF) check(got, "cannot read back " + from);
+  // a film short of frames must not pass for a whole one
+  if (copied != frames) throw RenderError(fmt::format("cannot read back {}: {} of {} frames", from, copied, frames));
   check(av_write_trailer(out), "cannot write " + to);
   check(avio_closep(&out->pb), "cannot write " + to);
   avformat_free_context(out);
   avformat_close_input(&in);
   const int file = open(to.c_str(), O_RDONLY);
-  if (file >= 0) {
-    fsync(file);
-    close(file);
-  }
+  const bool kept = file >= 0 && fsync(file) == 0;
+  const int reason = errno;
+  if (file >= 0) close(file);
+  if (!kept) throw RenderError("cannot write " + to + ": " + std::strerror(reason));
 }
 
 }  // namespace
@@ -197,7 +203,7 @@ void VideoEncoder::finish() {
   m.drain();
   check(av_write_trailer(m.format), "cannot write " + m.part);
   m.release();
-  remux(m.part, m.whole, m.metadata);
+  remux(m.part, m.whole, m.next, m.metadata);
   std::filesystem::rename(m.whole, m.output);
   std::filesystem::remove(m.part);
   m.finished = true;
