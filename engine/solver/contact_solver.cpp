@@ -7,6 +7,8 @@
 namespace engine {
 namespace {
 
+constexpr int kPatience = 50;       // sweeps at full length
+constexpr double kShorter = 0.5;    // [-] of the change afterwards
 constexpr double kLimitArm = 0.3;   // [m] turns the speed of a joint limit into that of a limb's end, to compare residuals
 
 Vec3 solve_wheel(const Mat3& A, const Vec3& u, const Vec3& old, const Constraint& c) {
@@ -22,7 +24,10 @@ Vec3 solve_wheel(const Mat3& A, const Vec3& u, const Vec3& old, const Constraint
   }
   const double most = c.friction * normal;
   const double length = std::hypot(x, y);
-  if (length > most) {
+  if (length > most && std::abs(x) >= c.rolling_bound && c.rolling_bound < most) {
+    // the brake has its share first: a rolling wheel keeps turning, what grip is left holds sideways
+    y = std::copysign(std::sqrt(most * most - x * x), y);
+  } else if (length > most) {
     const double scale = most / length;
     x *= scale;
     y *= scale;
@@ -36,7 +41,11 @@ double natural_residual(const Constraint& c, const Vec3& u, const Mat3& A) {
   switch (c.kind) {
     case ConstraintKind::bilateral: return std::abs(miss);
     case ConstraintKind::limit: return kLimitArm * std::abs(c.impulse[0] - std::max(0.0, c.impulse[0] - miss / a)) * a;
-    case ConstraintKind::wheel: return (solve_wheel(A, u, c.impulse, c) - c.impulse).norm() * a;
+    case ConstraintKind::wheel: {
+      // the soft normal answers to the suspension, the road plane to the tyre: each by its own response
+      const Vec3 change = solve_wheel(A, u, c.impulse, c) - c.impulse;
+      return std::max(std::abs(change[0]) * a, std::hypot(change[1] * A(1, 1), change[2] * A(2, 2)));
+    }
     case ConstraintKind::contact: break;
   }
   const double rho = 1 / A.diagonal().maxCoeff();
@@ -191,6 +200,8 @@ SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector
           break;
         }
       }
+      // contacts that chase each other between slip and stick come together with shorter steps; the cone is convex, so they stay in it
+      if (report.sweeps > kPatience) next = c.impulse + kShorter * (next - c.impulse);
       const Vec3 change = next - c.impulse;
       if (change.squaredNorm() == 0) continue;
       add_to_velocity(offset_[i], c.rows, change);
