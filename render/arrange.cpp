@@ -12,6 +12,8 @@
 namespace render {
 namespace {
 
+constexpr double kLastPicture = 0.7;   // [s] of film
+
 const Camera& camera_named(const Stage& stage, const std::string& name) {
   if (name.empty()) return stage.cameras.front();
   const auto at = std::find_if(stage.cameras.begin(), stage.cameras.end(), [&](const Camera& c) { return c.name == name; });
@@ -56,7 +58,9 @@ std::vector<Moment> film(const Stage& stage, const engine::Recording& recording,
   if (shots.empty()) shots.push_back({stage.cameras.front().name, 0, recording.end_time(), 1, 0});
   std::vector<Moment> moments;
   double left_over = 0;   // [s] of film between the last frame and the end of its shot: cuts do not move the clock
-  for (const Shot& shot : shots) {
+  for (Shot& shot : shots) {
+    // a run that came to rest early is not drawn out: the last picture stands for a moment, then the shot is over
+    shot.to = std::min(shot.to, std::max(shot.from, recording.end_time() + kLastPicture * shot.speed));
     const double length = shot.speed == 0 ? shot.hold : (shot.to - shot.from) / shot.speed;
     double at = left_over;
     for (; at < length - 1e-9; at += 1 / fps)

@@ -35,7 +35,7 @@ const Key kKeys[] = {
     CRASHREEL_SURFACE_KEYS,
     {"fixed", Type::boolean, Dimension::none, "false", "Part of the world: never moves."},
     {"collision", Type::choice, Dimension::none, "'default_auto'", "Collision model the body asks for.", kAny,
-     "default_auto|kudlich_slibar"},
+     "default_auto"},
     {"colour", Type::colour, Dimension::none, "'#c87838'", "Colour in pictures."},
     {"material", Type::choice, Dimension::none, "'matte'", "Surface in pictures.", kAny,
      "matte|paint|glass|lamp|rubber|metal|skin|cloth"},
@@ -103,7 +103,6 @@ engine::SurfaceProperties read_surface(Reader& r, engine::SurfaceProperties out)
   if (r.has("restitution")) out.restitution_body = out.restitution_ground = r.schedule("restitution");
   if (r.has("restitution_body")) out.restitution_body = r.schedule("restitution_body");
   if (r.has("restitution_ground")) out.restitution_ground = r.schedule("restitution_ground");
-  if (r.has("stiffness")) out.stiffness = r.schedule("stiffness");
   return out;
 }
 

@@ -70,9 +70,8 @@ render::MaterialKind read_material_kind(Reader&, std::string_view key);
        "Ratio of separating to closing normal speed, sets both kinds below. Of two objects the larger acts.",                  \
        kShare},                                                                                                                \
       {"restitution_body", Type::schedule, Dimension::none, "", "The same against every other object.", kShare},               \
-      {"restitution_ground", Type::schedule, Dimension::none, "", "The same against the ground.", kShare}, {                   \
-    "stiffness", Type::schedule, Dimension::stiffness, "", "S of the compliant law, eq. (68); not used by Default-Auto.",      \
-        kPositive                                                                                                              \
+  {                                                                                                                            \
+    "restitution_ground", Type::schedule, Dimension::none, "", "The same against the ground.", kShare                          \
   }
 
 /// The library beside the scene format: poses, persons, vehicles. CRASHREEL_HOME first, then where the program was built.

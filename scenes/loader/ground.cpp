@@ -12,8 +12,6 @@ const Key kKeys[] = {
     {"friction", Type::schedule, Dimension::none, "1",
      "Coulomb coefficient of the ground. Of two objects the smaller acts, so 1 leaves it to the other.", kNotNegative},
     {"restitution", Type::schedule, Dimension::none, "0", "Restitution of the ground. Of two objects the larger acts.", kShare},
-    {"stiffness", Type::schedule, Dimension::stiffness, "'1e6 kN/m'",
-     "S of the compliant law; stiff, so that the other object yields.", kPositive},
     {"terrain", Type::path, Dimension::none, "", "A mesh file in world axes (z up), besides or in place of the plane."},
 };
 
@@ -28,7 +26,6 @@ void read_ground(Builder& builder, std::optional<Reader> reader) {
   ground.height = r.number("height");
   ground.surface.friction_body = ground.surface.friction_ground = r.schedule("friction");
   ground.surface.restitution_body = ground.surface.restitution_ground = r.schedule("restitution");
-  ground.surface.stiffness = r.schedule("stiffness");
   if (r.has("terrain")) {
     if (const auto mesh = import_mesh(builder, r, "terrain")) {
       ground.terrain = mesh->solid;

@@ -37,7 +37,6 @@ const Key kKeys[] = {
     {"x", Type::table, Dimension::none, "", "The first swing angle.", kAny, {}, &kAngleSection},
     {"y", Type::table, Dimension::none, "", "The second swing angle; the angle of a revolute.", kAny, {}, &kAngleSection},
     {"z", Type::table, Dimension::none, "", "The twist.", kAny, {}, &kAngleSection},
-    {"breaking_force", Type::number, Dimension::force, "", "The joint lets go above this force. Left out: never.", kPositive},
 };
 
 int find_body(Builder& builder, Reader& r, std::string_view key) {
@@ -105,7 +104,6 @@ void read_joint(Builder& builder, Reader r) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (auto angle = r.table(kNames[i])) joint.angles[i] = read_angle(*angle, joint.angles[i]);
   }
-  if (r.has("breaking_force")) joint.breaking_force = r.number("breaking_force");
   builder.scene.model.joints.push_back(std::move(joint));
 }
 

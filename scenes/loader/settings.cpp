@@ -23,17 +23,15 @@ const Key kKeys[] = {
     {"record_interval", Type::number, Dimension::time, "'5 ms'", "Time between recorded instants, rounded to whole steps.",
      Range{0, 1, true}},
     {"scheme", Type::choice, Dimension::none, "'stepping'",
-     "Integration: velocity stepping, Runge-Kutta 4, or with an adaptive step.", kAny, "stepping|rk4|adaptive"},
+     "Integration: Runge-Kutta 4 for the smooth motion, impulses of all contacts at the end of the step.", kAny, "stepping"},
     {"contact_law", Type::choice, Dimension::none, "'default_auto'",
-     "Impulses at first touch, or the compliant law of eqs. (68), (69).", kAny, "default_auto|compliant"},
+     "Impulses at first touch, at all touching points at once.", kAny, "default_auto"},
     {"gravity", Type::number, Dimension::acceleration, "'9.81 m/s^2'", "Acceleration of gravity; 0 for none.", kNotNegative},
     {"slope", Type::number, Dimension::angle, "'0 deg'",
      "Tilts the whole world: the ground stays z = height and gravity turns, so that +x runs downhill at this angle.",
      between(-kRightAngle, kRightAngle)},
     {"solver_tolerance", Type::number, Dimension::speed, "'0.01 mm/s'", "Residual at which the contact solver stops.", kPositive},
-    {"adaptive_tolerance", Type::number, Dimension::length, "'0.01 mm'", "Error of one step, scheme adaptive.", kPositive},
     {"locate_events", Type::boolean, Dimension::none, "true", "Place impacts inside the step."},
-    {"sleep", Type::boolean, Dimension::none, "false", "Bodies at rest stop costing time."},
     {"stop_at_rest", Type::boolean, Dimension::none, "true", "End the run when everything has come to rest."},
     {"effects", Type::table, Dimension::none, "", "Effects forced on or off.", kAny, {}, &kEffectsSection},
 };
@@ -56,9 +54,7 @@ void read_settings(Builder& builder, std::optional<Reader> reader) {
   s.gravity = {g * std::sin(slope), 0, -g * std::cos(slope)};
   if (slope == 0) s.gravity = {0, 0, -g};
   s.solver_tolerance = r.number("solver_tolerance");
-  s.adaptive_tolerance = r.number("adaptive_tolerance");
   s.locate_events = r.boolean("locate_events");
-  s.sleep = r.boolean("sleep");
   s.stop_at_rest = r.boolean("stop_at_rest");
   if (s.step > 0 && s.record_interval < s.step) r.fail("record_interval", "must not be shorter than the step");
   if (auto effects = r.table("effects")) {
