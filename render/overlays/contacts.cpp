@@ -71,7 +71,7 @@ void add_forces(const Frame& frame, DrawList& list) {
   label.colours = {{1, 1, 1, 1}, {1, 0.68f, 0.25f, 1}};
   label.at_world_point = true;
   label.world = to_float(largest->point + Vec3(0, 0, 0.35));
-  label.pivot = {-0.45f, 1.7f};   // clear of the figure it speaks of
+  label.pivot = {-0.9f, 2.1f};   // clear of the figure it speaks of
   list.labels.push_back(label);
 }
 
