@@ -117,6 +117,7 @@ void Recorder::snapshot(const World& world, const State& state, Recording& recor
       t.record.normal_force = t.record.normal_impulse / over;
       t.record.tangential_force = t.record.tangential_impulse / over;
     }
+    t.record.impulse = t.impulse;
     s.contacts.push_back(t.record);
   }
   tallies_.clear();

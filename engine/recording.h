@@ -34,7 +34,8 @@ struct ContactRecord {
   double normal_force = 0;             // [N]
   double tangential_force = 0;         // [N]
   double normal_impulse = 0;           // [N s] since the snapshot before
-  double tangential_impulse = 0;       // [N s]
+  double tangential_impulse = 0;       // [N s] sum of magnitudes
+  Vec3 impulse = Vec3::Zero();         // [N s] on a, world, since the snapshot before: the sum of vectors, which may turn meanwhile
   double slip = 0;                     // [m/s]
   ContactState state = ContactState::approach;
 };

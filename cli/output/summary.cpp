@@ -74,6 +74,12 @@ Json metrics_json(const std::vector<engine::Metric>& metrics) {
   return out;
 }
 
+Json absent_json(const std::vector<engine::AbsentMetric>& absent) {
+  Json out = Json::array();
+  for (const engine::AbsentMetric& a : absent) out.push_back({{"metric", a.key}, {"object", a.object}, {"reason", a.reason}});
+  return out;
+}
+
 Json energy_json(const engine::Recording& recording) {
   const engine::Energies& first = recording.snapshots.front().energies;
   const engine::Energies& last = recording.snapshots.back().energies;
@@ -135,6 +141,8 @@ Json summary_json(const scenes::Scene& scene, const engine::Recording& recording
   out["plan"] = plan_json(recording.plan);
   out["events"] = events_json(recording);
   out["metrics"] = metrics_json(metrics);
+  const auto absent = engine::absent_metrics(scene.model, recording);
+  if (!absent.empty()) out["absent"] = absent_json(absent);
   out["energy"] = energy_json(recording);
   out["diagnostics"] = diagnostics_json(recording.diagnostics);
   out["cost"] = cost_json(recording);
@@ -158,6 +166,9 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
   const auto line = [&out](const std::string& name, const std::string& value) { out += fmt::format("  {:<28} {}\n", name, value); };
   for (const engine::Metric& metric : metrics) {
     line(metric.object.empty() ? metric.key : metric.key + " " + metric.object, fmt::format("{:.6g}", metric.value));
+  }
+  for (const engine::AbsentMetric& a : engine::absent_metrics(scene.model, recording)) {
+    line(a.key + " " + a.object, "absent: " + a.reason);
   }
   line("energy", fmt::format("{:.6g} J at first, {:.6g} J at last, unexplained {:.3g} J", initial, last.kinetic + last.potential,
                              last.residual));

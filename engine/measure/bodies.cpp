@@ -16,7 +16,7 @@ void measure_body(const Model& model, const Recording& recording, int b, std::ve
   // first rebound: highest place between the first and the second touch of the ground
   const auto* shape = std::get_if<HyperEllipsoid>(&model.bodies[b].shape);
   if (!shape) return;
-  int stage = 0;   // 0 before the first touch, 1 rising, 2 past the top
+  int stage = 0;  // 0 before the first touch, 1 rising, 2 past the top
   double top = 0;
   for (std::size_t i = 1; i < recording.snapshots.size() && stage < 2; ++i) {
     const Snapshot& s = recording.snapshots[i];
@@ -36,22 +36,39 @@ void measure_body(const Model& model, const Recording& recording, int b, std::ve
   if (stage == 2) out.push_back({"rebound_height_m", name, top});
 }
 
+namespace {
+
+/// What contacts with others gave the body over the whole run, and its attitude at the last instant before the first of them.
+struct Exchange {
+  Vec3 impulse = Vec3::Zero();  // [N s] world
+  Quat q_WB = Quat::Identity();
+};
+
+Exchange exchange_of(const Recording& recording, int body) {
+  Exchange out;
+  bool begun = false;
+  for (std::size_t i = 0; i < recording.snapshots.size(); ++i)
+    for (const ContactRecord& c : recording.snapshots[i].contacts) {
+      if (c.kind != ContactKind::vehicle && c.kind != ContactKind::vehicle_pair) continue;
+      const double sign = c.body_a == body ? 1 : (c.body_b == body ? -1 : 0);
+      if (sign == 0 || c.impulse.isZero(0)) continue;
+      // the impulses of a snapshot were exchanged since the one before: that one still has the attitude of the approach
+      if (!begun) out.q_WB = recording.snapshots[i > 0 ? i - 1 : 0].bodies[body].X_WB.q;
+      begun = true;
+      out.impulse += sign * c.impulse;
+    }
+  return out;
+}
+
+}  // namespace
+
 void measure_vehicle(const Model& model, const Recording& recording, int v, std::vector<Metric>& out) {
   const Vehicle& vehicle = model.vehicles[v];
-  Vec3 impulse = Vec3::Zero();
-  for (const Snapshot& s : recording.snapshots)
-    for (const ContactRecord& c : s.contacts) {
-      if (c.kind != ContactKind::vehicle && c.kind != ContactKind::vehicle_pair) continue;
-      const double sign = c.body_a == vehicle.body ? 1 : (c.body_b == vehicle.body ? -1 : 0);
-      const double force = c.force.norm();
-      const double size = std::hypot(c.normal_impulse, c.tangential_impulse);
-      if (sign != 0 && force > 0) impulse += sign * size / force * c.force;
-    }
-  const double delta_v = impulse.norm() / model.bodies[vehicle.body].mass;
+  const Exchange exchange = exchange_of(recording, vehicle.body);
+  const double delta_v = exchange.impulse.norm() / model.bodies[vehicle.body].mass;
   if (delta_v <= 0) return;
   out.push_back({"delta_v_mps", vehicle.name, delta_v});
-  // principal direction of force in the vehicle's axes at the start, 0 deg: pushed backwards by a hit on the front
-  const Vec3 push = model.bodies[vehicle.body].X_WB.q.conjugate() * impulse;
+  const Vec3 push = exchange.q_WB.conjugate() * exchange.impulse;
   out.push_back({"pdof_deg", vehicle.name, std::atan2(push.y(), -push.x()) * 180 / std::numbers::pi});
 }
 

@@ -4,18 +4,40 @@
 #include "engine/measure/metrics.h"
 
 namespace engine {
+namespace {
+
+/// The last snapshot that cannot know of the exchange at `time`: what is recorded at the instant itself may already be its outcome.
+const Snapshot& before(const Recording& recording, double time) {
+  const auto at = std::lower_bound(recording.snapshots.begin(), recording.snapshots.end(), time,
+                                   [](const Snapshot& s, double t) { return s.time < t; });
+  return at == recording.snapshots.begin() ? *at : *(at - 1);
+}
+
+/// Velocity of the centre of the head seen from the vehicle's surface at the place of impact, world axes.
+Vec3 approach(const Snapshot& s, const Event& impact) {
+  Vec3 v = s.bodies[impact.body_a].V_WB.v;
+  if (impact.body_b < 0) return v;
+  const BodyState& struck = s.bodies[impact.body_b];
+  // the point is that of the impact: the surface carried on to it while the snapshot waited
+  const Vec3 arm = impact.point - (struck.X_WB.p + (impact.time - s.time) * struck.V_WB.v);
+  return v - (struck.V_WB.v + struck.V_WB.w.cross(arm));
+}
+
+}  // namespace
 
 void measure_head(const Model& model, const Recording& recording, int p, std::vector<Metric>& out) {
   const Person& person = model.persons[p];
   for (const Event& e : recording.events) {
     if (e.kind != "head_impact" || e.body_a != person.head) continue;
     out.push_back({"head_impact_s", person.name, e.time});
-    // the snapshot before: the exchange itself takes no time
-    const Snapshot before = recording.at(std::max(0.0, e.time - recording.interval));
-    const BodyState& head = before.bodies[e.body_a];
-    Vec3 v = head.V_WB.v + head.V_WB.w.cross(e.point - head.X_WB.p);
-    if (e.body_b >= 0) v -= before.bodies[e.body_b].V_WB.v + before.bodies[e.body_b].V_WB.w.cross(e.point - before.bodies[e.body_b].X_WB.p);
+    const Vec3 v = approach(before(recording, e.time), e);
     out.push_back({"head_impact_speed_mps", person.name, v.norm()});
+    if (e.body_b < 0) return;
+    const Pose X_WB = recording.at(e.time).bodies[e.body_b].X_WB;
+    // a tape from the front has a meaning only for a vehicle whose front runs against the person
+    const bool forwards = (X_WB.q.conjugate() * v).x() < 0;
+    const auto tape = wrap_around_distance(model, e.body_b, X_WB.inverse() * e.point);
+    if (forwards && tape) out.push_back({"wrap_around_distance_m", person.name, *tape});
     return;
   }
 }
@@ -35,7 +57,7 @@ double hic(const std::vector<double>& t, const std::vector<double>& a, double wi
 }
 
 double three_ms_clip(const std::vector<double>& t, const std::vector<double>& a) {
-  constexpr double kHeld = 3e-3;   // [s]
+  constexpr double kHeld = 3e-3;  // [s]
   // longest stretch above a level, by bisection on the level
   auto longest_above = [&](double level) {
     double longest = 0, begin = 0;
@@ -63,6 +85,19 @@ double three_ms_clip(const std::vector<double>& t, const std::vector<double>& a)
 std::string why_no_head_injury(const Model& model) {
   if (model.settings.contact_law == ContactLaw::compliant) return "";
   return "Default-Auto exchanges impulses in an instant: an acceleration whose integral HIC takes does not exist";
+}
+
+std::vector<AbsentMetric> absent_metrics(const Model& model, const Recording& recording) {
+  std::vector<AbsentMetric> out;
+  const std::string reason = why_no_head_injury(model);
+  if (reason.empty()) return out;
+  for (const Person& person : model.persons) {
+    const bool struck = std::any_of(recording.events.begin(), recording.events.end(),
+                                    [&](const Event& e) { return e.kind == "head_impact" && e.body_a == person.head; });
+    if (!struck) continue;
+    for (const char* key : {"hic15", "hic36", "three_ms_g"}) out.push_back({key, person.name, reason});
+  }
+  return out;
 }
 
 }  // namespace engine

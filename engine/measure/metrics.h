@@ -1,6 +1,7 @@
 // What a reconstructionist reads off a Recording. Keys are those of summary.json; a measure that the run does not define is absent.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,25 +11,45 @@
 namespace engine {
 
 struct Metric {
-  std::string key;      // "throw_distance_m": the unit stands in the key
-  std::string object;   // person, body or vehicle it belongs to
-  double value = 0;     // SI
+  std::string key;     // "throw_distance_m": the unit stands in the key
+  std::string object;  // person, body or vehicle it belongs to
+  double value = 0;    // SI
+};
+
+/// A measure people ask for and this run cannot define, with the reason in a sentence.
+struct AbsentMetric {
+  std::string key;
+  std::string object;
+  std::string reason;
 };
 
 /// Everything below, for every object of the model.
 std::vector<Metric> measure(const Model&, const Recording&);
 
-/// Of a person. Throw: centre of mass from the first vehicle contact to rest (or the end of the run), horizontally; along and across
-/// the vehicle's heading at that moment. Airborne: from leaving the vehicle to the first ground contact. Slide: from there to rest.
+/// Of a person. Throw: centre of mass from the first vehicle contact to rest (or the end of the run), horizontally; along and
+/// across the vehicle's heading at that moment. Airborne: from leaving the vehicle to the first ground contact. Slide: from there
+/// to rest.
 void measure_throw(const Model&, const Recording&, int person, std::vector<Metric>&);
 
-/// Of a person's head: time and speed of its impact on a vehicle (relative speed of centre of head and vehicle's surface there).
+/// Of a person's head at its first impact on a vehicle: time; speed of the head's centre relative to the vehicle's surface at the
+/// place of impact, taken at the last snapshot before it; wrap-around distance, if the vehicle came with its front.
 void measure_head(const Model&, const Recording&, int person, std::vector<Metric>&);
+
+/// Length [m] of a taut tape in the vertical longitudinal plane through the head's impact `point_B` (body axes of the vehicle):
+/// from the ground straight up in front of the foremost part, over the front and bonnet, to the point. The contour is the
+/// silhouette of the collision mesh within 0.15 m to either side; a taut tape bridges hollows, so it is that silhouette's convex
+/// outline. The ground is where the wheels stand at static load, as on a vehicle measured at rest. Absent if the body is no vehicle
+/// or has no mesh there.
+std::optional<double> wrap_around_distance(const Model&, int body, const Vec3& point_B);
 
 /// Of free bodies: distance travelled from start to end, height of the first rebound.
 void measure_body(const Model&, const Recording&, int body, std::vector<Metric>&);
 
-/// Of a vehicle: change of velocity by contacts over the whole run.
+/// Of a vehicle: delta_v_mps, the sum of all contact impulses but those of tyres and ground over the whole run, by its mass
+/// (couplings carry part of it on, so that of a vehicle with a trailer is an upper bound); pdof_deg, the direction the force came
+/// from in the vehicle's axes at first contact: 0 from the front, positive from the right, 90 square on the right side, 180 from
+/// behind. Neither without contact. ees_mps follows from the deformation energy of a Kudlich-Slibar impact and is absent where none
+/// was computed.
 void measure_vehicle(const Model&, const Recording&, int vehicle, std::vector<Metric>&);
 
 /// Head injury criterion: max over windows of at most `window` [s] of (t2 - t1) (mean of a)^2.5, a in g at equally or unequally
@@ -41,5 +62,8 @@ double three_ms_clip(const std::vector<double>& times, const std::vector<double>
 /// Why head injury measures are absent, empty if they are there: rigid impacts exchange impulses in no time, an acceleration that
 /// could be integrated does not exist.
 std::string why_no_head_injury(const Model&);
+
+/// Head injury measures of every person whose head was struck, where the contact law cannot give them.
+std::vector<AbsentMetric> absent_metrics(const Model&, const Recording&);
 
 }  // namespace engine

@@ -45,8 +45,9 @@ void measure_throw(const Model& model, const Recording& recording, int p, std::v
   const auto ground = first_event(model, recording, p, "ground_contact");
   if (ground) add("first_ground_contact_s", ground->time);
   const auto hit = first_event(model, recording, p, "first_contact");
-  if (!hit) {   // nobody struck: how far it slid
-    const Vec3 travelled = centre_of_mass(model, person, recording.snapshots.back()) - centre_of_mass(model, person, recording.snapshots.front());
+  if (!hit) {  // nobody struck: how far it slid
+    const Vec3 travelled =
+        centre_of_mass(model, person, recording.snapshots.back()) - centre_of_mass(model, person, recording.snapshots.front());
     add("travel_m", travelled.head<2>().norm());
     return;
   }
