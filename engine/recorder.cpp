@@ -133,6 +133,9 @@ void Recorder::snapshot(const World& world, const State& state, Recording& recor
   s.energies.added = world.added;
   s.energies.residual = s.energies.kinetic + s.energies.potential - initial_energy_ - world.added;
   for (const double d : world.dissipated) s.energies.residual += d;
+  const double mechanical = s.energies.kinetic + s.energies.potential - s.energies.added;
+  energy_rise_ = std::max(energy_rise_, mechanical - last_energy_);
+  last_energy_ = mechanical;
   recording.snapshots.push_back(std::move(s));
   watch_rest(world, state);
 }
@@ -149,6 +152,7 @@ void Recorder::finish(const World& world, const State& state, Recording& recordi
   recording.events.insert(recording.events.end(), events_.begin(), events_.end());
   std::stable_sort(recording.events.begin(), recording.events.end(), [](const Event& a, const Event& b) { return a.time < b.time; });
   recording.diagnostics = world.diagnostics;
+  recording.diagnostics.max_energy_rise = energy_rise_;
   for (const ContactRecord& c : recording.snapshots.back().contacts)
     recording.diagnostics.rest_penetration = std::max(recording.diagnostics.rest_penetration, c.depth);
 }

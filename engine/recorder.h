@@ -42,6 +42,7 @@ class Recorder {
   std::vector<double> last_ground_;        // [s] per person: last time on the ground
   double initial_energy_ = 0;
   double last_energy_ = 0;
+  double energy_rise_ = 0;                 // [J] largest between two snapshots
 };
 
 }  // namespace engine

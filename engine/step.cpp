@@ -131,7 +131,6 @@ bool Stepper::impact(World& world, State& state) {
     if (!has_impact) continue;
     double energy_change = 0;
     exchange_impulses(world, state, members, energy_change);
-    world.diagnostics.max_energy_rise = std::max(world.diagnostics.max_energy_rise, energy_change);
     for (const int i : members) {
       const Constraint& c = world.constraints[i];
       world.dissipated[c.effect] -= c.impulse.dot(0.5 * (c.u_before + c.u_after));
