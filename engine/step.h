@@ -22,6 +22,7 @@ class Stepper {
  private:
   void choose_trees(World&, const State&);
   void find_contacts(World&, State&, double h);
+  double step_for_turning(const World&, const State&, double h) const;
   double time_to_impact(World&, double h) const;
   void exchange_impulses(World&, State&, const std::vector<int>& members, double& energy_change);
   bool impact(World&, State&);
@@ -29,7 +30,8 @@ class Stepper {
   void factor_for_impulses(World&, const State&, const std::vector<JointDamper>* dampers);
   void set_targets(World&, double h);
   void form_islands(World&);
-  void solve_islands(World&, State&);
+  double solve_islands(World&, State&);   // largest residual [m/s]
+  void keep_impulses(const World&, State&) const;
   void apply(World&, double h);
   void book(World&);
   void apply_resistance(World&, double h);
