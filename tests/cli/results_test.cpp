@@ -285,3 +285,24 @@ TEST(Help, GoesToStandardOutputAndIsNoError) {
   EXPECT_EQ(one.code, 0);
   EXPECT_THAT(one.out, HasSubstr("--camera"));
 }
+
+TEST(Simulate, HeadImpactWithoutCriterionGivesTheReason) {
+  const Folder folder;
+  const std::string scene = std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/sedan_pedestrian_40kmh.toml";
+  const Result result = run(folder, {"simulate", scene, "-q", "-o", "out", "--set", "simulation.duration=0.8 s"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json summary = Json::parse(contents(folder / "out/summary.json"));
+  ASSERT_TRUE(summary.at("metrics").contains("head_impact_s")) << "40 km/h carry the head onto the car";
+  std::vector<std::string> absent;
+  for (const Json& line : summary.at("absent")) {
+    absent.push_back(line.at("metric").get<std::string>());
+    EXPECT_FALSE(line.at("reason").get<std::string>().empty());
+    EXPECT_FALSE(summary.at("metrics").contains(absent.back())) << "either a figure or a reason";
+  }
+  EXPECT_THAT(absent, ElementsAre("hic15", "hic36", "three_ms_g"));
+  EXPECT_THAT(result.out, HasSubstr("absent: "));
+
+  folder.write("ball.toml", kBall);
+  ASSERT_EQ(run(folder, {"simulate", "ball.toml", "-o", "ball"}).code, 0);
+  EXPECT_FALSE(Json::parse(contents(folder / "ball/summary.json")).contains("absent")) << "nobody's head was struck";
+}
