@@ -179,7 +179,6 @@ void make_film(const Stage& stage, const engine::Recording& recording, const std
   const int slots = 2 * workers;
   const std::size_t frame_bytes = job.container == Container::mp4 ? static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height) * 3 / 2 : 0;
   std::optional<VideoEncoder> encoder;
-  if (job.container == Container::mp4) encoder.emplace(job.output, job.width, job.height, job.fps, job.metadata);
 
   const std::size_t head = (sizeof(Slot) * static_cast<std::size_t>(slots) + 4095) / 4096 * 4096;
   const SharedMemory shared(head + frame_bytes * static_cast<std::size_t>(slots));
@@ -187,6 +186,8 @@ void make_film(const Stage& stage, const engine::Recording& recording, const std
   for (int s = 0; s < slots; ++s) new (ring + s) Slot;
   const Job j{stage, recording, moments, job, workers, slots, frame_bytes, ring, shared.data() + head};
   Workers team(j);
+  // after the fork: the encoder brings threads of its own, and a child of a process with threads may inherit a lock they hold
+  if (job.container == Container::mp4) encoder.emplace(job.output, job.width, job.height, job.fps, job.metadata);
   for (int i = 0; i < frames; ++i) {
     team.await(i);
     if (encoder) encoder->append(j.pictures + frame_bytes * static_cast<std::size_t>(i % slots));
