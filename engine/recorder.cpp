@@ -6,10 +6,10 @@
 namespace engine {
 namespace {
 
-constexpr double kStillSpeed = 0.05;    // [m/s]
-constexpr double kStillTurn = 0.3;      // [rad/s]
-constexpr double kStillTime = 0.25;     // [s] that long below both: at rest
-constexpr double kAirborne = 0.05;      // [s] off the ground that long: the next touch is a ground contact, even by a foot
+constexpr double kStillSpeed = 0.05;  // [m/s]
+constexpr double kStillTurn = 0.3;    // [rad/s]
+constexpr double kStillTime = 0.25;   // [s] that long below both: at rest
+constexpr double kAirborne = 0.05;    // [s] off the ground that long: the next touch is a ground contact, even by a foot
 
 ContactState state_of(const Constraint& c, double gap_speed) {
   if (c.impulse[0] <= 0) return gap_speed < 0 ? ContactState::approach : ContactState::separate;
@@ -92,8 +92,10 @@ void Recorder::watch_rest(const World& world, const State& state) {
       const Twist& V = state.V_WB[world.topology.links[l].body];
       still = still && V.v.norm() < kStillSpeed && V.w.norm() < kStillTurn;
     }
-    if (!still) still_since_[t] = -1;
-    else if (still_since_[t] < 0) still_since_[t] = state.time;
+    if (!still)
+      still_since_[t] = -1;
+    else if (still_since_[t] < 0)
+      still_since_[t] = state.time;
   }
 }
 
@@ -150,7 +152,8 @@ void Recorder::finish(const World& world, const State& state, Recording& recordi
   }
   recording.events = world.events;
   recording.events.insert(recording.events.end(), events_.begin(), events_.end());
-  std::stable_sort(recording.events.begin(), recording.events.end(), [](const Event& a, const Event& b) { return a.time < b.time; });
+  std::stable_sort(recording.events.begin(), recording.events.end(),
+                   [](const Event& a, const Event& b) { return a.time < b.time; });
   recording.diagnostics = world.diagnostics;
   recording.diagnostics.max_energy_rise = energy_rise_;
   for (const ContactRecord& c : recording.snapshots.back().contacts)

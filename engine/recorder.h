@@ -34,15 +34,15 @@ class Recorder {
   void watch_rest(const World&, const State&);
   void watch_events(const World&, const Constraint&, double time);
 
-  std::vector<Tally> tallies_;             // sorted by key
-  std::vector<double> still_since_;        // [s] per tree, negative: moving
+  std::vector<Tally> tallies_;       // sorted by key
+  std::vector<double> still_since_;  // [s] per tree, negative: moving
   std::vector<Event> events_;
-  std::vector<char> hit_vehicle_, hit_head_, hit_ground_;   // per person
-  std::vector<char> support_;              // per body: carried its person when that was released
-  std::vector<double> last_ground_;        // [s] per person: last time on the ground
+  std::vector<char> hit_vehicle_, hit_head_, hit_ground_;  // per person
+  std::vector<char> support_;                              // per body: carried its person when that was released
+  std::vector<double> last_ground_;                        // [s] per person: last time on the ground
   double initial_energy_ = 0;
   double last_energy_ = 0;
-  double energy_rise_ = 0;                 // [J] largest between two snapshots
+  double energy_rise_ = 0;  // [J] largest between two snapshots
 };
 
 }  // namespace engine

@@ -28,23 +28,34 @@ Vec3 hermite(const Vec3& p0, const Vec3& v0, const Vec3& p1, const Vec3& v1, dou
 
 const char* name_of(ContactKind kind) {
   switch (kind) {
-    case ContactKind::ground: return "ground";
-    case ContactKind::vehicle: return "vehicle";
-    case ContactKind::self: return "self";
-    case ContactKind::person: return "person";
-    case ContactKind::terrain: return "terrain";
-    case ContactKind::vehicle_pair: return "vehicle_pair";
+    case ContactKind::ground:
+      return "ground";
+    case ContactKind::vehicle:
+      return "vehicle";
+    case ContactKind::self:
+      return "self";
+    case ContactKind::person:
+      return "person";
+    case ContactKind::terrain:
+      return "terrain";
+    case ContactKind::vehicle_pair:
+      return "vehicle_pair";
   }
   return "";
 }
 
 const char* name_of(ContactState state) {
   switch (state) {
-    case ContactState::approach: return "approach";
-    case ContactState::separate: return "separate";
-    case ContactState::slide: return "slide";
-    case ContactState::stick: return "stick";
-    case ContactState::impact: return "impact";
+    case ContactState::approach:
+      return "approach";
+    case ContactState::separate:
+      return "separate";
+    case ContactState::slide:
+      return "slide";
+    case ContactState::stick:
+      return "stick";
+    case ContactState::impact:
+      return "impact";
   }
   return "";
 }
@@ -52,7 +63,8 @@ const char* name_of(ContactState state) {
 Snapshot Recording::at(double time) const {
   if (time <= snapshots.front().time) return snapshots.front();
   if (time >= snapshots.back().time) return snapshots.back();
-  const auto later = std::lower_bound(snapshots.begin(), snapshots.end(), time, [](const Snapshot& s, double t) { return s.time < t; });
+  const auto later =
+      std::lower_bound(snapshots.begin(), snapshots.end(), time, [](const Snapshot& s, double t) { return s.time < t; });
   if (later->time == time) return *later;
   const Snapshot& a = *(later - 1);
   Snapshot out = *later;

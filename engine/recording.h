@@ -2,9 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
-#include <cstdint>
 #include <vector>
 
 #include "engine/math/types.h"
@@ -14,7 +14,7 @@ namespace engine {
 enum class ContactKind { ground, vehicle, self, person, terrain, vehicle_pair };
 enum class ContactState { approach, separate, slide, stick, impact };
 
-const char* name_of(ContactKind);    // as in contacts.csv
+const char* name_of(ContactKind);  // as in contacts.csv
 const char* name_of(ContactState);
 
 struct BodyState {
@@ -22,62 +22,64 @@ struct BodyState {
   Twist V_WB;
 };
 
-/// A contact at one recorded instant. Impulses are summed since the snapshot before, forces are their mean over that time's last step.
+/// A contact at one recorded instant. Impulses are summed since the snapshot before, forces are their mean over that time's last
+/// step.
 struct ContactRecord {
   ContactKind kind = ContactKind::ground;
   int body_a = -1;
-  int body_b = -1;                     // -1: the ground
-  Vec3 point = Vec3::Zero();           // [m] world
-  Vec3 normal = Vec3::UnitZ();         // unit, from b to a
-  double depth = 0;                    // [m] penetration, negative: gap
-  Vec3 force = Vec3::Zero();           // [N] on a, world
-  double normal_force = 0;             // [N]
-  double tangential_force = 0;         // [N]
-  double normal_impulse = 0;           // [N s] since the snapshot before
-  double tangential_impulse = 0;       // [N s] sum of magnitudes
-  Vec3 impulse = Vec3::Zero();         // [N s] on a, world, since the snapshot before: the sum of vectors, which may turn meanwhile
-  double slip = 0;                     // [m/s]
+  int body_b = -1;                // -1: the ground
+  Vec3 point = Vec3::Zero();      // [m] world
+  Vec3 normal = Vec3::UnitZ();    // unit, from b to a
+  double depth = 0;               // [m] penetration, negative: gap
+  Vec3 force = Vec3::Zero();      // [N] on a, world
+  double normal_force = 0;        // [N]
+  double tangential_force = 0;    // [N]
+  double normal_impulse = 0;      // [N s] since the snapshot before
+  double tangential_impulse = 0;  // [N s] sum of magnitudes
+  Vec3 impulse = Vec3::Zero();    // [N s] on a, world, since the snapshot before: the sum of vectors, which may turn meanwhile
+  double slip = 0;                // [m/s]
   ContactState state = ContactState::approach;
 };
 
 struct WheelRecord {
   int vehicle = 0;
   int wheel = 0;
-  Vec3 hub = Vec3::Zero();             // [m] world, where the wheel's centre is now (suspension moved)
-  Vec3 contact = Vec3::Zero();         // [m] world
-  double steer = 0;                    // [rad]
-  double spin = 0;                     // [rad] turned since t = 0, for the picture
-  double load = 0;                     // [N]
-  double longitudinal = 0;             // [N]
-  double lateral = 0;                  // [N]
-  double slip = 0;                     // [m/s] of the tyre over the road; > 0 draws a skid mark
+  Vec3 hub = Vec3::Zero();      // [m] world, where the wheel's centre is now (suspension moved)
+  Vec3 contact = Vec3::Zero();  // [m] world
+  double steer = 0;             // [rad]
+  double spin = 0;              // [rad] turned since t = 0, for the picture
+  double load = 0;              // [N]
+  double longitudinal = 0;      // [N]
+  double lateral = 0;           // [N]
+  double slip = 0;              // [m/s] of the tyre over the road; > 0 draws a skid mark
 };
 
 /// Energies [J]; `dissipated` by effect, in the order of Recording::effect_names.
 struct Energies {
   double kinetic = 0;
-  double potential = 0;                // gravity and springs
+  double potential = 0;  // gravity and springs
   std::vector<double> dissipated;
-  double added = 0;                    // by drive and other sources
-  double residual = 0;                 // what the ledger cannot explain: (kinetic + potential) - initial + sum(dissipated) - added
+  double added = 0;     // by drive and other sources
+  double residual = 0;  // what the ledger cannot explain: (kinetic + potential) - initial + sum(dissipated) - added
 };
 
 struct Snapshot {
-  double time = 0;                     // [s]
+  double time = 0;  // [s]
   std::vector<BodyState> bodies;
   std::vector<ContactRecord> contacts;
   std::vector<WheelRecord> wheels;
   Energies energies;
 };
 
-/// Something that happened at one instant: "first_contact", "head_impact", "ground_contact", "release", "rest", "impact", "warning" ...
+/// Something that happened at one instant: "first_contact", "head_impact", "ground_contact", "release", "rest", "impact", "warning"
+/// ...
 struct Event {
   double time = 0;
   std::string kind;
   int body_a = -1;
-  int body_b = -1;                     // -1: the ground or nothing
+  int body_b = -1;  // -1: the ground or nothing
   Vec3 point = Vec3::Zero();
-  double value = 0;                    // what the kind says: closing speed [m/s] of contacts
+  double value = 0;  // what the kind says: closing speed [m/s] of contacts
 };
 
 struct PlanLine {
@@ -94,15 +96,15 @@ struct EffectCost {
 };
 
 struct Diagnostics {
-  double max_joint_gap = 0;            // [m]
-  double max_joint_angle_error = 0;    // [rad] beyond constraint or limit
-  double max_penetration = 0;          // [m]
-  double rest_penetration = 0;         // [m] at the last snapshot
-  double max_solver_residual = 0;      // [m/s]
-  double max_energy_rise = 0;          // [J] largest rise of the mechanical energy between two snapshots that no source explains
+  double max_joint_gap = 0;          // [m]
+  double max_joint_angle_error = 0;  // [rad] beyond constraint or limit
+  double max_penetration = 0;        // [m]
+  double rest_penetration = 0;       // [m] at the last snapshot
+  double max_solver_residual = 0;    // [m/s]
+  double max_energy_rise = 0;        // [J] largest rise of the mechanical energy between two snapshots that no source explains
   long contact_sweeps = 0;
-  long restitution_scaled = 0;         // impacts whose restitution was lowered because Newton's rule would have created energy
-  long substeps = 0;                   // steps divided to place an impact or to hold a bound
+  long restitution_scaled = 0;  // impacts whose restitution was lowered because Newton's rule would have created energy
+  long substeps = 0;            // steps divided to place an impact or to hold a bound
   std::vector<std::string> warnings;
 };
 
@@ -117,15 +119,15 @@ struct Failure {
 struct Recording {
   std::vector<std::string> body_names;
   std::vector<std::string> vehicle_names;
-  std::vector<std::string> effect_names;    // of the plan, order of Energies::dissipated
-  double interval = 0;                      // [s] between snapshots
-  std::vector<Snapshot> snapshots;          // never empty after simulate()
+  std::vector<std::string> effect_names;  // of the plan, order of Energies::dissipated
+  double interval = 0;                    // [s] between snapshots
+  std::vector<Snapshot> snapshots;        // never empty after simulate()
   std::vector<Event> events;
   std::vector<PlanLine> plan;
   std::vector<EffectCost> costs;
   Diagnostics diagnostics;
   long steps = 0;
-  double wall_s = 0;                        // filled by the caller: the engine has no clock
+  double wall_s = 0;  // filled by the caller: the engine has no clock
   std::optional<Failure> failure;
 
   /// State at any time: poses between snapshots by cubic Hermite (positions) and slerp (attitudes), contacts and wheel forces of

@@ -10,8 +10,8 @@
 namespace engine {
 namespace {
 
-constexpr double kFastest = 2e3;   // [m/s], [rad/s] * 10: nothing in a traffic accident moves like this; the run has diverged
-constexpr int kAskEvery = 100;     // steps between two calls of the caller's progress
+constexpr double kFastest = 2e3;  // [m/s], [rad/s] * 10: nothing in a traffic accident moves like this; the run has diverged
+constexpr int kAskEvery = 100;    // steps between two calls of the caller's progress
 
 State initial_state(const Model& model) {
   State state;
@@ -64,7 +64,7 @@ Recording simulate(const Model& model, const Plan& plan, const RunOptions& optio
   for (const Effect* effect : plan.active) world.costs.push_back({effect->name, 0, 0});
   for (std::size_t e = 0; e < plan.active.size(); ++e)
     if (plan.active[e]->begin) plan.active[e]->begin(world, state, static_cast<int>(e));
-  for (std::size_t e = 0; e < plan.active.size(); ++e)   // once, so that suspensions know their compression at t = 0
+  for (std::size_t e = 0; e < plan.active.size(); ++e)  // once, so that suspensions know their compression at t = 0
     if (plan.active[e]->find) plan.active[e]->find(world, state, static_cast<int>(e));
   world.constraints.clear();
   std::fill(world.dissipated.begin(), world.dissipated.end(), 0.0);
@@ -98,6 +98,8 @@ Recording simulate(const Model& model, const Plan& plan, const RunOptions& optio
   return recording;
 }
 
-Recording simulate(const Model& model, const RunOptions& options) { return simulate(model, compile(model), options); }
+Recording simulate(const Model& model, const RunOptions& options) {
+  return simulate(model, compile(model), options);
+}
 
 }  // namespace engine

@@ -16,19 +16,21 @@
 namespace engine {
 namespace {
 
-constexpr double kTouching = 2e-5;        // [m] surfaces nearer than this exchange impulses
-constexpr double kSlop = 2e-5;            // [m] penetration that is let be: pushing it out would make resting bodies hum
-constexpr double kRecovery = 0.2;         // [-] share of the penetration beyond it taken out in one step
-constexpr double kRecoverySpeed = 0.2;    // [m/s] at most
-constexpr double kLimitRecoverySpeed = 2; // [rad/s] at most
-constexpr double kLimitSlop = 2e-5;       // [rad]
-constexpr int kMaxCuts = 8;               // of one step; then impulses act where the bodies are
+constexpr double kTouching = 2e-5;         // [m] surfaces nearer than this exchange impulses
+constexpr double kSlop = 2e-5;             // [m] penetration that is let be: pushing it out would make resting bodies hum
+constexpr double kRecovery = 0.2;          // [-] share of the penetration beyond it taken out in one step
+constexpr double kRecoverySpeed = 0.2;     // [m/s] at most
+constexpr double kLimitRecoverySpeed = 2;  // [rad/s] at most
+constexpr double kLimitSlop = 2e-5;        // [rad]
+constexpr int kMaxCuts = 8;                // of one step; then impulses act where the bodies are
 constexpr int kMaxSweeps = 200;
-constexpr double kUnsolved = 0.01;        // [m/s] residual above which the step is halved and taken again
-constexpr double kLargestTurn = 0.1;      // [rad] of any body in one step
+constexpr double kUnsolved = 0.01;    // [m/s] residual above which the step is halved and taken again
+constexpr double kLargestTurn = 0.1;  // [rad] of any body in one step
 constexpr double kMostParts = 20;
 
-bool is_contact(const Constraint& c) { return c.kind == ConstraintKind::contact; }
+bool is_contact(const Constraint& c) {
+  return c.kind == ConstraintKind::contact;
+}
 
 /// Closing speed above which restitution acts and a touch counts as an impact; below, things come to rest.
 double impact_speed(const World& world) {
@@ -211,14 +213,14 @@ void Stepper::set_targets(World& world, double h) {
     bool impact = false;
     for (const int i : islands_[k]) {
       const Constraint& c = world.constraints[i];
-      const double threshold = c.kind == ConstraintKind::limit ? 0.5 : v_impact;   // [rad/s], [m/s]
+      const double threshold = c.kind == ConstraintKind::limit ? 0.5 : v_impact;  // [rad/s], [m/s]
       const bool hard = c.kind == ConstraintKind::contact || c.kind == ConstraintKind::limit;
       impact = impact || (hard && c.u_before[0] < -threshold && c.gap + h * std::min(c.u_before[0], c.u_free[0]) < 0);
     }
     island_has_impact_[k] = impact;
     for (const int i : islands_[k]) {
       Constraint& c = world.constraints[i];
-      if (c.kind == ConstraintKind::wheel || c.kind == ConstraintKind::bilateral) continue;   // their effect set it
+      if (c.kind == ConstraintKind::wheel || c.kind == ConstraintKind::bilateral) continue;  // their effect set it
       weight_[i] = impact ? 1.0 : 0.5;
       const double slop = c.kind == ConstraintKind::limit ? kLimitSlop : kSlop;
       const double fastest = c.kind == ConstraintKind::limit ? kLimitRecoverySpeed : kRecoverySpeed;
@@ -328,7 +330,7 @@ void Stepper::drop_open_rows(World& world, double h) {
     if (c.kind == ConstraintKind::wheel || c.kind == ConstraintKind::bilateral) return false;
     // an impact that the cut step ends at: a row would brake the approach
     if (locating_ && is_contact(c) && c.restitution > 0 && c.gap > 0 && c.u_before[0] < -v_impact) return true;
-    const double spare = c.kind == ConstraintKind::limit ? 0.02 + 5 * h : 1e-3 + h;   // [rad], [m]: what other impulses may add
+    const double spare = c.kind == ConstraintKind::limit ? 0.02 + 5 * h : 1e-3 + h;  // [rad], [m]: what other impulses may add
     return c.gap + h * std::min(c.u_before[0], c.u_smooth[0]) > spare;
   });
 }

@@ -30,7 +30,7 @@ class Stepper {
   void factor_for_impulses(World&, const State&, const std::vector<JointDamper>* dampers);
   void set_targets(World&, double h);
   void form_islands(World&);
-  double solve_islands(World&, State&);   // largest residual [m/s]
+  double solve_islands(World&, State&);  // largest residual [m/s]
   void keep_impulses(const World&, State&) const;
   void apply(World&, double h);
   void book(World&);
@@ -38,18 +38,17 @@ class Stepper {
   void book_resistance(World&, double h);
   void drop_open_rows(World&, double h);
 
-
   SmoothMotion smooth_;
-  std::vector<Pose> X_;              // at the end of the step
+  std::vector<Pose> X_;  // at the end of the step
   std::vector<Twist> V_;
   std::vector<Vec6> force_, result_;
   std::vector<std::vector<int>> islands_;
   std::vector<char> island_has_impact_;
   std::vector<int> island_of_tree_;
-  std::vector<double> weight_;       // per constraint: share of the step its displacement acts
-  int cuts_ = 0;                     // of the step under way
-  bool locating_ = false;            // impacts are still placed inside this step
-  std::vector<Vec6> damping_;        // dV by joint resistance, per body
+  std::vector<double> weight_;  // per constraint: share of the step its displacement acts
+  int cuts_ = 0;                // of the step under way
+  bool locating_ = false;       // impacts are still placed inside this step
+  std::vector<Vec6> damping_;   // dV by joint resistance, per body
 };
 
 }  // namespace engine

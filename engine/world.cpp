@@ -28,7 +28,7 @@ World::World(const Model& m, const Plan& p, const RunOptions& o)
 }
 
 namespace {
-constexpr double kSpare = 2e-3;   // [m] so that a contact is known before it is needed
+constexpr double kSpare = 2e-3;  // [m] so that a contact is known before it is needed
 }
 
 double contact_margin(const World& world, const State& state, int body) {
@@ -41,7 +41,8 @@ double pair_margin(const World& world, const State& state, int a, int b) {
   const double g = world.model.settings.gravity.norm();
   const double apart = (state.X_WB[a].p - state.X_WB[b].p).norm();
   // a point of one body within reach of the other moves with either rotation
-  const double turning = (state.V_WB[a].w.norm() * world.reach[a]) + state.V_WB[b].w.norm() * std::min(world.reach[b], apart + world.reach[a]);
+  const double turning =
+      (state.V_WB[a].w.norm() * world.reach[a]) + state.V_WB[b].w.norm() * std::min(world.reach[b], apart + world.reach[a]);
   return kSpare + world.step * ((state.V_WB[a].v - state.V_WB[b].v).norm() + turning + g * world.step);
 }
 

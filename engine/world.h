@@ -21,7 +21,7 @@ namespace engine {
 struct MeshPair {
   int effect = 0;
   int body = 0;
-  int mesh_body = -1;            // -1: terrain
+  int mesh_body = -1;  // -1: terrain
   const TriangleMesh* mesh = nullptr;
   MeshContactScratch scratch;
 };
@@ -36,15 +36,15 @@ struct BodyPair {
 /// What the wheel effect keeps between steps.
 struct WheelState {
   int vehicle = 0, wheel = 0;
-  double static_load = 0;        // [N]
-  double compression = 0;        // [m] from static ride, positive: compressed
-  double brake = 0;              // [N] asked for now
-  Vec3 contact = Vec3::Zero();   // [m] world
-  Vec3 hub = Vec3::Zero();       // [m] world
-  Vec3 impulse = Vec3::Zero();   // [N s] last step: load, longitudinal, lateral
-  double slip = 0;               // [m/s]
-  double drive = 0;              // [N] of the engine at this wheel now
-  double steer = 0;              // [rad]
+  double static_load = 0;       // [N]
+  double compression = 0;       // [m] from static ride, positive: compressed
+  double brake = 0;             // [N] asked for now
+  Vec3 contact = Vec3::Zero();  // [m] world
+  Vec3 hub = Vec3::Zero();      // [m] world
+  Vec3 impulse = Vec3::Zero();  // [N s] last step: load, longitudinal, lateral
+  double slip = 0;              // [m/s]
+  double drive = 0;             // [N] of the engine at this wheel now
+  double steer = 0;             // [rad]
   bool locked = false;
 };
 
@@ -62,30 +62,30 @@ struct World {
   const Plan& plan;
   const RunOptions& options;
   Topology topology;
-  Articulation smooth;           // of the stage at hand, undamped
-  Articulation impulse;          // at the start of the step, with joint resistance
+  Articulation smooth;   // of the stage at hand, undamped
+  Articulation impulse;  // at the start of the step, with joint resistance
   Response response;
   ContactSolver solver;
 
-  std::vector<double> reach;     // [m] per body: radius of its shape about the centre, 0 without
-  std::vector<char> awake;       // per body: takes part in this step
+  std::vector<double> reach;  // [m] per body: radius of its shape about the centre, 0 without
+  std::vector<char> awake;    // per body: takes part in this step
   std::vector<int> active_trees;
   std::vector<MeshPair> mesh_pairs;
   std::vector<BodyPair> body_pairs;
   std::vector<WheelState> wheels;
 
   // this step
-  double step = 0;               // [s] its length
+  double step = 0;  // [s] its length
   std::vector<Constraint> constraints;
-  std::vector<JointDamper> dampers;      // per joint
-  std::vector<Resistance> resistances;   // per joint
+  std::vector<JointDamper> dampers;     // per joint
+  std::vector<Resistance> resistances;  // per joint
   bool any_damper = false;
 
   // for the books, per effect of the plan
-  std::vector<double> dissipated;        // [J]
+  std::vector<double> dissipated;  // [J]
   std::vector<EffectCost> costs;
-  double added = 0;                      // [J]
-  double spring_energy = 0;              // [J] in the suspensions now
+  double added = 0;          // [J]
+  double spring_energy = 0;  // [J] in the suspensions now
   Diagnostics diagnostics;
   std::vector<Event> events;
   std::optional<Failure> failure;

@@ -12,7 +12,7 @@
 namespace render {
 namespace {
 
-constexpr double kLastPicture = 0.7;   // [s] of film
+constexpr double kLastPicture = 0.7;  // [s] of film
 
 const Camera& camera_named(const Stage& stage, const std::string& name) {
   if (name.empty()) return stage.cameras.front();
@@ -57,7 +57,7 @@ std::vector<Moment> film(const Stage& stage, const engine::Recording& recording,
   std::vector<Shot> shots = stage.shots;
   if (shots.empty()) shots.push_back({stage.cameras.front().name, 0, recording.end_time(), 1, 0});
   std::vector<Moment> moments;
-  double left_over = 0;   // [s] of film between the last frame and the end of its shot: cuts do not move the clock
+  double left_over = 0;  // [s] of film between the last frame and the end of its shot: cuts do not move the clock
   for (Shot& shot : shots) {
     // a run that came to rest early is not drawn out: the last picture stands for a moment, then the shot is over
     shot.to = std::min(shot.to, std::max(shot.from, recording.end_time() + kLastPicture * shot.speed));

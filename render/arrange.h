@@ -11,9 +11,9 @@ namespace render {
 
 /// What the film shows in one frame: simulated time, the camera, and the slow-motion factor of the shot.
 struct Moment {
-  double time = 0;             // [s]
-  std::string camera;          // name in Stage::cameras
-  double speed = 1;            // [-] burnt into the caption when not 1
+  double time = 0;     // [s]
+  std::string camera;  // name in Stage::cameras
+  double speed = 1;    // [-] burnt into the caption when not 1
 };
 
 /// Moments of the whole film at `fps`, from the shots (or the whole run from the first camera).

@@ -39,7 +39,7 @@ Vec3 followed_point(const Camera& camera, const engine::Recording& recording, do
 }
 
 View view_of(const Camera& camera, const engine::Recording& recording, double time, double aspect) {
-  constexpr double kNear = 0.15, kFar = 1500;   // [m]
+  constexpr double kNear = 0.15, kFar = 1500;  // [m]
   const Vec3 subject = followed_point(camera, recording, time);
   Vec3 eye = camera.position, target = camera.target;
   Vec3 up = Vec3::UnitZ();
@@ -47,7 +47,7 @@ View view_of(const Camera& camera, const engine::Recording& recording, double ti
   Mat4 projection = perspective(camera.vertical_fov, aspect, kNear, kFar);
   switch (camera.kind) {
     case CameraKind::fixed:
-      if (!camera.follow.empty()) target = subject + camera.target;   // stands still and pans
+      if (!camera.follow.empty()) target = subject + camera.target;  // stands still and pans
       break;
     case CameraKind::follow:
       eye = subject + camera.position;
@@ -62,7 +62,7 @@ View view_of(const Camera& camera, const engine::Recording& recording, double ti
     case CameraKind::top: {
       target = subject + camera.target;
       eye = target + Vec3(0, 0, 60);
-      up = Vec3::UnitY();   // x to the right, y up: the sheet of a site plan
+      up = Vec3::UnitY();  // x to the right, y up: the sheet of a site plan
       const double half = 0.5 * camera.top_height;
       projection = orthographic(half * aspect, half, 1, 120);
       view.orthographic = true;

@@ -13,29 +13,29 @@ namespace render {
 
 using Float3 = std::array<float, 3>;
 using Float4 = std::array<float, 4>;
-using Matrix4 = std::array<float, 16>;   // column-major, as GL wants it
+using Matrix4 = std::array<float, 16>;  // column-major, as GL wants it
 
 struct View {
   Matrix4 world_to_eye{};
   Matrix4 eye_to_clip{};
   Float3 eye{};
   bool orthographic = false;
-  double vertical_extent = 0;            // [m] seen, orthographic only
+  double vertical_extent = 0;  // [m] seen, orthographic only
 };
 
 /// A unit hyper-ellipsoid tessellation is chosen by the renderer from shape and size on the screen.
 struct EllipsoidItem {
   engine::HyperEllipsoid shape;
-  Matrix4 model{};                       // rigid, body to world
+  Matrix4 model{};  // rigid, body to world
   Material material;
-  bool raster = false;                   // wire grid
+  bool raster = false;  // wire grid
   std::uint32_t id = 0;
 };
 
 struct MeshItem {
   std::shared_ptr<const Mesh> mesh;
   Matrix4 model{};
-  std::vector<Material> materials;       // one per mesh material, repainted
+  std::vector<Material> materials;  // one per mesh material, repainted
   std::uint32_t id = 0;
 };
 
@@ -49,10 +49,10 @@ struct SkinItem {
 /// Anti-aliased line on top of the picture, width in pixels at 1080 lines. `outline` draws a dark edge.
 struct LineItem {
   std::vector<Float3> points;
-  Float4 colour{1, 1, 1, 1};             // sRGB, straight alpha
+  Float4 colour{1, 1, 1, 1};  // sRGB, straight alpha
   float width = 2;
   bool outline = true;
-  bool hidden_behind = false;            // depth-tested: traces pass behind a car
+  bool hidden_behind = false;  // depth-tested: traces pass behind a car
 };
 
 /// An arrow with a head of pixel size, from a to b.
@@ -74,19 +74,19 @@ struct MarkerItem {
 struct StripItem {
   std::vector<Float3> left;
   std::vector<Float3> right;
-  std::vector<float> darkness;           // 0..1 along the strip
+  std::vector<float> darkness;  // 0..1 along the strip
 };
 
 /// Screen-space text panel; anchor in 0..1 of the frame (0,0 top left), or beside a world point.
 struct LabelItem {
   std::vector<std::string> lines;
-  std::vector<float> sizes;              // pixels at 1080 lines, one per line
+  std::vector<float> sizes;  // pixels at 1080 lines, one per line
   std::vector<Float4> colours;
   bool at_world_point = false;
   Float3 world{};
-  std::array<float, 2> anchor{0, 0};     // where in the frame
-  std::array<float, 2> pivot{0, 0};      // which point of the panel sits there
-  bool plate = true;                     // translucent plate behind
+  std::array<float, 2> anchor{0, 0};  // where in the frame
+  std::array<float, 2> pivot{0, 0};   // which point of the panel sits there
+  bool plate = true;                  // translucent plate behind
 };
 
 struct DrawList {

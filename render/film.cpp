@@ -25,12 +25,12 @@
 namespace render {
 namespace {
 
-constexpr int kDeathsAllowed = 3;   // of one worker at one frame
+constexpr int kDeathsAllowed = 3;  // of one worker at one frame
 
 struct Slot {
-  std::atomic<int> frame{-1};       // the frame that lies here, drawn
-  std::atomic<int> taken{-1};       // the last frame the parent has taken from here
-  char error[480] = "";             // what the worker could not do
+  std::atomic<int> frame{-1};  // the frame that lies here, drawn
+  std::atomic<int> taken{-1};  // the last frame the parent has taken from here
+  char error[480] = "";        // what the worker could not do
 };
 
 /// Shared anonymous memory that goes with its owner.
@@ -38,7 +38,8 @@ class SharedMemory {
  public:
   explicit SharedMemory(std::size_t size) : size_(size) {
     data_ = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (data_ == MAP_FAILED) throw RenderError(fmt::format("cannot share {} MB between drawing processes: {}", size >> 20, std::strerror(errno)));
+    if (data_ == MAP_FAILED)
+      throw RenderError(fmt::format("cannot share {} MB between drawing processes: {}", size >> 20, std::strerror(errno)));
   }
   ~SharedMemory() { munmap(data_, size_); }
   SharedMemory(const SharedMemory&) = delete;
@@ -55,10 +56,12 @@ std::string frame_path(const FilmJob& job, int index) {
   // the pattern has one %0Nd: replaced by hand, user text never reaches printf
   const std::string pattern = job.output.string();
   const std::size_t percent = pattern.rfind('%'), d = pattern.find('d', percent == std::string::npos ? 0 : percent);
-  if (percent == std::string::npos || d == std::string::npos) throw RenderError("a PNG sequence needs a pattern like frame_%05d.png, not " + pattern);
+  if (percent == std::string::npos || d == std::string::npos)
+    throw RenderError("a PNG sequence needs a pattern like frame_%05d.png, not " + pattern);
   const std::string digits = pattern.substr(percent + 1, d - percent - 1);
   const int width = digits.empty() ? 1 : std::atoi(digits.c_str());
-  return pattern.substr(0, percent) + fmt::format("{:0{}}", job.first_frame + index, std::clamp(width, 1, 12)) + pattern.substr(d + 1);
+  return pattern.substr(0, percent) + fmt::format("{:0{}}", job.first_frame + index, std::clamp(width, 1, 12)) +
+         pattern.substr(d + 1);
 }
 
 struct Job {
@@ -88,7 +91,7 @@ void draw_frame(const Job& j, Renderer& renderer, Image& image, int i) {
 /// A worker's life: its frames from `first` on, in steps of the number of workers.
 [[noreturn]] void work(const Job& j, int first, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(4);   // the parent died before the line above could bind us to it
+  if (getppid() != parent) _exit(4);  // the parent died before the line above could bind us to it
   setenv("LP_NUM_THREADS", "0", 1);
   int at = first;
   try {
@@ -160,7 +163,8 @@ class Workers {
 void refuse_existing(const FilmJob& job, const std::vector<Moment>& moments) {
   if (job.overwrite) return;
   std::vector<std::string> paths;
-  if (job.container == Container::mp4) paths.push_back(job.output.string());
+  if (job.container == Container::mp4)
+    paths.push_back(job.output.string());
   else
     for (int i = 0; i < static_cast<int>(moments.size()); ++i) paths.push_back(frame_path(job, i));
   for (const std::string& path : paths)
@@ -177,7 +181,8 @@ void make_film(const Stage& stage, const engine::Recording& recording, const std
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const int workers = std::min(job.workers > 0 ? job.workers : cores, frames);
   const int slots = 2 * workers;
-  const std::size_t frame_bytes = job.container == Container::mp4 ? static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height) * 3 / 2 : 0;
+  const std::size_t frame_bytes =
+      job.container == Container::mp4 ? static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height) * 3 / 2 : 0;
   std::optional<VideoEncoder> encoder;
 
   const std::size_t head = (sizeof(Slot) * static_cast<std::size_t>(slots) + 4095) / 4096 * 4096;

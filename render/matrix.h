@@ -20,7 +20,9 @@ inline Mat4 from_gl(const Matrix4& m) {
   return out;
 }
 
-inline Float3 to_float(const Vec3& v) { return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())}; }
+inline Float3 to_float(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
 
 inline Mat4 rigid(const Pose& X) {
   Mat4 m = Mat4::Identity();

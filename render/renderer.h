@@ -11,7 +11,8 @@ namespace render {
 
 enum class Quality { draft, standard, fine };
 
-/// One GL context (OSMesa) and its resources. Create it in the process that draws, after any fork. Throws RenderError with what failed.
+/// One GL context (OSMesa) and its resources. Create it in the process that draws, after any fork. Throws RenderError with what
+/// failed.
 class Renderer {
  public:
   Renderer(int width, int height, Quality);

@@ -24,8 +24,8 @@ struct Material {
   std::string name;
   MaterialKind kind = MaterialKind::matte;
   Colour colour{0.6f, 0.6f, 0.6f};
-  float roughness = 0.6f;     // [-] 0 mirror .. 1 chalk
-  float opacity = 1.0f;       // [-] glass lets the rest through
+  float roughness = 0.6f;  // [-] 0 mirror .. 1 chalk
+  float opacity = 1.0f;    // [-] glass lets the rest through
 };
 
 /// Triangles to look at. Several parts, one material each. Flat arrays: xyz per vertex.
@@ -33,7 +33,7 @@ struct Mesh {
   struct Part {
     std::uint32_t first = 0;  // into indices
     std::uint32_t count = 0;
-    int material = 0;         // into Mesh::materials
+    int material = 0;  // into Mesh::materials
   };
   std::vector<float> positions;
   std::vector<float> normals;
@@ -45,24 +45,24 @@ struct Mesh {
 /// Something that moves with one body of the Recording.
 struct EllipsoidActor {
   std::string name;
-  int body = 0;                      // index into Snapshot::bodies
+  int body = 0;  // index into Snapshot::bodies
   engine::HyperEllipsoid shape;
   Material material;
 };
 
 struct MeshActor {
   std::string name;
-  int body = 0;                      // -1: stands still in the world
-  Pose X_BM;                         // mesh frame in the body frame
+  int body = 0;  // -1: stands still in the world
+  Pose X_BM;     // mesh frame in the body frame
   std::shared_ptr<const Mesh> mesh;
-  std::vector<Material> repaint;     // replaces mesh materials of the same name (another paint colour)
+  std::vector<Material> repaint;  // replaces mesh materials of the same name (another paint colour)
 };
 
 /// A wheel follows its WheelRecord (hub, steer, spin).
 struct WheelActor {
   int vehicle = 0;
   int wheel = 0;
-  int body = -1;                     // of the vehicle: its attitude turns the wheel
+  int body = -1;  // of the vehicle: its attitude turns the wheel
   bool left = true;
   std::shared_ptr<const Mesh> mesh;  // axle along y, outside towards +y, centred at the hub
 };
@@ -72,10 +72,10 @@ enum class PersonLook { segments, skin, raster };
 /// The segments of one person, for the skin and for picking its look. X_WB is the pose the skin is built in.
 struct PersonActor {
   struct Segment {
-    std::string name;                // "head", "left_thigh" ...
+    std::string name;  // "head", "left_thigh" ...
     int body = 0;
-    int parent = -1;                 // index into segments: the one its joint hangs on
-    Vec3 joint_P = Vec3::Zero();     // [m] that joint's centre in the parent's body frame
+    int parent = -1;              // index into segments: the one its joint hangs on
+    Vec3 joint_P = Vec3::Zero();  // [m] that joint's centre in the parent's body frame
     engine::HyperEllipsoid shape;
     Pose X_WB;
     Material material;
@@ -86,21 +86,21 @@ struct PersonActor {
 };
 
 struct RoadLook {
-  bool road = true;                  // asphalt with lane markings along x; false: plain ground with a metre grid
+  bool road = true;  // asphalt with lane markings along x; false: plain ground with a metre grid
   double height = 0;
-  double width = 7.0;                // [m] kerb to kerb, centred on `centre_y`
+  double width = 7.0;  // [m] kerb to kerb, centred on `centre_y`
   double centre_y = 0;
   int lanes = 2;
   bool metre_grid = false;
-  bool zebra = false;                // pedestrian crossing across the road at x = zebra_x
+  bool zebra = false;  // pedestrian crossing across the road at x = zebra_x
   double zebra_x = 0;
   std::shared_ptr<const Mesh> terrain;
 };
 
 struct SkyLook {
-  double sun_azimuth = 2.3;          // [rad] from +x towards +y, direction to the sun
-  double sun_elevation = 0.8;        // [rad]
-  double haze = 0.4;                 // [-] 0 clear .. 1 fog
+  double sun_azimuth = 2.3;    // [rad] from +x towards +y, direction to the sun
+  double sun_elevation = 0.8;  // [rad]
+  double haze = 0.4;           // [-] 0 clear .. 1 fog
 };
 
 enum class CameraKind { fixed, follow, orbit, top };
@@ -108,50 +108,50 @@ enum class CameraKind { fixed, follow, orbit, top };
 struct Camera {
   std::string name;
   CameraKind kind = CameraKind::fixed;
-  Vec3 position{-8, -8, 3};          // fixed: world; follow: offset from the followed point
-  Vec3 target{0, 0, 1};              // fixed: world; follow, orbit, top: offset from the followed point
-  std::string follow;                // body, vehicle or person ("pedestrian" = its hips); empty: the world
-  double vertical_fov = 0.7;         // [rad]
-  double orbit_radius = 8;           // [m]
-  double orbit_height = 2.5;         // [m]
-  double orbit_start = 0;            // [rad]
-  double orbit_rate = 0.3;           // [rad/s]
-  double top_height = 14;            // [m] seen from bottom to top of the picture; orthographic
-  double smoothing = 0.25;           // [s] a following camera averages its subject over this time
+  Vec3 position{-8, -8, 3};   // fixed: world; follow: offset from the followed point
+  Vec3 target{0, 0, 1};       // fixed: world; follow, orbit, top: offset from the followed point
+  std::string follow;         // body, vehicle or person ("pedestrian" = its hips); empty: the world
+  double vertical_fov = 0.7;  // [rad]
+  double orbit_radius = 8;    // [m]
+  double orbit_height = 2.5;  // [m]
+  double orbit_start = 0;     // [rad]
+  double orbit_rate = 0.3;    // [rad/s]
+  double top_height = 14;     // [m] seen from bottom to top of the picture; orthographic
+  double smoothing = 0.25;    // [s] a following camera averages its subject over this time
 };
 
 /// A stretch of film. `speed` 0.25 is four times slow motion; 0 freezes for `hold`.
 struct Shot {
   std::string camera;
-  double from = 0;                   // [s] simulated time
-  double to = 0;                     // [s]
+  double from = 0;  // [s] simulated time
+  double to = 0;    // [s]
   double speed = 1;
-  double hold = 0;                   // [s] of film, for speed 0
+  double hold = 0;  // [s] of film, for speed 0
 };
 
 struct Overlays {
-  bool contacts = true;              // point and normal
-  bool forces = true;                // arrows, length by force
-  bool caption = true;               // time, speeds, camera
-  bool traces = false;               // path of head and hips
-  bool disclaimer = true;            // "simulation, not footage", provenance
-  bool scale_bar = true;             // top cameras
-  double newtons_per_metre = 10e3;   // [N/m] arrow length scale
+  bool contacts = true;             // point and normal
+  bool forces = true;               // arrows, length by force
+  bool caption = true;              // time, speeds, camera
+  bool traces = false;              // path of head and hips
+  bool disclaimer = true;           // "simulation, not footage", provenance
+  bool scale_bar = true;            // top cameras
+  double newtons_per_metre = 10e3;  // [N/m] arrow length scale
   std::vector<std::string> trace_bodies;
 };
 
 struct Stage {
   std::string title;
-  std::string provenance;            // version, scene hash: small print at the foot
-  std::vector<std::string> warnings; // burnt into the caption (an effect forced off ...)
+  std::string provenance;             // version, scene hash: small print at the foot
+  std::vector<std::string> warnings;  // burnt into the caption (an effect forced off ...)
   std::vector<EllipsoidActor> ellipsoids;
   std::vector<MeshActor> meshes;
   std::vector<WheelActor> wheels;
   std::vector<PersonActor> persons;
   RoadLook road;
   SkyLook sky;
-  std::vector<Camera> cameras;       // never empty after loading
-  std::vector<Shot> shots;           // empty: the whole run from the first camera at natural speed
+  std::vector<Camera> cameras;  // never empty after loading
+  std::vector<Shot> shots;      // empty: the whole run from the first camera at natural speed
   Overlays overlays;
   /// Bodies named in the caption with their speed, and their readable names.
   std::vector<std::pair<int, std::string>> speeds;

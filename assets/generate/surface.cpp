@@ -11,8 +11,12 @@
 
 namespace assets {
 
-V3 cross(V3 a, V3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-double dot(V3 a, V3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+V3 cross(V3 a, V3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+double dot(V3 a, V3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 V3 unit(V3 a) {
   const double length = std::sqrt(dot(a, a));
   return length > 0 ? (1 / length) * a : V3{0, 0, 1};
@@ -43,7 +47,9 @@ void Surface::box(V3 m, V3 h, const std::string& material, double lean) {
   quad(at(-1, 1, -1), at(1, 1, -1), at(1, -1, -1), at(-1, -1, -1), material);
 }
 
-void Surface::append(const Surface& other) { faces.insert(faces.end(), other.faces.begin(), other.faces.end()); }
+void Surface::append(const Surface& other) {
+  faces.insert(faces.end(), other.faces.begin(), other.faces.end());
+}
 
 void Surface::mirror_y() {
   const std::size_t count = faces.size();
@@ -66,7 +72,8 @@ double side_of(Seen seen, const V3& p, const std::array<double, 2>& a, const std
 }
 
 /// Splits a polygon by a line: `in` keeps the left, `out` the right.
-void split(const Polygon& whole, Seen seen, const std::array<double, 2>& a, const std::array<double, 2>& b, Polygon& in, Polygon& out) {
+void split(const Polygon& whole, Seen seen, const std::array<double, 2>& a, const std::array<double, 2>& b, Polygon& in,
+           Polygon& out) {
   in.clear();
   out.clear();
   for (std::size_t i = 0; i < whole.size(); ++i) {
@@ -90,7 +97,8 @@ void emit(Surface& to, const Polygon& polygon, const std::string& material) {
 
 }  // namespace
 
-void cut(Surface& surface, Seen seen, const std::vector<std::array<double, 2>>& border, const Filter& filter, const std::string& material) {
+void cut(Surface& surface, Seen seen, const std::vector<std::array<double, 2>>& border, const Filter& filter,
+         const std::string& material) {
   Surface result;
   for (const Face& face : surface.faces) {
     const V3 centroid = (1.0 / 3) * (face.v[0].p + face.v[1].p + face.v[2].p);
@@ -106,7 +114,7 @@ void cut(Surface& surface, Seen seen, const std::vector<std::array<double, 2>>& 
       inside = in;
     }
     if (inside.size() < 3) {
-      result.faces.push_back(face);   // untouched: the pieces would only be slivers of it
+      result.faces.push_back(face);  // untouched: the pieces would only be slivers of it
       continue;
     }
     for (const Polygon& piece : outside) emit(result, piece, face.material);
@@ -117,7 +125,7 @@ void cut(Surface& surface, Seen seen, const std::vector<std::array<double, 2>>& 
 
 namespace {
 
-constexpr double kGrid = 1e-4;   // [m] of coordinates in the file
+constexpr double kGrid = 1e-4;  // [m] of coordinates in the file
 
 /// True for a triangle that rounding to the file's grid leaves without area, or that was written before.
 bool sliver_on_grid(const Face& face, std::set<std::array<long, 9>>& written) {
@@ -145,22 +153,26 @@ void write_obj(const Surface& surface, const std::vector<Paint>& paints, const s
   const std::string name = std::filesystem::path(path).filename().string();
   if (!paints.empty()) obj << "mtllib " << name << ".mtl\n";
   std::map<std::array<long, 3>, int> points, normals;
-  auto key = [](const V3& v, double grid) { return std::array<long, 3>{std::lround(v.x / grid), std::lround(v.y / grid), std::lround(v.z / grid)}; };
+  auto key = [](const V3& v, double grid) {
+    return std::array<long, 3>{std::lround(v.x / grid), std::lround(v.y / grid), std::lround(v.z / grid)};
+  };
   std::map<std::string, std::string> groups;
   char line[128];
-  std::set<std::array<long, 9>> written;   // corners on the file's grid, sorted: no triangle twice
+  std::set<std::array<long, 9>> written;  // corners on the file's grid, sorted: no triangle twice
   for (const Face& face : surface.faces) {
     if (sliver_on_grid(face, written)) continue;
     std::string text = "f";
     for (const Vertex& v : face.v) {
       const auto [p, new_p] = points.emplace(key(v.p, 1e-4), static_cast<int>(points.size()) + 1);
       if (new_p) {
-        std::snprintf(line, sizeof line, "v %.4f %.4f %.4f\n", static_cast<double>(p->first[0]) * 1e-4, static_cast<double>(p->first[1]) * 1e-4, static_cast<double>(p->first[2]) * 1e-4);
+        std::snprintf(line, sizeof line, "v %.4f %.4f %.4f\n", static_cast<double>(p->first[0]) * 1e-4,
+                      static_cast<double>(p->first[1]) * 1e-4, static_cast<double>(p->first[2]) * 1e-4);
         obj << line;
       }
       const auto [n, new_n] = normals.emplace(key(v.n, 1e-2), static_cast<int>(normals.size()) + 1);
       if (new_n) {
-        std::snprintf(line, sizeof line, "vn %.2f %.2f %.2f\n", static_cast<double>(n->first[0]) * 1e-2, static_cast<double>(n->first[1]) * 1e-2, static_cast<double>(n->first[2]) * 1e-2);
+        std::snprintf(line, sizeof line, "vn %.2f %.2f %.2f\n", static_cast<double>(n->first[0]) * 1e-2,
+                      static_cast<double>(n->first[1]) * 1e-2, static_cast<double>(n->first[2]) * 1e-2);
         obj << line;
       }
       text += " " + std::to_string(p->second) + "//" + std::to_string(n->second);
@@ -175,7 +187,8 @@ void write_obj(const Surface& surface, const std::vector<Paint>& paints, const s
   if (paints.empty()) return;
   std::ofstream mtl(path + ".mtl");
   for (const Paint& paint : paints) {
-    std::snprintf(line, sizeof line, "newmtl %s\nKd %.3f %.3f %.3f\nd %.2f\n", paint.name.c_str(), paint.colour[0], paint.colour[1], paint.colour[2], paint.opacity);
+    std::snprintf(line, sizeof line, "newmtl %s\nKd %.3f %.3f %.3f\nd %.2f\n", paint.name.c_str(), paint.colour[0], paint.colour[1],
+                  paint.colour[2], paint.opacity);
     mtl << line;
   }
   if (!mtl.flush()) throw std::runtime_error("cannot write " + path + ".mtl");

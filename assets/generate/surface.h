@@ -11,9 +11,15 @@ namespace assets {
 struct V3 {
   double x = 0, y = 0, z = 0;
 };
-inline V3 operator+(V3 a, V3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline V3 operator-(V3 a, V3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline V3 operator*(double s, V3 a) { return {s * a.x, s * a.y, s * a.z}; }
+inline V3 operator+(V3 a, V3 b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline V3 operator-(V3 a, V3 b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline V3 operator*(double s, V3 a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
 V3 cross(V3 a, V3 b);
 double dot(V3 a, V3 b);
 V3 unit(V3 a);
@@ -30,17 +36,17 @@ struct Face {
 struct Surface {
   std::vector<Face> faces;
   void add(const Vertex& a, const Vertex& b, const Vertex& c, const std::string& material);
-  void quad(V3 a, V3 b, V3 c, V3 d, const std::string& material);          // flat, counter-clockwise from outside
-  void box(V3 centre, V3 half, const std::string& material, double lean = 0);   // lean [rad] about y
+  void quad(V3 a, V3 b, V3 c, V3 d, const std::string& material);              // flat, counter-clockwise from outside
+  void box(V3 centre, V3 half, const std::string& material, double lean = 0);  // lean [rad] about y
   void append(const Surface&);
-  void mirror_y();                                                          // adds the reflection
+  void mirror_y();  // adds the reflection
 };
 
 using Filter = std::function<bool(const V3& centroid, const V3& normal)>;
-enum class Seen { from_side, from_front, from_above };                      // which two coordinates the polygon lives in
+enum class Seen { from_side, from_front, from_above };  // which two coordinates the polygon lives in
 
-/// Cuts along the border of a convex polygon (counter-clockwise in (x,z), (y,z) or (x,y)); what lies inside and passes the filter gets
-/// `material`, or is removed when that is empty.
+/// Cuts along the border of a convex polygon (counter-clockwise in (x,z), (y,z) or (x,y)); what lies inside and passes the filter
+/// gets `material`, or is removed when that is empty.
 void cut(Surface&, Seen, const std::vector<std::array<double, 2>>& polygon, const Filter&, const std::string& material);
 
 /// Writes NAME.obj and NAME.mtl with shared vertices.

@@ -15,7 +15,9 @@ void begin(World& world, const State&, int self) {
   for (const BodyPair& pair : pairs_between_bodies(world.model, self)) world.body_pairs.push_back(pair);
 }
 
-void find(World& world, const State& state, int self) { find_pair_contacts(world, state, self, ContactKind::person); }
+void find(World& world, const State& state, int self) {
+  find_pair_contacts(world, state, self, ContactKind::person);
+}
 
 }  // namespace
 

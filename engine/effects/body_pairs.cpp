@@ -12,9 +12,8 @@ bool can_meet(const Model& model, int a, int b) {
   const Body& B = model.bodies[b];
   if (!std::holds_alternative<HyperEllipsoid>(A.shape) || !std::holds_alternative<HyperEllipsoid>(B.shape)) return false;
   if (A.fixed && B.fixed) return false;
-  return std::none_of(model.joints.begin(), model.joints.end(), [&](const Joint& j) {
-    return (j.parent == a && j.child == b) || (j.parent == b && j.child == a);
-  });
+  return std::none_of(model.joints.begin(), model.joints.end(),
+                      [&](const Joint& j) { return (j.parent == a && j.child == b) || (j.parent == b && j.child == a); });
 }
 
 /// Segments of one person that stand inside each other in the start pose (upper arm in the side of the torso, thighs at the
@@ -59,7 +58,7 @@ void find_pair_contacts(World& world, const State& state, int effect, ContactKin
     const Body& A = world.model.bodies[pair.a];
     const Body& B = world.model.bodies[pair.b];
     const bool frozen = (!world.awake[pair.a] && !A.fixed) || (!world.awake[pair.b] && !B.fixed);
-    if (frozen) continue;   // in the zero condition: that effect watches
+    if (frozen) continue;  // in the zero condition: that effect watches
     const auto touch = contact_of_pair(std::get<HyperEllipsoid>(A.shape), state.X_WB[pair.a], std::get<HyperEllipsoid>(B.shape),
                                        state.X_WB[pair.b], margin, pair.normal_W);
     if (!touch) continue;

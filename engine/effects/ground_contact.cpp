@@ -7,7 +7,9 @@
 namespace engine {
 namespace {
 
-bool has_surface(const Body& body) { return !body.fixed && std::holds_alternative<HyperEllipsoid>(body.shape); }
+bool has_surface(const Body& body) {
+  return !body.fixed && std::holds_alternative<HyperEllipsoid>(body.shape);
+}
 
 std::optional<std::string> called_for(const Model& model) {
   const auto count = std::count_if(model.bodies.begin(), model.bodies.end(), has_surface);

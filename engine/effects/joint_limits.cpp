@@ -7,10 +7,12 @@
 namespace engine {
 namespace {
 
-constexpr double kNear = 0.12;        // [rad] a limit this close gets a row ...
-constexpr double kPerRate = 2.0;      // ... or one that 2 steps at the present rate would reach
+constexpr double kNear = 0.12;    // [rad] a limit this close gets a row ...
+constexpr double kPerRate = 2.0;  // ... or one that 2 steps at the present rate would reach
 
-bool has_limit(const ArticulationAngle& angle) { return std::isfinite(angle.lower) || std::isfinite(angle.upper); }
+bool has_limit(const ArticulationAngle& angle) {
+  return std::isfinite(angle.lower) || std::isfinite(angle.upper);
+}
 
 std::optional<std::string> called_for(const Model& model) {
   int count = 0;

@@ -5,7 +5,7 @@
 namespace engine {
 namespace {
 
-constexpr double kCorrection = 0.2;   // [-] share of the ring's gap taken out per step
+constexpr double kCorrection = 0.2;  // [-] share of the ring's gap taken out per step
 
 std::optional<std::string> called_for(const Model& model) {
   const std::size_t count = build_topology(model, {}).loops.size();

@@ -9,10 +9,14 @@
 namespace engine {
 namespace {
 
-constexpr double kFrictionRate = 0.05;   // [rad/s] below it dry friction acts like a damper
+constexpr double kFrictionRate = 0.05;  // [rad/s] below it dry friction acts like a damper
 
-bool resists(const ArticulationAngle& a) { return a.stiffness > 0 || a.damping > 0 || a.friction_torque > 0; }
-bool resists(const Joint& joint) { return std::any_of(joint.angles.begin(), joint.angles.end(), [](auto& a) { return resists(a); }); }
+bool resists(const ArticulationAngle& a) {
+  return a.stiffness > 0 || a.damping > 0 || a.friction_torque > 0;
+}
+bool resists(const Joint& joint) {
+  return std::any_of(joint.angles.begin(), joint.angles.end(), [](auto& a) { return resists(a); });
+}
 
 std::optional<std::string> called_for(const Model& model) {
   const auto count = std::count_if(model.joints.begin(), model.joints.end(), [](const Joint& j) { return resists(j); });

@@ -6,9 +6,15 @@
 namespace engine {
 namespace {
 
-bool is_round(const Body& body) { return std::holds_alternative<HyperEllipsoid>(body.shape); }
-bool is_mesh(const Body& body) { return std::holds_alternative<MeshShape>(body.shape); }
-bool can_meet(const Body& round, const Body& mesh) { return is_round(round) && is_mesh(mesh) && !(round.fixed && mesh.fixed); }
+bool is_round(const Body& body) {
+  return std::holds_alternative<HyperEllipsoid>(body.shape);
+}
+bool is_mesh(const Body& body) {
+  return std::holds_alternative<MeshShape>(body.shape);
+}
+bool can_meet(const Body& round, const Body& mesh) {
+  return is_round(round) && is_mesh(mesh) && !(round.fixed && mesh.fixed);
+}
 
 std::optional<std::string> called_for(const Model& model) {
   long pairs = 0;
@@ -22,19 +28,21 @@ void begin(World& world, const State&, int self) {
   const auto& bodies = world.model.bodies;
   for (int m = 0; m < static_cast<int>(bodies.size()); ++m)
     for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
-      if (can_meet(bodies[b], bodies[m])) world.mesh_pairs.push_back({self, b, m, std::get<MeshShape>(bodies[m].shape).mesh.get(), {}});
+      if (can_meet(bodies[b], bodies[m]))
+        world.mesh_pairs.push_back({self, b, m, std::get<MeshShape>(bodies[m].shape).mesh.get(), {}});
 }
 
 void find(World& world, const State& state, int self) {
   ContactPoints touches;
   for (MeshPair& pair : world.mesh_pairs) {
     if (pair.effect != self) continue;
-    if (!world.awake[pair.body] && !world.model.bodies[pair.body].fixed) continue;   // in the zero condition: that effect watches
+    if (!world.awake[pair.body] && !world.model.bodies[pair.body].fixed) continue;  // in the zero condition: that effect watches
     const Body& round = world.model.bodies[pair.body];
     const Body& mesh = world.model.bodies[pair.mesh_body];
     const Pose X_WM = state.X_WB[pair.mesh_body] * std::get<MeshShape>(mesh.shape).X_BM;
     const double margin = pair_margin(world, state, pair.body, pair.mesh_body);
-    contacts_with_mesh(std::get<HyperEllipsoid>(round.shape), state.X_WB[pair.body], *pair.mesh, X_WM, margin, pair.scratch, touches);
+    contacts_with_mesh(std::get<HyperEllipsoid>(round.shape), state.X_WB[pair.body], *pair.mesh, X_WM, margin, pair.scratch,
+                       touches);
     const double mu = std::min(round.surface.friction_body.at(state.time), mesh.surface.friction_body.at(state.time));
     const double e = std::max(round.surface.restitution_body.at(state.time), mesh.surface.restitution_body.at(state.time));
     for (const SurfaceContact& touch : touches)

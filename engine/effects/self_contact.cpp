@@ -15,7 +15,9 @@ void begin(World& world, const State&, int self) {
   for (const BodyPair& pair : pairs_within_persons(world.model, self)) world.body_pairs.push_back(pair);
 }
 
-void find(World& world, const State& state, int self) { find_pair_contacts(world, state, self, ContactKind::self); }
+void find(World& world, const State& state, int self) {
+  find_pair_contacts(world, state, self, ContactKind::self);
+}
 
 }  // namespace
 

@@ -6,7 +6,9 @@
 namespace engine {
 namespace {
 
-bool has_surface(const Body& body) { return !body.fixed && std::holds_alternative<HyperEllipsoid>(body.shape); }
+bool has_surface(const Body& body) {
+  return !body.fixed && std::holds_alternative<HyperEllipsoid>(body.shape);
+}
 
 std::optional<std::string> called_for(const Model& model) {
   const auto count = std::count_if(model.bodies.begin(), model.bodies.end(), has_surface);
@@ -32,8 +34,7 @@ void find(World& world, const State& state, int self) {
     const SurfaceProperties& ground = world.model.ground.surface;
     const double mu = std::min(body.surface.friction_ground.at(state.time), ground.friction_ground.at(state.time));
     const double e = std::max(body.surface.restitution_ground.at(state.time), ground.restitution_ground.at(state.time));
-    for (const SurfaceContact& touch : touches)
-      add_contact(world, state, touch, pair.body, -1, self, ContactKind::terrain, mu, e);
+    for (const SurfaceContact& touch : touches) add_contact(world, state, touch, pair.body, -1, self, ContactKind::terrain, mu, e);
   }
 }
 

@@ -9,7 +9,7 @@
 namespace engine {
 namespace {
 
-constexpr double kStopStiffness = 10;   // [-] times the spring's, beyond the travel
+constexpr double kStopStiffness = 10;  // [-] times the spring's, beyond the travel
 
 std::optional<std::string> called_for(const Model& model) {
   std::size_t count = 0;
@@ -24,7 +24,7 @@ Eigen::VectorXd static_loads(const Model& model, const Vehicle& vehicle) {
   Eigen::MatrixXd A(3, n);
   for (Eigen::Index i = 0; i < n; ++i) A.col(i) << 1, vehicle.wheels[i].hub_B.x(), vehicle.wheels[i].hub_B.y();
   const double weight = model.bodies[vehicle.body].mass * model.settings.gravity.norm();
-  const Mat3 AA = A * A.transpose() + 1e-9 * Mat3::Identity();   // a two-wheeler has no track: keep it solvable
+  const Mat3 AA = A * A.transpose() + 1e-9 * Mat3::Identity();  // a two-wheeler has no track: keep it solvable
   const Vec3 multipliers = AA.ldlt().solve(Vec3(weight, 0, 0));
   return A.transpose() * multipliers;
 }
@@ -46,7 +46,7 @@ void begin(World& world, const State&, int) {
 
 struct Footing {
   bool found = false;
-  double distance = 0;               // [m] from the hub along the vehicle's down axis
+  double distance = 0;  // [m] from the hub along the vehicle's down axis
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();
 };
@@ -62,7 +62,7 @@ Footing footing_of(const Ground& ground, const Vec3& hub, const Vec3& down, doub
     }
   }
   if (ground.terrain) {
-    constexpr double kAbove = 0.6;   // [m] start over the hub, so that a wheel pushed into a kerb still finds the surface
+    constexpr double kAbove = 0.6;  // [m] start over the hub, so that a wheel pushed into a kerb still finds the surface
     double s = 0;
     int triangle = -1;
     if (ground.terrain->raycast(hub - kAbove * down, down, best + kAbove, s, triangle) && s - kAbove < best)
@@ -129,8 +129,8 @@ void find(World& world, const State& state, int self) {
     wheel.hub = hub_static - down * std::clamp(wheel.compression, -droop, 2 * spec.travel);
     wheel.contact = footing.found ? footing.point : Vec3(wheel.hub + down * spec.radius);
     wheel.impulse.setZero();
-    energy += footing.found ? spring_energy(spec, wheel.static_load, wheel.compression)
-                            : spring_energy(spec, wheel.static_load, -droop);
+    energy +=
+        footing.found ? spring_energy(spec, wheel.static_load, wheel.compression) : spring_energy(spec, wheel.static_load, -droop);
     if (footing.found) add_wheel(world, state, wheel, footing, i, self);
   }
   // what the springs took or gave since the last look is not lost: it leaves the dampers' account

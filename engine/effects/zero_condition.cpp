@@ -53,9 +53,9 @@ void before_step(World& world, State& state, int) {
     if (!waits(world, state, pair.a) && !waits(world, state, pair.b)) continue;
     const double margin = pair_margin(world, state, pair.a, pair.b);
     if ((state.X_WB[pair.a].p - state.X_WB[pair.b].p).norm() > world.reach[pair.a] + world.reach[pair.b] + margin) continue;
-    const auto touch = contact_of_pair(std::get<HyperEllipsoid>(world.model.bodies[pair.a].shape), state.X_WB[pair.a],
-                                       std::get<HyperEllipsoid>(world.model.bodies[pair.b].shape), state.X_WB[pair.b], margin,
-                                       pair.normal_W);
+    const auto touch =
+        contact_of_pair(std::get<HyperEllipsoid>(world.model.bodies[pair.a].shape), state.X_WB[pair.a],
+                        std::get<HyperEllipsoid>(world.model.bodies[pair.b].shape), state.X_WB[pair.b], margin, pair.normal_W);
     if (!touch || !touches(world, state, *touch, pair.a, pair.b)) continue;
     if (waits(world, state, pair.a)) release(world, state, pair.a, pair.b, touch->p_a);
     if (waits(world, state, pair.b)) release(world, state, pair.b, pair.a, touch->p_b);

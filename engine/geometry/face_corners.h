@@ -11,8 +11,8 @@ namespace engine {
 constexpr double kFlatExponent = 4;
 
 /// Directions (body axes, unit) whose support points surround the deepest one on the side that faces `direction` (unit, body
-/// axes): direction leaned a little towards the four diagonals of the two other body axes. On a face that lies flat the points stand
-/// at 0.8 of the half widths and within some micrometres of the face.
+/// axes): direction leaned a little towards the four diagonals of the two other body axes. On a face that lies flat the points
+/// stand at 0.8 of the half widths and within some micrometres of the face.
 std::array<Vec3, 4> corner_directions(const HyperEllipsoid&, const Vec3& direction);
 
 }  // namespace engine

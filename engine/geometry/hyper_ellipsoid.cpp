@@ -105,7 +105,9 @@ Mat3 gauge_hessian(const HyperEllipsoid& shape, const Vec3& x) {
   return H * ((n - 1) / N);
 }
 
-Vec3 outward_normal(const HyperEllipsoid& shape, const Vec3& x) { return gauge_gradient(shape, x).normalized(); }
+Vec3 outward_normal(const HyperEllipsoid& shape, const Vec3& x) {
+  return gauge_gradient(shape, x).normalized();
+}
 
 Vec3 radial_point(const HyperEllipsoid& shape, const Vec3& direction) {
   const double N = gauge(shape, direction);

@@ -14,16 +14,16 @@
 namespace engine {
 namespace {
 
-constexpr double kBorder = 1e-6;        // [-] barycentric tolerance: on the border counts as inside
-constexpr double kCluster = 0.985;      // [-] cosine of 10 degrees
-constexpr int kKeep = 4;                // contacts of one body with one mesh
+constexpr double kBorder = 1e-6;    // [-] barycentric tolerance: on the border counts as inside
+constexpr double kCluster = 0.985;  // [-] cosine of 10 degrees
+constexpr int kKeep = 4;            // contacts of one body with one mesh
 
 struct Scene {
   const HyperEllipsoid& shape;
-  Pose X_MA;                            // body in the mesh frame
+  Pose X_MA;  // body in the mesh frame
   const TriangleMesh& mesh;
   double margin;
-  std::vector<SurfaceContact>& out;     // in the mesh frame
+  std::vector<SurfaceContact>& out;  // in the mesh frame
 };
 
 bool inside(const TriangleMesh& mesh, int triangle, const Vec3& p) {
@@ -89,7 +89,7 @@ void touch_edge(Scene& s, int triangle, int edge) {
   const Vec3 along = s.mesh.vertices()[t[(edge + 1) % 3]] - from;
   const Pose X_AM = s.X_MA.inverse();
   const double at = least_gauge(s.shape, X_AM * from, X_AM.q * along);
-  if (at <= 0 || at >= 1) return;   // a vertex's business
+  if (at <= 0 || at >= 1) return;  // a vertex's business
   SurfaceContact c;
   if (!point_contact(s, from + at * along, c)) return;
   // inside the cone of the edge: not over either face
@@ -97,7 +97,7 @@ void touch_edge(Scene& s, int triangle, int edge) {
   if (c.normal.dot(inward) > 1e-9) return;
   const int other = s.mesh.neighbour(triangle, edge);
   if (other >= 0 && c.normal.dot(-s.mesh.face_normals()[other].cross(along).normalized()) > 1e-9) return;
-  if (other < 0 && c.normal.dot(s.mesh.face_normals()[triangle]) < 0) return;   // the back of an open sheet
+  if (other < 0 && c.normal.dot(s.mesh.face_normals()[triangle]) < 0) return;  // the back of an open sheet
   s.out.push_back(c);
 }
 
@@ -116,7 +116,9 @@ void touch_vertex(Scene& s, int vertex, const std::vector<int>& nearby) {
   s.out.push_back(c);
 }
 
-bool felt(EdgeKind kind) { return kind == EdgeKind::convex || kind == EdgeKind::open; }
+bool felt(EdgeKind kind) {
+  return kind == EdgeKind::convex || kind == EdgeKind::open;
+}
 
 std::uint32_t key_of(const SurfaceContact& c, const Pose& X_MA) {
   // octant of the point on the body and main direction of the normal: steady while the body slides from triangle to triangle
@@ -150,7 +152,8 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
   const Pose X_MA = X_WM.inverse() * X_WA;
   // the sphere around the body first: most pairs are far apart
   const double radius = shape.semi_axes.norm() + margin;
-  if ((X_MA.p.array() - radius > mesh.bounds().upper.array()).any() || (X_MA.p.array() + radius < mesh.bounds().lower.array()).any())
+  if ((X_MA.p.array() - radius > mesh.bounds().upper.array()).any() ||
+      (X_MA.p.array() + radius < mesh.bounds().lower.array()).any())
     return;
   const Vec3 half = aabb_half_widths(shape, X_MA.q) + Vec3::Constant(margin);
   scratch.triangles.clear();

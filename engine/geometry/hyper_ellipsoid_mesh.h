@@ -18,8 +18,8 @@ struct MeshContactScratch {
 
 /// Points with gap < margin [m] between the hyper-ellipsoid at X_WA and the mesh at X_WM; `out` is cleared first. Normals within
 /// 10 degrees are clustered; the deepest and up to three spread points stay. A part sliding over a flat sheet of many triangles
-/// gets the contacts of a plane. A triangle whose plane the centre has passed by more than a quarter of the body is its far side and
-/// not felt.
+/// gets the contacts of a plane. A triangle whose plane the centre has passed by more than a quarter of the body is its far side
+/// and not felt.
 void contacts_with_mesh(const HyperEllipsoid&, const Pose& X_WA, const TriangleMesh&, const Pose& X_WM, double margin,
                         MeshContactScratch&, ContactPoints& out);
 

@@ -1,8 +1,9 @@
 // The common normal maximises the signed gap   g(n) = n.(c_A - c_B) - h_A(n) - h_B(n)   over unit n (from B to A): where it is
-// stationary the tangent planes are parallel and (c_A - c_B) - s(n) is along n, the source's (75), (76). Apart, g is concave and its
-// maximum the distance; overlapping, the largest maximum is the least depth and there can be several, so the search starts from
+// stationary the tangent planes are parallel and (c_A - c_B) - s(n) is along n, the source's (75), (76). Apart, g is concave and
+// its maximum the distance; overlapping, the largest maximum is the least depth and there can be several, so the search starts from
 // many directions. g at any n is a lower bound of the gap and second order in the error of n: gap and points always come from
-// g at the final n. Newton on the sphere: (E^T (H_A + H_B) E + g 1 + mu 1) s = E^T ((c_A - c_B) - s(n)), mu as in Levenberg-Marquardt.
+// g at the final n. Newton on the sphere: (E^T (H_A + H_B) E + g 1 + mu 1) s = E^T ((c_A - c_B) - s(n)), mu as in
+// Levenberg-Marquardt.
 #include "engine/geometry/hyper_ellipsoid_pair.h"
 
 #include <Eigen/LU>
@@ -15,7 +16,7 @@ struct Pair {
   const HyperEllipsoid& A;
   const HyperEllipsoid& B;
   Mat3 R_WA, R_WB;
-  Vec3 d;   // c_A - c_B
+  Vec3 d;  // c_A - c_B
 
   double gap(const Vec3& n) const {
     return n.dot(d) - support_value(A, R_WA.transpose() * n) - support_value(B, R_WB.transpose() * n);
@@ -38,7 +39,7 @@ struct Found {
 /// Near the flats of n > 2 the support function has all but kinks where n is across a body axis, and the maximum often lies on one:
 /// Newton stalls there. Steps along and across the six circles of kinks, halved until nothing is gained.
 Found polish(const Pair& pair, Found at) {
-  constexpr double kFirstStep = 0.02, kLastStep = 1e-9;   // [rad]
+  constexpr double kFirstStep = 0.02, kLastStep = 1e-9;  // [rad]
   for (double step = kFirstStep; step > kLastStep; step *= 0.5) {
     for (int round = 0; round < 8; ++round) {
       bool better = false;
@@ -70,11 +71,11 @@ Found polish(const Pair& pair, Found at) {
   return at;
 }
 
-constexpr int kSweep = 48;                  // directions
-constexpr double kGoldenAngle = 2.399963;   // [rad]
+constexpr int kSweep = 48;                 // directions
+constexpr double kGoldenAngle = 2.399963;  // [rad]
 
 Found climb(const Pair& pair, Vec3 n, int iterations) {
-  constexpr double kStationary = 1e-11;   // [m]
+  constexpr double kStationary = 1e-11;  // [m]
   double g = pair.gap(n);
   double damping = 1e-3 * pair.d.norm() + 1e-6;
   for (int k = 0; k < iterations; ++k) {
@@ -107,8 +108,8 @@ Found climb(const Pair& pair, Vec3 n, int iterations) {
 
 }  // namespace
 
-std::optional<SurfaceContact> contact_of_pair(const HyperEllipsoid& A, const Pose& X_WA, const HyperEllipsoid& B,
-                                              const Pose& X_WB, double margin, Vec3& normal_guess) {
+std::optional<SurfaceContact> contact_of_pair(const HyperEllipsoid& A, const Pose& X_WA, const HyperEllipsoid& B, const Pose& X_WB,
+                                              double margin, Vec3& normal_guess) {
   const Pair pair{A, B, X_WA.q.toRotationMatrix(), X_WB.q.toRotationMatrix(), X_WA.p - X_WB.p};
   const double distance = pair.d.norm();
   const Vec3 towards = distance > 1e-12 ? Vec3(pair.d / distance) : Vec3(Vec3::UnitZ());
@@ -128,8 +129,7 @@ std::optional<SurfaceContact> contact_of_pair(const HyperEllipsoid& A, const Pos
     };
     if (warm) try_from(towards);
     for (int i = 0; i < 3; ++i)
-      for (const Vec3& axis : {Vec3(pair.R_WA.col(i)), Vec3(pair.R_WB.col(i))})
-        try_from(axis.dot(pair.d) < 0 ? Vec3(-axis) : axis);
+      for (const Vec3& axis : {Vec3(pair.R_WA.col(i)), Vec3(pair.R_WB.col(i))}) try_from(axis.dot(pair.d) < 0 ? Vec3(-axis) : axis);
     // boxes deep in each other hide maxima from all of these: look around once more, evenly
     for (int round = 0; round < 3; ++round) {
       Vec3 promising = best.n;

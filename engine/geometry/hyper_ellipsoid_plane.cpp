@@ -8,7 +8,7 @@ namespace engine {
 
 std::array<Vec3, 4> corner_directions(const HyperEllipsoid& shape, const Vec3& direction) {
   // (1e-3)^(1/29) = 0.79: where the support point of n = 30 goes; the face is lifted there by 3e-5 of its depth
-  constexpr double kLean = 1e-3;   // [-] in the affine image where the body is a cube
+  constexpr double kLean = 1e-3;  // [-] in the affine image where the body is a cube
   int face = 0;
   direction.cwiseAbs().maxCoeff(&face);
   const int i = (face + 1) % 3, k = (face + 2) % 3;
@@ -26,7 +26,7 @@ std::array<Vec3, 4> corner_directions(const HyperEllipsoid& shape, const Vec3& d
 
 void contacts_with_plane(const HyperEllipsoid& shape, const Pose& X_WA, const Vec3& normal, double offset, double margin,
                          ContactPoints& out) {
-  constexpr double kNoDeeper = 5e-6;   // [m] a deepest point this little below the corners is one of them, and jumps: left out
+  constexpr double kNoDeeper = 5e-6;  // [m] a deepest point this little below the corners is one of them, and jumps: left out
   out.clear();
   const Vec3 down_A = X_WA.q.conjugate() * -normal;
   auto touch_along = [&](const Vec3& direction_A, std::uint32_t key) {

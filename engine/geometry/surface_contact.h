@@ -10,11 +10,11 @@ namespace engine {
 
 /// One point of (near) contact between shape a and shape b, world frame.
 struct SurfaceContact {
-  Vec3 p_a = Vec3::Zero();       // [m] the surface point of a
-  Vec3 p_b = Vec3::Zero();       // [m] the surface point of b
-  Vec3 normal = Vec3::UnitZ();   // unit, points from b to a
-  double gap = 0;                // [m] (p_a - p_b).normal; negative = penetration depth
-  std::uint32_t key = 0;         // names the feature (quadrant, triangle cluster ...) so that warm starts find it again
+  Vec3 p_a = Vec3::Zero();      // [m] the surface point of a
+  Vec3 p_b = Vec3::Zero();      // [m] the surface point of b
+  Vec3 normal = Vec3::UnitZ();  // unit, points from b to a
+  double gap = 0;               // [m] (p_a - p_b).normal; negative = penetration depth
+  std::uint32_t key = 0;        // names the feature (quadrant, triangle cluster ...) so that warm starts find it again
 };
 
 /// Up to this many points describe one pair of shapes (a flat face on a plane needs four and its deepest point).

@@ -8,18 +8,17 @@
 namespace engine {
 namespace {
 
-constexpr double kWeld = 1e-5;          // [m]
-constexpr double kDegenerate = 1e-12;   // [-] area / longest edge squared
-constexpr double kFlat = 1e-3;          // [rad] dihedral angle below which an edge is part of a flat face
-constexpr int kLeaf = 4;                // triangles
+constexpr double kWeld = 1e-5;         // [m]
+constexpr double kDegenerate = 1e-12;  // [-] area / longest edge squared
+constexpr double kFlat = 1e-3;         // [rad] dihedral angle below which an edge is part of a flat face
+constexpr int kLeaf = 4;               // triangles
 
 /// Maps every vertex to the first one within the weld distance, by a grid of that pitch sorted along with its neighbours.
 std::vector<int> weld(const std::vector<Vec3>& vertices) {
   std::vector<int> order(vertices.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return vertices[a].x() != vertices[b].x() ? vertices[a].x() < vertices[b].x() : a < b;
-  });
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return vertices[a].x() != vertices[b].x() ? vertices[a].x() < vertices[b].x() : a < b; });
   std::vector<int> to(vertices.size(), -1);
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (to[order[i]] >= 0) continue;
@@ -31,7 +30,7 @@ std::vector<int> weld(const std::vector<Vec3>& vertices) {
 }
 
 struct HalfEdge {
-  int low, high;      // vertices
+  int low, high;  // vertices
   int triangle, edge;
 };
 
@@ -39,7 +38,7 @@ struct HalfEdge {
 
 TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles) : vertices_(std::move(vertices)) {
   const std::vector<int> to = weld(vertices_);
-  std::vector<std::array<int, 4>> known;   // sorted corners and index, to find duplicates
+  std::vector<std::array<int, 4>> known;  // sorted corners and index, to find duplicates
   for (Triangle t : triangles) {
     for (auto& v : t) {
       assert(v >= 0 && v < static_cast<int>(vertices_.size()) && "the loader has checked the indices");
@@ -63,8 +62,10 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> tri
     if (std::equal(known[i].begin(), known[i].begin() + 3, known[i - 1].begin())) duplicate[known[i][3]] = 1;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    if (duplicate[i]) ++dropped_;
-    else triangles_[kept++] = triangles_[i];
+    if (duplicate[i])
+      ++dropped_;
+    else
+      triangles_[kept++] = triangles_[i];
   }
   triangles_.resize(kept);
   connect();
@@ -77,8 +78,7 @@ void TriangleMesh::connect() {
   for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
     const Triangle& v = triangles_[t];
     face_normals_.push_back((vertices_[v[1]] - vertices_[v[0]]).cross(vertices_[v[2]] - vertices_[v[0]]).normalized());
-    for (int e = 0; e < 3; ++e)
-      edges.push_back({std::min(v[e], v[(e + 1) % 3]), std::max(v[e], v[(e + 1) % 3]), t, e});
+    for (int e = 0; e < 3; ++e) edges.push_back({std::min(v[e], v[(e + 1) % 3]), std::max(v[e], v[(e + 1) % 3]), t, e});
   }
   std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
     return std::array{a.low, a.high, a.triangle, a.edge} < std::array{b.low, b.high, b.triangle, b.edge};
@@ -101,7 +101,7 @@ void TriangleMesh::connect() {
       neighbours_[a.triangle][a.edge] = b.triangle;
       neighbours_[b.triangle][b.edge] = a.triangle;
     }
-    i = end;   // an edge of three or more triangles stays open: each may be felt there
+    i = end;  // an edge of three or more triangles stays open: each may be felt there
   }
 }
 
@@ -131,9 +131,8 @@ void TriangleMesh::build_tree() {
     int axis = 0;
     (nodes_[at].box.upper - nodes_[at].box.lower).maxCoeff(&axis);
     const int half = count / 2;
-    std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count, [&](int a, int b) {
-      return centre[a][axis] != centre[b][axis] ? centre[a][axis] < centre[b][axis] : a < b;
-    });
+    std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count,
+                     [&](int a, int b) { return centre[a][axis] != centre[b][axis] ? centre[a][axis] < centre[b][axis] : a < b; });
     nodes_[at].first = static_cast<std::int32_t>(nodes_.size());
     nodes_[at].count = 0;
     nodes_.push_back({box_of(first, half), first, half});

@@ -45,12 +45,12 @@ class TriangleMesh {
  private:
   struct Node {
     Aabb box;
-    std::int32_t first = 0;   // leaf: first triangle in order_; inner: left child
-    std::int32_t count = 0;   // leaf: triangles; inner: 0 (right child is first + 1)
+    std::int32_t first = 0;  // leaf: first triangle in order_; inner: left child
+    std::int32_t count = 0;  // leaf: triangles; inner: 0 (right child is first + 1)
   };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  void connect();      // adjacency and edge kinds
-  void build_tree();   // median splits along the longest side
+  void connect();     // adjacency and edge kinds
+  void build_tree();  // median splits along the longest side
 
   std::vector<Vec3> vertices_;
   std::vector<Triangle> triangles_;

@@ -14,8 +14,8 @@ using Quat = Eigen::Quaterniond;
 
 /// Place and attitude of a frame B in a frame W: p_W = p + q * p_B. q is a unit quaternion.
 struct Pose {
-  Vec3 p = Vec3::Zero();          // [m] origin of B in W
-  Quat q = Quat::Identity();      // rotates B to W
+  Vec3 p = Vec3::Zero();      // [m] origin of B in W
+  Quat q = Quat::Identity();  // rotates B to W
   Vec3 operator*(const Vec3& p_B) const { return p + q * p_B; }
   Pose operator*(const Pose& X_BC) const { return {p + q * X_BC.p, q * X_BC.q}; }
   Pose inverse() const { return {-(q.conjugate() * p), q.conjugate()}; }

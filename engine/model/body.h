@@ -12,7 +12,8 @@
 
 namespace engine {
 
-/// Which collision model an object asks for. Default-Auto is used if either of two objects asks for it, Kudlich-Slibar only if both do.
+/// Which collision model an object asks for. Default-Auto is used if either of two objects asks for it, Kudlich-Slibar only if both
+/// do.
 enum class CollisionModel { default_auto, kudlich_slibar };
 
 /// Coefficients come in two kinds: `ground` against the ground, `body` against every other object (source 002).
@@ -34,17 +35,17 @@ struct MeshShape {
 using Shape = std::variant<std::monostate, HyperEllipsoid, MeshShape>;
 
 struct Body {
-  std::string name;                       // "pedestrian/head", "sedan", "puck"
-  double mass = 1;                        // [kg] > 0
-  Mat3 inertia_B = Mat3::Identity();      // [kg m^2] about the centre of mass, body axes, eq. (67)
+  std::string name;                   // "pedestrian/head", "sedan", "puck"
+  double mass = 1;                    // [kg] > 0
+  Mat3 inertia_B = Mat3::Identity();  // [kg m^2] about the centre of mass, body axes, eq. (67)
   Shape shape;
   SurfaceProperties surface;
   CollisionModel collision_model = CollisionModel::default_auto;
-  Pose X_WB;                              // at t = 0
-  Twist V_WB;                             // at t = 0
-  int person = -1;                        // index into Model::persons
-  int vehicle = -1;                       // index into Model::vehicles
-  bool fixed = false;                     // part of the world: never moves
+  Pose X_WB;           // at t = 0
+  Twist V_WB;          // at t = 0
+  int person = -1;     // index into Model::persons
+  int vehicle = -1;    // index into Model::vehicles
+  bool fixed = false;  // part of the world: never moves
 };
 
 }  // namespace engine

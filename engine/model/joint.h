@@ -10,7 +10,8 @@
 namespace engine {
 
 /// revolute: turns about the y axis of the joint frame. universal: y fixed in the parent and x fixed in the child stay
-/// perpendicular (cardan cross). spherical: all turns. ragdoll: spherical with limits, spring torque and damping per angle. fixed: none.
+/// perpendicular (cardan cross). spherical: all turns. ragdoll: spherical with limits, spring torque and damping per angle. fixed:
+/// none.
 enum class JointKind { revolute, universal, spherical, ragdoll, fixed };
 
 /// One articulation angle. The relative rotation R_FpFc is split into a swing (rotation vector with components x and y) and a
@@ -31,11 +32,11 @@ enum class PassiveTorque { none, hip, knee, ankle };
 struct Joint {
   std::string name;
   JointKind kind = JointKind::spherical;
-  int parent = -1;   // body index, -1: the world
-  int child = 0;     // body index
-  Pose X_PF;         // joint frame in the parent (in the world for parent -1)
-  Pose X_CF;         // joint frame in the child
-  std::array<ArticulationAngle, 3> angles;   // x, y, z as above; a revolute joint uses y only
+  int parent = -1;                          // body index, -1: the world
+  int child = 0;                            // body index
+  Pose X_PF;                                // joint frame in the parent (in the world for parent -1)
+  Pose X_CF;                                // joint frame in the child
+  std::array<ArticulationAngle, 3> angles;  // x, y, z as above; a revolute joint uses y only
   PassiveTorque passive = PassiveTorque::none;
   double breaking_force = std::numeric_limits<double>::infinity();  // [N] a grip or pedal lets go above it
 };

@@ -16,20 +16,20 @@ namespace engine {
 constexpr double kGravity = 9.81;  // [m/s^2] the value of the published cases the tests compare with
 
 struct Ground {
-  bool plane = true;                               // an infinite plane z = height
-  double height = 0;                               // [m]
-  std::shared_ptr<const TriangleMesh> terrain;     // world frame; in place of or besides the plane
-  SurfaceProperties surface{1.0, 1.0, 0.0, 0.0, 1e9};   // friction: the smaller of two surfaces acts, so 1.0 leaves it to the other
+  bool plane = true;                                   // an infinite plane z = height
+  double height = 0;                                   // [m]
+  std::shared_ptr<const TriangleMesh> terrain;         // world frame; in place of or besides the plane
+  SurfaceProperties surface{1.0, 1.0, 0.0, 0.0, 1e9};  // friction: the smaller of two surfaces acts, so 1.0 leaves it to the other
 };
 
 enum class Scheme { stepping, rk4, adaptive };
 enum class ContactLaw { default_auto, compliant };
-enum class Force { automatic, on, off };             // a scene's author may force an effect
+enum class Force { automatic, on, off };  // a scene's author may force an effect
 
 struct Settings {
-  double duration = 4.0;                 // [s]
-  double step = 1e-3;                    // [s]
-  double record_interval = 5e-3;         // [s] between snapshots; rounded to whole steps
+  double duration = 4.0;          // [s]
+  double step = 1e-3;             // [s]
+  double record_interval = 5e-3;  // [s] between snapshots; rounded to whole steps
   Scheme scheme = Scheme::stepping;
   ContactLaw contact_law = ContactLaw::default_auto;
   Vec3 gravity{0, 0, -kGravity};         // [m/s^2]

@@ -11,14 +11,14 @@ namespace engine {
 /// One wheel: a contact point under a suspension spring, with a friction circle.
 struct Wheel {
   std::string name;
-  Vec3 hub_B{0, 0, 0};         // [m] wheel centre at static load, from the centre of mass, body axes
-  double radius = 0.3;         // [m]
-  double width = 0.2;          // [m]
-  double spring = 25e3;        // [N/m] at the wheel
-  double damper = 2.5e3;       // [N s/m]
-  double travel = 0.12;        // [m] each way to the stop
-  double friction = 0.8;       // [-] tyre on dry road; the ground's own friction limits it too (smaller value)
-  double brake_share = 0.25;   // [-] share of the brake force this wheel can take; shares sum to 1
+  Vec3 hub_B{0, 0, 0};        // [m] wheel centre at static load, from the centre of mass, body axes
+  double radius = 0.3;        // [m]
+  double width = 0.2;         // [m]
+  double spring = 25e3;       // [N/m] at the wheel
+  double damper = 2.5e3;      // [N s/m]
+  double travel = 0.12;       // [m] each way to the stop
+  double friction = 0.8;      // [-] tyre on dry road; the ground's own friction limits it too (smaller value)
+  double brake_share = 0.25;  // [-] share of the brake force this wheel can take; shares sum to 1
   bool steered = false;
   bool driven = false;
 };

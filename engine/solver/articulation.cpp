@@ -39,7 +39,9 @@ Mat3 inertia_W(const Body& body, const Quat& q_WB) {
 
 Articulation::Articulation(const Model& model) : model_(model), H_(model.bodies.size()) {}
 
-void Articulation::reset(const Topology& topology) { factors_.resize(topology.links.size()); }
+void Articulation::reset(const Topology& topology) {
+  factors_.resize(topology.links.size());
+}
 
 template <int K>
 void Articulation::eliminate(Factor& f, const Mat6& J_c, const Mat6& J_p, const Mat6& H, Mat6* H_parent,
@@ -59,7 +61,7 @@ void Articulation::eliminate(Factor& f, const Mat6& J_c, const Mat6& J_p, const 
   }
   Eigen::Matrix<double, K, 6> Jp = J_p.topRows<K>();
   if (damper && damper->present) {
-    const Eigen::Matrix<double, 6, 3> HiB = -(Hi.rightCols<3>() * damper->matrix);   // H^-1 B, the columns of w_p
+    const Eigen::Matrix<double, 6, 3> HiB = -(Hi.rightCols<3>() * damper->matrix);  // H^-1 B, the columns of w_p
     Jp.template rightCols<3>() -= Jc * HiB;
     H_parent->bottomRightCorner<3, 3>() += damper->matrix + damper->matrix * HiB.template bottomRows<3>();
     f.X.noalias() = -(E * Jp);
@@ -100,16 +102,23 @@ void Articulation::factor(const Topology& topology, int tree, const std::vector<
     if (damper && damper->present) H.bottomRightCorner<3, 3>() += damper->matrix;
     Mat6* H_parent = link.parent < 0 ? nullptr : &H_[link.parent];
     switch (f.rows.count) {
-      case 3: eliminate<3>(f, J_c, J_p, H, H_parent, damper); break;
-      case 4: eliminate<4>(f, J_c, J_p, H, H_parent, damper); break;
-      case 5: eliminate<5>(f, J_c, J_p, H, H_parent, damper); break;
-      default: eliminate<6>(f, J_c, J_p, H, H_parent, damper); break;
+      case 3:
+        eliminate<3>(f, J_c, J_p, H, H_parent, damper);
+        break;
+      case 4:
+        eliminate<4>(f, J_c, J_p, H, H_parent, damper);
+        break;
+      case 5:
+        eliminate<5>(f, J_c, J_p, H, H_parent, damper);
+        break;
+      default:
+        eliminate<6>(f, J_c, J_p, H, H_parent, damper);
+        break;
     }
   }
 }
 
-void Articulation::set_bias(const Topology& topology, int tree, const std::vector<Pose>& X_WB,
-                            const std::vector<Twist>& V_WB) {
+void Articulation::set_bias(const Topology& topology, int tree, const std::vector<Pose>& X_WB, const std::vector<Twist>& V_WB) {
   const Topology::Tree& range = topology.trees[tree];
   for (int l = range.begin; l < range.end; ++l) {
     const Topology::Link& link = topology.links[l];
@@ -117,13 +126,12 @@ void Articulation::set_bias(const Topology& topology, int tree, const std::vecto
     const Joint& joint = model_.joints[link.joint];
     static const Pose kWorld;
     const bool on_world = joint.parent < 0;
-    joint_bias(joint, on_world ? kWorld : X_WB[joint.parent], X_WB[joint.child],
-               on_world ? Vec3::Zero() : V_WB[joint.parent].w, V_WB[joint.child].w, factors_[l].rows);
+    joint_bias(joint, on_world ? kWorld : X_WB[joint.parent], X_WB[joint.child], on_world ? Vec3::Zero() : V_WB[joint.parent].w,
+               V_WB[joint.child].w, factors_[l].rows);
   }
 }
 
-void Articulation::solve(const Topology& topology, int tree, std::vector<Vec6>& force, std::vector<Vec6>& a,
-                         Bias bias) const {
+void Articulation::solve(const Topology& topology, int tree, std::vector<Vec6>& force, std::vector<Vec6>& a, Bias bias) const {
   const Topology::Tree& range = topology.trees[tree];
   for (int l = range.begin; l < range.end; ++l) {
     const Topology::Link& link = topology.links[l];

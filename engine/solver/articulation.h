@@ -40,7 +40,7 @@ class Articulation {
 
   struct Factor {
     JointRows rows;
-    Mat6 X, D, E, F;              // E, F: first rows.count columns
+    Mat6 X, D, E, F;  // E, F: first rows.count columns
   };
   Factor& of_link(int link) { return factors_[link]; }
   const Factor& of_link(int link) const { return factors_[link]; }
@@ -50,8 +50,8 @@ class Articulation {
   void eliminate(Factor&, const Mat6& J_c, const Mat6& J_p, const Mat6& H, Mat6* H_parent, const JointDamper*);
 
   const Model& model_;
-  std::vector<Factor> factors_;   // per link
-  std::vector<Mat6> H_;           // per body
+  std::vector<Factor> factors_;  // per link
+  std::vector<Mat6> H_;          // per body
 };
 
 /// Inverse of a symmetric positive definite 6x6 by 3x3 blocks.

@@ -16,28 +16,28 @@ enum class ConstraintKind { contact, wheel, limit, bilateral };
 struct Constraint {
   ConstraintKind kind = ConstraintKind::contact;
   int rows = 3;
-  int body_a = -1;                    // -1: the world
+  int body_a = -1;  // -1: the world
   int body_b = -1;
-  Eigen::Matrix<double, 3, 6> J_a = Eigen::Matrix<double, 3, 6>::Zero();   // first `rows` rows
+  Eigen::Matrix<double, 3, 6> J_a = Eigen::Matrix<double, 3, 6>::Zero();  // first `rows` rows
   Eigen::Matrix<double, 3, 6> J_b = Eigen::Matrix<double, 3, 6>::Zero();
-  Vec3 point = Vec3::Zero();          // [m] world
-  Mat3 frame = Mat3::Identity();      // columns: normal, t1, t2 (contacts and wheels)
-  double gap = 0;                     // [m] or [rad]; negative: penetration, beyond the limit
-  double friction = 0;                // [-]
-  double restitution = 0;             // [-]
-  double softness = 0;                // [1/kg] added to the normal's own response: 1 / (dt (k dt + c))
-  double target = 0;                  // [m/s] what u_0 + softness * impulse must reach
-  double rolling_bound = 0;           // [N s] wheel: most that brake can give along t1
-  Vec3 impulse = Vec3::Zero();        // [N s] result, in row coordinates
-  Vec3 u_before = Vec3::Zero();       // [m/s] at the start of the step
-  Vec3 u_smooth = Vec3::Zero();       // [m/s] at its end under smooth forces alone
-  Vec3 u_free = Vec3::Zero();         // [m/s] the same with joint resistance: what the solver starts from
-  Vec3 u_after = Vec3::Zero();        // [m/s] with them
+  Vec3 point = Vec3::Zero();      // [m] world
+  Mat3 frame = Mat3::Identity();  // columns: normal, t1, t2 (contacts and wheels)
+  double gap = 0;                 // [m] or [rad]; negative: penetration, beyond the limit
+  double friction = 0;            // [-]
+  double restitution = 0;         // [-]
+  double softness = 0;            // [1/kg] added to the normal's own response: 1 / (dt (k dt + c))
+  double target = 0;              // [m/s] what u_0 + softness * impulse must reach
+  double rolling_bound = 0;       // [N s] wheel: most that brake can give along t1
+  Vec3 impulse = Vec3::Zero();    // [N s] result, in row coordinates
+  Vec3 u_before = Vec3::Zero();   // [m/s] at the start of the step
+  Vec3 u_smooth = Vec3::Zero();   // [m/s] at its end under smooth forces alone
+  Vec3 u_free = Vec3::Zero();     // [m/s] the same with joint resistance: what the solver starts from
+  Vec3 u_after = Vec3::Zero();    // [m/s] with them
   std::uint64_t key = 0;
-  int effect = 0;                     // index into Plan::active
+  int effect = 0;  // index into Plan::active
   ContactKind contact_kind = ContactKind::ground;
-  int record_a = -1, record_b = -1;   // bodies named in the record (fixed ones too)
-  int wheel = -1;                     // running number of the wheel
+  int record_a = -1, record_b = -1;  // bodies named in the record (fixed ones too)
+  int wheel = -1;                    // running number of the wheel
 };
 
 }  // namespace engine

@@ -7,9 +7,9 @@
 namespace engine {
 namespace {
 
-constexpr int kPatience = 50;       // sweeps at full length
-constexpr double kShorter = 0.5;    // [-] of the change afterwards
-constexpr double kLimitArm = 0.3;   // [m] turns the speed of a joint limit into that of a limb's end, to compare residuals
+constexpr int kPatience = 50;      // sweeps at full length
+constexpr double kShorter = 0.5;   // [-] of the change afterwards
+constexpr double kLimitArm = 0.3;  // [m] turns the speed of a joint limit into that of a limb's end, to compare residuals
 
 Vec3 solve_wheel(const Mat3& A, const Vec3& u, const Vec3& old, const Constraint& c) {
   // normal first, then the ground plane: rolling direction bounded by the brake, both by the friction circle
@@ -39,14 +39,17 @@ double natural_residual(const Constraint& c, const Vec3& u, const Mat3& A) {
   const double a = A(0, 0) + c.softness;
   const double miss = u[0] + c.softness * c.impulse[0] - c.target;
   switch (c.kind) {
-    case ConstraintKind::bilateral: return std::abs(miss);
-    case ConstraintKind::limit: return kLimitArm * std::abs(c.impulse[0] - std::max(0.0, c.impulse[0] - miss / a)) * a;
+    case ConstraintKind::bilateral:
+      return std::abs(miss);
+    case ConstraintKind::limit:
+      return kLimitArm * std::abs(c.impulse[0] - std::max(0.0, c.impulse[0] - miss / a)) * a;
     case ConstraintKind::wheel: {
       // the soft normal answers to the suspension, the road plane to the tyre: each by its own response
       const Vec3 change = solve_wheel(A, u, c.impulse, c) - c.impulse;
       return std::max(std::abs(change[0]) * a, std::hypot(change[1] * A(1, 1), change[2] * A(2, 2)));
     }
-    case ConstraintKind::contact: break;
+    case ConstraintKind::contact:
+      break;
   }
   const double rho = 1 / A.diagonal().maxCoeff();
   const double slip = std::hypot(u[1], u[2]);
@@ -81,7 +84,8 @@ Vec3 solve_one_contact(const Mat3& A, const Vec3& b, double target, double mu, c
   Vec3 impulse = Vec3::Zero();
   for (int k = 0; k < 8; ++k) {
     const double den = A(0, 0) - mu * A_nt.dot(c);
-    if (den <= 1e-12 * A(0, 0)) {   // Painleve: no slip of this direction can hold the target; take the sticking impulse cut to the cone
+    if (den <=
+        1e-12 * A(0, 0)) {  // Painleve: no slip of this direction can hold the target; take the sticking impulse cut to the cone
       return project_to_cone(stick, mu);
     }
     const double normal = (target - b[0]) / den;
@@ -152,8 +156,7 @@ void ContactSolver::add_to_velocity(int column, int rows, const Vec3& change) {
   }
 }
 
-SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance,
-                                 int max_sweeps) {
+SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance, int max_sweeps) {
   const int count = static_cast<int>(members.size());
   for (int i = 0; i < count; ++i)
     for (int r = 0; r < all[members[i]].rows; ++r) u_[offset_[i] + r] = all[members[i]].u_free[r];
@@ -189,7 +192,9 @@ SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector
           next = solve_one_contact(soft, b, c.target, c.friction, c.impulse);
           break;
         }
-        case ConstraintKind::wheel: next = solve_wheel(A, u, c.impulse, c); break;
+        case ConstraintKind::wheel:
+          next = solve_wheel(A, u, c.impulse, c);
+          break;
         case ConstraintKind::limit:
         case ConstraintKind::bilateral: {
           next[0] = c.impulse[0] + (c.target - u[0] - c.softness * c.impulse[0]) / (A(0, 0) + c.softness);
@@ -200,7 +205,8 @@ SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector
           break;
         }
       }
-      // contacts that chase each other between slip and stick come together with shorter steps; the cone is convex, so they stay in it
+      // contacts that chase each other between slip and stick come together with shorter steps; the cone is convex, so they stay in
+      // it
       if (report.sweeps > kPatience) next = c.impulse + kShorter * (next - c.impulse);
       const Vec3 change = next - c.impulse;
       if (change.squaredNorm() == 0) continue;

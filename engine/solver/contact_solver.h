@@ -1,8 +1,9 @@
 // Impulses of all contacts, limits and wheels of an island at once: Signorini's condition and the exact Coulomb cone, eq. (61).
 //
 //   u = G L + u_free,   u_n + s L_n >= t,  L_n >= 0,  L_n (u_n + s L_n - t) = 0,   |L_t| <= mu L_n, L_t against u_t
-// G = J K^-1 J^T through the joint factorisation (eq. (63) with K for M), s softness, t target. Block Gauss-Seidel, each contact solved exactly for given
-// others: open, stick, or slip along the direction c that its own slip then has (Newton on c, no trigonometry).
+// G = J K^-1 J^T through the joint factorisation (eq. (63) with K for M), s softness, t target. Block Gauss-Seidel, each contact
+// solved exactly for given others: open, stick, or slip along the direction c that its own slip then has (Newton on c, no
+// trigonometry).
 #pragma once
 
 #include <vector>
@@ -14,7 +15,7 @@ namespace engine {
 
 struct SolveReport {
   int sweeps = 0;
-  double residual = 0;   // [m/s] natural map, largest over the blocks
+  double residual = 0;  // [m/s] natural map, largest over the blocks
 };
 
 class ContactSolver {
@@ -32,8 +33,8 @@ class ContactSolver {
   void add_to_velocity(int column, int rows, const Vec3& change);
 
   int size_ = 0;
-  std::vector<int> offset_;       // per member
-  std::vector<double> G_;         // column-major size_ x size_
+  std::vector<int> offset_;  // per member
+  std::vector<double> G_;    // column-major size_ x size_
   std::vector<double> u_;
   std::vector<Eigen::Matrix<double, 3, 6>> Y_;
 };

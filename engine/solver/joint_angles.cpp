@@ -6,7 +6,7 @@
 namespace engine {
 namespace {
 
-constexpr double kSmallAngle = 1e-4;   // [rad] below it the series of sin(x)/x and the like hold to 1e-17
+constexpr double kSmallAngle = 1e-4;  // [rad] below it the series of sin(x)/x and the like hold to 1e-17
 
 /// Left Jacobian of the rotation vector: w = J phi'.
 Mat3 left_jacobian(const Vec3& phi) {
@@ -44,7 +44,8 @@ JointAngles joint_angles(const Joint& joint, const Pose& X_WP, const Pose& X_WC)
   const Mat3 R_WFp = q_WFp.toRotationMatrix();
   JointAngles out;
   switch (joint.kind) {
-    case JointKind::fixed: return out;
+    case JointKind::fixed:
+      return out;
     case JointKind::revolute: {
       const double sign = q.w() < 0 ? -1 : 1;
       out.angle[1] = 2 * std::atan2(sign * q.y(), sign * q.w());
@@ -62,7 +63,8 @@ JointAngles joint_angles(const Joint& joint, const Pose& X_WP, const Pose& X_WC)
       out.free[0] = out.free[1] = true;
       return out;
     }
-    default: return swing_twist(q, R_WFp);
+    default:
+      return swing_twist(q, R_WFp);
   }
 }
 

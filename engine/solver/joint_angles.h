@@ -10,9 +10,9 @@
 namespace engine {
 
 struct JointAngles {
-  Vec3 angle = Vec3::Zero();         // [rad] swing x, swing y, twist z
-  Mat3 gradient_W = Mat3::Zero();    // column i: rate of angle i = column i . (w_C - w_P), world
-  bool free[3] = {false, false, false};   // which of the three this joint kind has
+  Vec3 angle = Vec3::Zero();             // [rad] swing x, swing y, twist z
+  Mat3 gradient_W = Mat3::Zero();        // column i: rate of angle i = column i . (w_C - w_P), world
+  bool free[3] = {false, false, false};  // which of the three this joint kind has
 };
 
 JointAngles joint_angles(const Joint&, const Pose& X_WP, const Pose& X_WC);

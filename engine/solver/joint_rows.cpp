@@ -4,8 +4,8 @@ namespace engine {
 namespace {
 
 struct AxisPair {
-  int parent_axis;   // column of R_WFp
-  int child_axis;    // column of R_WFc
+  int parent_axis;  // column of R_WFp
+  int child_axis;   // column of R_WFc
 };
 constexpr AxisPair kRevolute[] = {{0, 1}, {2, 1}};
 constexpr AxisPair kUniversal[] = {{1, 0}};
@@ -13,10 +13,14 @@ constexpr AxisPair kFixed[] = {{0, 1}, {1, 2}, {2, 0}};
 
 const AxisPair* axis_pairs(JointKind kind) {
   switch (kind) {
-    case JointKind::revolute: return kRevolute;
-    case JointKind::universal: return kUniversal;
-    case JointKind::fixed: return kFixed;
-    default: return nullptr;
+    case JointKind::revolute:
+      return kRevolute;
+    case JointKind::universal:
+      return kUniversal;
+    case JointKind::fixed:
+      return kFixed;
+    default:
+      return nullptr;
   }
 }
 
@@ -24,10 +28,14 @@ const AxisPair* axis_pairs(JointKind kind) {
 
 int row_count(JointKind kind) {
   switch (kind) {
-    case JointKind::revolute: return 5;
-    case JointKind::universal: return 4;
-    case JointKind::fixed: return 6;
-    default: return 3;
+    case JointKind::revolute:
+      return 5;
+    case JointKind::universal:
+      return 4;
+    case JointKind::fixed:
+      return 6;
+    default:
+      return 3;
   }
 }
 

@@ -13,10 +13,10 @@ constexpr int kMaxJointRows = 6;
 
 struct JointRows {
   int count = 0;
-  Mat6 J_P;      // first `count` rows, on (v, w) of the parent
-  Mat6 J_C;      // on (v, w) of the child
-  Vec6 error;    // C(q) [m], [-]
-  Vec6 bias;     // g [m/s^2], [1/s^2]
+  Mat6 J_P;    // first `count` rows, on (v, w) of the parent
+  Mat6 J_C;    // on (v, w) of the child
+  Vec6 error;  // C(q) [m], [-]
+  Vec6 bias;   // g [m/s^2], [1/s^2]
 };
 
 int row_count(JointKind);

@@ -21,10 +21,10 @@ class Response {
   const std::vector<int>& touched() const { return touched_; }
 
  private:
-  std::vector<int> slot_of_body_;      // place of a body in its tree's list, -1: not marked
-  std::vector<std::vector<int>> marked_;   // per tree: bodies marked with all their ancestors
-  std::vector<int> trees_;             // trees with marks
-  std::vector<std::size_t> base_;      // per tree, into blocks_
+  std::vector<int> slot_of_body_;         // place of a body in its tree's list, -1: not marked
+  std::vector<std::vector<int>> marked_;  // per tree: bodies marked with all their ancestors
+  std::vector<int> trees_;                // trees with marks
+  std::vector<std::size_t> base_;         // per tree, into blocks_
   std::vector<Mat6> blocks_;
   std::vector<int> touched_;
 };

@@ -129,8 +129,8 @@ double joint_velocity_errors(World& world, int tree, const std::vector<Twist>& V
 
 double project_joints(World& world, std::vector<Pose>& X, std::vector<Twist>& V, std::vector<Vec6>& force,
                       std::vector<Vec6>& result) {
-  constexpr double kTight = 1e-11;   // [m] and [-]: below it rounding is all there is to remove
-  constexpr double kGood = 1e-8;     // [m] what one Newton step leaves is usually far below
+  constexpr double kTight = 1e-11;  // [m] and [-]: below it rounding is all there is to remove
+  constexpr double kGood = 1e-8;    // [m] what one Newton step leaves is usually far below
   const Topology& topology = world.topology;
   double left = 0;
   for (const int tree : world.active_trees) {

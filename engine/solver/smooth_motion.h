@@ -20,7 +20,7 @@ class SmoothMotion {
 
  private:
   struct Stage {
-    std::vector<Vec6> a;                     // dv, dw
+    std::vector<Vec6> a;  // dv, dw
     std::vector<Eigen::Vector4d> dq;
     std::vector<Twist> V;
   };

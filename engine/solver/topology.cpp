@@ -28,20 +28,20 @@ class DisjointSets {
 
 struct Branch {
   int joint;
-  int other;           // body at the far end
+  int other;  // body at the far end
   bool other_is_child;
 };
 
 struct Forest {
-  std::vector<std::vector<Branch>> branches;   // per body
-  std::vector<int> world_joint;                // per body, -1: none
+  std::vector<std::vector<Branch>> branches;  // per body
+  std::vector<int> world_joint;               // per body, -1: none
 };
 
 Forest plant(const Model& model, const std::vector<char>& broken, std::vector<int>& loops) {
   const int n = static_cast<int>(model.bodies.size());
   auto grounded = [&](int b) { return b < 0 || model.bodies[b].fixed; };
   Forest forest{std::vector<std::vector<Branch>>(n), std::vector<int>(n, -1)};
-  DisjointSets sets(n + 1);                    // slot n is the world
+  DisjointSets sets(n + 1);  // slot n is the world
   for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
     if (!broken.empty() && broken[j]) continue;
     const int a = grounded(model.joints[j].parent) ? n : model.joints[j].parent;

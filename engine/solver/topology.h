@@ -17,14 +17,14 @@ struct Topology {
     int tree = 0;
   };
   struct Tree {
-    int begin = 0, end = 0;           // into links: leaves first, root last
+    int begin = 0, end = 0;  // into links: leaves first, root last
     int person = -1;
   };
   std::vector<Link> links;
   std::vector<Tree> trees;
-  std::vector<int> tree_of_body;      // -1: a fixed body
-  std::vector<int> link_of_body;      // -1: a fixed body
-  std::vector<int> loops;             // joint indices
+  std::vector<int> tree_of_body;  // -1: a fixed body
+  std::vector<int> link_of_body;  // -1: a fixed body
+  std::vector<int> loops;         // joint indices
 };
 
 /// `broken` (per joint, may be empty) names joints that no longer hold.

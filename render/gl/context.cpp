@@ -6,8 +6,17 @@
 namespace render {
 
 GlContext::GlContext(int width, int height) : buffer_(static_cast<std::size_t>(4 * width * height)) {
-  const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 24, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
-                            OSMESA_CONTEXT_MAJOR_VERSION, 3, OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
+  const int attributes[] = {OSMESA_FORMAT,
+                            OSMESA_RGBA,
+                            OSMESA_DEPTH_BITS,
+                            24,
+                            OSMESA_PROFILE,
+                            OSMESA_CORE_PROFILE,
+                            OSMESA_CONTEXT_MAJOR_VERSION,
+                            3,
+                            OSMESA_CONTEXT_MINOR_VERSION,
+                            3,
+                            0};
   const OSMesaContext context = OSMesaCreateContextAttribs(attributes, nullptr);
   if (!context) throw RenderError("cannot create an off-screen OpenGL 3.3 context: is libosmesa6 installed?");
   context_ = context;

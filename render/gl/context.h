@@ -8,7 +8,7 @@ namespace render {
 
 class GlContext {
  public:
-  GlContext(int width, int height);   // throws RenderError
+  GlContext(int width, int height);  // throws RenderError
   ~GlContext();
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
@@ -16,7 +16,7 @@ class GlContext {
 
  private:
   void* context_ = nullptr;
-  std::vector<unsigned char> buffer_;   // OSMesa wants one to be current; pictures are read from our own framebuffer
+  std::vector<unsigned char> buffer_;  // OSMesa wants one to be current; pictures are read from our own framebuffer
 };
 
 }  // namespace render

@@ -2,5 +2,5 @@
 #pragma once
 
 #define GL_GLEXT_PROTOTYPES
-#include <GL/osmesa.h>
 #include <GL/glext.h>
+#include <GL/osmesa.h>

@@ -10,8 +10,8 @@
 namespace render::gl {
 namespace {
 
-constexpr int kFloats = 12;               // per vertex: clip 3, tint 4, shape 3, extent 2
-constexpr float kNear = 0.05f;            // clip w below which a point is behind the camera
+constexpr int kFloats = 12;     // per vertex: clip 3, tint 4, shape 3, extent 2
+constexpr float kNear = 0.05f;  // clip w below which a point is behind the camera
 const Float4 kOutline{0.05f, 0.05f, 0.06f, 0.85f};
 
 }  // namespace
@@ -80,8 +80,18 @@ void OverlayPass::capsule(const Pixel& a, const Pixel& b, float half_a, float ha
   auto vertex = [&](const Pixel& p, float half, float along_sign, float side) {
     const float across = side * (half + pad), along = along_sign * (half + pad);
     const float at = along_sign < 0 ? -(half + pad) : length + half + pad;
-    const float values[kFloats] = {p.x + dx * along - dy * across, p.y + dy * along + dx * across, std::clamp(p.z, 0.f, 1.f),
-                                   colour[0], colour[1], colour[2], colour[3], across, at, half, length, 0};
+    const float values[kFloats] = {p.x + dx * along - dy * across,
+                                   p.y + dy * along + dx * across,
+                                   std::clamp(p.z, 0.f, 1.f),
+                                   colour[0],
+                                   colour[1],
+                                   colour[2],
+                                   colour[3],
+                                   across,
+                                   at,
+                                   half,
+                                   length,
+                                   0};
     vertices_.insert(vertices_.end(), values, values + kFloats);
   };
   vertex(a, half_a, -1, -1);
@@ -126,8 +136,10 @@ void OverlayPass::flush(bool depth_tested) {
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
-  if (depth_tested) glEnable(GL_DEPTH_TEST);
-  else glDisable(GL_DEPTH_TEST);
+  if (depth_tested)
+    glEnable(GL_DEPTH_TEST);
+  else
+    glDisable(GL_DEPTH_TEST);
   glBindVertexArray(array_);
   glBindBuffer(GL_ARRAY_BUFFER, buffer_);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices_.size() * sizeof(float)), vertices_.data(), GL_STREAM_DRAW);

@@ -28,14 +28,17 @@ using gl::VertexBuffer;
 struct Settings {
   int samples, supersample, shadow_size, shadow_taps;
   float shadow_blur;
-  double tolerance;   // [m] of tessellation
+  double tolerance;  // [m] of tessellation
 };
 
 Settings settings_of(Quality quality) {
   switch (quality) {
-    case Quality::draft: return {1, 1, 1024, 4, 1.2f, 2e-3};
-    case Quality::fine: return {4, 2, 4096, 16, 3.5f, 3e-4};
-    default: return {4, 1, 2048, 12, 1.8f, 8e-4};
+    case Quality::draft:
+      return {1, 1, 1024, 4, 1.2f, 2e-3};
+    case Quality::fine:
+      return {4, 2, 4096, 16, 3.5f, 3e-4};
+    default:
+      return {4, 1, 2048, 12, 1.8f, 8e-4};
   }
 }
 
@@ -101,7 +104,7 @@ struct Renderer::Impl {
   }
 
   struct CachedMesh {
-    std::shared_ptr<const Mesh> keep;   // its address is the key: it must not be reused
+    std::shared_ptr<const Mesh> keep;  // its address is the key: it must not be reused
     VertexBuffer buffer;
     MeshBounds bounds;
   };
@@ -320,7 +323,9 @@ void Renderer::Impl::draw_objects(const DrawList& list, const Vec3& sun, const M
 
 Renderer::Renderer(int width, int height, Quality quality) : impl_(std::make_unique<Impl>(width, height, quality)) {}
 Renderer::~Renderer() = default;
-std::string Renderer::timings() const { return impl_->timings; }
+std::string Renderer::timings() const {
+  return impl_->timings;
+}
 
 void Renderer::draw(const DrawList& list, Image& out) {
   using Clock = std::chrono::steady_clock;
@@ -353,6 +358,8 @@ void Renderer::draw(const DrawList& list, Image& out) {
   r.timings = "shadow " + ms(start, shadowed) + " ms, picture " + ms(shadowed, drawn) + " ms, labels " + ms(drawn, done) + " ms";
 }
 
-std::string gl_description() { return GlContext(16, 16).description(); }
+std::string gl_description() {
+  return GlContext(16, 16).description();
+}
 
 }  // namespace render

@@ -41,14 +41,30 @@ Program::Program(const std::string& vertex, const std::string& fragment) : id_(g
   }
 }
 
-Program::~Program() { glDeleteProgram(id_); }
-void Program::use() const { glUseProgram(id_); }
-int Program::location(const char* name) const { return glGetUniformLocation(id_, name); }
-void Program::set(const char* name, int value) const { glUniform1i(location(name), value); }
-void Program::set(const char* name, float value) const { glUniform1f(location(name), value); }
-void Program::set(const char* name, const Float3& v) const { glUniform3f(location(name), v[0], v[1], v[2]); }
-void Program::set(const char* name, float x, float y) const { glUniform2f(location(name), x, y); }
-void Program::set(const char* name, const Matrix4& value) const { glUniformMatrix4fv(location(name), 1, GL_FALSE, value.data()); }
+Program::~Program() {
+  glDeleteProgram(id_);
+}
+void Program::use() const {
+  glUseProgram(id_);
+}
+int Program::location(const char* name) const {
+  return glGetUniformLocation(id_, name);
+}
+void Program::set(const char* name, int value) const {
+  glUniform1i(location(name), value);
+}
+void Program::set(const char* name, float value) const {
+  glUniform1f(location(name), value);
+}
+void Program::set(const char* name, const Float3& v) const {
+  glUniform3f(location(name), v[0], v[1], v[2]);
+}
+void Program::set(const char* name, float x, float y) const {
+  glUniform2f(location(name), x, y);
+}
+void Program::set(const char* name, const Matrix4& value) const {
+  glUniformMatrix4fv(location(name), 1, GL_FALSE, value.data());
+}
 
 VertexBuffer::VertexBuffer() {
   glGenVertexArrays(1, &array_);

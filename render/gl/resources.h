@@ -12,7 +12,7 @@ namespace render::gl {
 /// A linked program; uniforms are set by name.
 class Program {
  public:
-  Program(const std::string& vertex, const std::string& fragment);   // throws RenderError with the compiler's words
+  Program(const std::string& vertex, const std::string& fragment);  // throws RenderError with the compiler's words
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;

@@ -3,7 +3,7 @@
 
 namespace render::shaders {
 
-extern const char* const kCommon;        // light, sky, shadow, tone mapping: prefixed to the two below
+extern const char* const kCommon;  // light, sky, shadow, tone mapping: prefixed to the two below
 extern const char* const kObjectVertex;
 extern const char* const kObjectFragment;
 extern const char* const kShadowVertex;

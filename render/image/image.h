@@ -9,7 +9,7 @@ namespace render {
 struct Image {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> rgba;   // 4 * width * height
+  std::vector<std::uint8_t> rgba;  // 4 * width * height
 };
 
 }  // namespace render

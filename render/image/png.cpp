@@ -16,14 +16,15 @@
 namespace render {
 namespace {
 
-constexpr png_uint_32 kLargest = 16384;   // [pixels] a side
+constexpr png_uint_32 kLargest = 16384;  // [pixels] a side
 
 struct FileCloser {
   void operator()(std::FILE* f) const { std::fclose(f); }
 };
 using FilePtr = std::unique_ptr<std::FILE, FileCloser>;
 
-/// libpng reports by a callback that must not return: the message leaves as an exception, which its C code lets pass (built with unwind tables).
+/// libpng reports by a callback that must not return: the message leaves as an exception, which its C code lets pass (built with
+/// unwind tables).
 [[noreturn]] void fail(png_structp png, png_const_charp message) {
   throw RenderError(std::string(static_cast<const char*>(png_get_error_ptr(png))) + ": " + message);
 }
@@ -43,8 +44,8 @@ void write_png(const std::filesystem::path& path, const Image& image, const Text
     png_set_compression_level(png, 1);
     png_set_compression_strategy(png, Z_RLE);
     png_set_filter(png, 0, PNG_FILTER_SUB);
-    png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB_ALPHA,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
+                 PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     std::vector<png_text> chunks;
     for (const auto& [key, value] : text) {
@@ -58,7 +59,8 @@ void write_png(const std::filesystem::path& path, const Image& image, const Text
     if (!chunks.empty()) png_set_text(png, info, chunks.data(), static_cast<int>(chunks.size()));
     png_write_info(png, info);
     for (int y = 0; y < image.height; ++y)
-      png_write_row(png, const_cast<png_bytep>(image.rgba.data() + static_cast<std::size_t>(4 * image.width) * static_cast<std::size_t>(y)));
+      png_write_row(
+          png, const_cast<png_bytep>(image.rgba.data() + static_cast<std::size_t>(4 * image.width) * static_cast<std::size_t>(y)));
     png_write_end(png, info);
     png_destroy_write_struct(&png, &info);
     if (std::fflush(file.get()) != 0 || fsync(fileno(file.get())) != 0) throw RenderError(what + ": " + std::strerror(errno));
@@ -95,7 +97,8 @@ Image read_png(const std::filesystem::path& path, TextChunks* text) {
     image.height = static_cast<int>(png_get_image_height(png, info));
     image.rgba.resize(png_get_rowbytes(png, info) * static_cast<std::size_t>(image.height));
     std::vector<png_bytep> rows;
-    for (int y = 0; y < image.height; ++y) rows.push_back(image.rgba.data() + png_get_rowbytes(png, info) * static_cast<std::size_t>(y));
+    for (int y = 0; y < image.height; ++y)
+      rows.push_back(image.rgba.data() + png_get_rowbytes(png, info) * static_cast<std::size_t>(y));
     png_read_image(png, rows.data());
     png_read_end(png, info);
     if (text) {

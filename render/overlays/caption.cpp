@@ -67,8 +67,10 @@ void add_scale_bar(const Frame& frame, DrawList& list) {
   const double seen = list.view.vertical_extent;
   const double wanted = seen / 5;
   double length = std::pow(10, std::floor(std::log10(wanted)));
-  if (length * 5 <= wanted) length *= 5;
-  else if (length * 2 <= wanted) length *= 2;
+  if (length * 5 <= wanted)
+    length *= 5;
+  else if (length * 2 <= wanted)
+    length *= 2;
   const Mat4 to_world = from_gl(list.view.world_to_eye).inverse();
   auto on_ground = [&](double right, double up) -> Vec3 {
     const Eigen::Vector4d p = to_world * Eigen::Vector4d(right, up, 0, 1);

@@ -10,12 +10,14 @@
 namespace render {
 namespace {
 
-constexpr double kLeast = 50;          // [N] below it nothing is drawn: a resting contact of a hand
-constexpr double kLinearTo = 1.2;      // [m] longer arrows grow with the logarithm only, so that they stay in the picture
-constexpr double kNormalLength = 0.10; // [m]
-constexpr double kHold = 0.08;         // [s] the largest contact keeps its label this long, to be read
+constexpr double kLeast = 50;           // [N] below it nothing is drawn: a resting contact of a hand
+constexpr double kLinearTo = 1.2;       // [m] longer arrows grow with the logarithm only, so that they stay in the picture
+constexpr double kNormalLength = 0.10;  // [m]
+constexpr double kHold = 0.08;          // [s] the largest contact keeps its label this long, to be read
 
-bool of_interest(const engine::ContactRecord& c) { return c.normal_force > kLeast; }
+bool of_interest(const engine::ContactRecord& c) {
+  return c.normal_force > kLeast;
+}
 
 void add_contacts(const Frame& frame, DrawList& list) {
   for (const auto& c : frame.now.contacts) {
@@ -34,7 +36,9 @@ double arrow_length(double force, double newtons_per_metre) {
   return linear <= kLinearTo ? linear : kLinearTo * (1 + 0.4 * std::log(linear / kLinearTo));
 }
 
-std::string newtons(double force) { return force >= 1000 ? fmt::format("{:.1f} kN", force / 1000) : fmt::format("{:.0f} N", force); }
+std::string newtons(double force) {
+  return force >= 1000 ? fmt::format("{:.1f} kN", force / 1000) : fmt::format("{:.0f} N", force);
+}
 
 void add_forces(const Frame& frame, DrawList& list) {
   const engine::ContactRecord* largest = nullptr;
@@ -71,7 +75,7 @@ void add_forces(const Frame& frame, DrawList& list) {
   label.colours = {{1, 1, 1, 1}, {1, 0.68f, 0.25f, 1}};
   label.at_world_point = true;
   label.world = to_float(largest->point + Vec3(0, 0, 0.35));
-  label.pivot = {-0.9f, 2.1f};   // clear of the figure it speaks of
+  label.pivot = {-0.9f, 2.1f};  // clear of the figure it speaks of
   list.labels.push_back(label);
 }
 

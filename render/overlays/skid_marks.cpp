@@ -7,8 +7,8 @@
 namespace render {
 namespace {
 
-constexpr double kHalfWidth = 0.09;   // [m] of the mark
-constexpr double kSlip = 0.3;         // [m/s] below it a tyre leaves nothing
+constexpr double kHalfWidth = 0.09;  // [m] of the mark
+constexpr double kSlip = 0.3;        // [m/s] below it a tyre leaves nothing
 
 void add(const Frame& frame, DrawList& list) {
   const auto& snapshots = frame.recording.snapshots;

@@ -7,7 +7,7 @@
 namespace render {
 namespace {
 
-constexpr double kSpacing = 0.02;   // [s] between points
+constexpr double kSpacing = 0.02;  // [s] between points
 
 bool wanted(const Frame& frame, const std::string& body) {
   const auto& named = frame.stage.overlays.trace_bodies;

@@ -15,12 +15,18 @@ using engine::Vec3;
 Vec3 on_cube(int face, double u, double v) {
   const double a = std::tan(u * std::numbers::pi / 4), b = std::tan(v * std::numbers::pi / 4);
   switch (face) {
-    case 0: return {1, a, b};
-    case 1: return {-1, -a, b};
-    case 2: return {-a, 1, b};
-    case 3: return {a, -1, b};
-    case 4: return {-b, a, 1};
-    default: return {b, a, -1};
+    case 0:
+      return {1, a, b};
+    case 1:
+      return {-1, -a, b};
+    case 2:
+      return {-a, 1, b};
+    case 3:
+      return {a, -1, b};
+    case 4:
+      return {-b, a, 1};
+    default:
+      return {b, a, -1};
   }
 }
 
@@ -28,7 +34,7 @@ Vec3 on_cube(int face, double u, double v) {
 
 Tessellation tessellate(const engine::HyperEllipsoid& shape, int cells) {
   Tessellation out;
-  std::map<std::array<long, 3>, std::uint32_t> known;   // faces share their borders
+  std::map<std::array<long, 3>, std::uint32_t> known;  // faces share their borders
   auto vertex = [&](int face, int i, int j) {
     const Vec3 cube = on_cube(face, 2.0 * i / cells - 1, 2.0 * j / cells - 1);
     const Vec3 p = engine::radial_point(shape, shape.semi_axes.cwiseProduct(cube));
@@ -46,7 +52,8 @@ Tessellation tessellate(const engine::HyperEllipsoid& shape, int cells) {
   for (int face = 0; face < 6; ++face)
     for (int i = 0; i < cells; ++i)
       for (int j = 0; j < cells; ++j) {
-        const std::uint32_t a = vertex(face, i, j), b = vertex(face, i + 1, j), c = vertex(face, i + 1, j + 1), d = vertex(face, i, j + 1);
+        const std::uint32_t a = vertex(face, i, j), b = vertex(face, i + 1, j), c = vertex(face, i + 1, j + 1),
+                            d = vertex(face, i, j + 1);
         for (const std::uint32_t index : {a, b, c, a, c, d}) out.indices.push_back(index);
       }
   return out;

@@ -1,4 +1,5 @@
-// Triangles of a hyper-ellipsoid: a cube's grid pushed out along rays to the surface, so that n = 30 gets its edges and n = 2 no poles.
+// Triangles of a hyper-ellipsoid: a cube's grid pushed out along rays to the surface, so that n = 30 gets its edges and n = 2 no
+// poles.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 namespace render {
 
 struct Tessellation {
-  std::vector<float> positions;   // xyz, body axes
+  std::vector<float> positions;  // xyz, body axes
   std::vector<float> normals;
   std::vector<std::uint32_t> indices;
 };
@@ -17,7 +18,8 @@ struct Tessellation {
 /// `cells` per cube edge: 6 * cells^2 * 2 triangles, closed, counter-clockwise seen from outside.
 Tessellation tessellate(const engine::HyperEllipsoid&, int cells);
 
-/// Largest distance [m] along the radius from triangles to surface, at centroids and middles of edges; never less than the true gap there.
+/// Largest distance [m] along the radius from triangles to surface, at centroids and middles of edges; never less than the true gap
+/// there.
 double largest_gap(const engine::HyperEllipsoid&, const Tessellation&);
 
 /// Fewest cells of a ladder up to 56 whose largest gap stays below `tolerance` [m], else 56. Measured, so call it once a shape.

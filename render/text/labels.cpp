@@ -12,7 +12,7 @@
 namespace render {
 namespace {
 
-constexpr double kPadX = 14, kPadY = 9, kGap = 4;   // pixels at 1080 lines
+constexpr double kPadX = 14, kPadY = 9, kGap = 4;  // pixels at 1080 lines
 
 struct SurfaceDeleter {
   void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
@@ -100,7 +100,7 @@ void draw_one(cairo_t* c, const LabelItem& label, const PanelBox& box, double sc
   for (std::size_t i = 0; i < label.lines.size(); ++i) {
     const Line line(c, label.lines[i], label.sizes[i] * scale);
     const double x = std::round(box.x + kPadX * scale);
-    if (!label.plate) {   // a soft dark edge keeps bare text readable on any ground
+    if (!label.plate) {  // a soft dark edge keeps bare text readable on any ground
       cairo_set_source_rgba(c, 0, 0, 0, 0.55);
       cairo_move_to(c, x + 1, std::round(y) + 1);
       pango_cairo_show_layout(c, line.layout());

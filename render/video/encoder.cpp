@@ -19,7 +19,7 @@ extern "C" {
 namespace render {
 namespace {
 
-constexpr int kEncoderThreads = 2;   // pinned: the file's bytes depend on it
+constexpr int kEncoderThreads = 2;  // pinned: the file's bytes depend on it
 
 void check(int code, const std::string& what) {
   if (code >= 0) return;
@@ -29,7 +29,8 @@ void check(int code, const std::string& what) {
 }
 
 /// Copies the fragmented file into one with its index in front.
-void remux(const std::string& from, const std::string& to, std::int64_t frames, const std::map<std::string, std::string>& metadata) {
+void remux(const std::string& from, const std::string& to, std::int64_t frames,
+           const std::map<std::string, std::string>& metadata) {
   AVFormatContext* in = nullptr;
   AVFormatContext* out = nullptr;
   check(avformat_open_input(&in, from.c_str(), nullptr, nullptr), "cannot read back " + from);
@@ -80,7 +81,8 @@ void rgba_to_i420(const Image& image, std::uint8_t* out) {
   // BT.709 limited range in 16-bit fixed point: 219/255 * (0.2126, 0.7152, 0.0722)
   for (int y = 0; y < h; ++y) {
     const std::uint8_t* p = image.rgba.data() + static_cast<std::size_t>(4 * w) * static_cast<std::size_t>(y);
-    for (int x = 0; x < w; ++x, p += 4) *Y++ = static_cast<std::uint8_t>((11966 * p[0] + 40254 * p[1] + 4064 * p[2] + 32768) / 65536 + 16);
+    for (int x = 0; x < w; ++x, p += 4)
+      *Y++ = static_cast<std::uint8_t>((11966 * p[0] + 40254 * p[1] + 4064 * p[2] + 32768) / 65536 + 16);
   }
   for (int y = 0; y + 1 < h; y += 2) {
     const std::uint8_t* a = image.rgba.data() + static_cast<std::size_t>(4 * w) * static_cast<std::size_t>(y);
@@ -190,7 +192,8 @@ void VideoEncoder::append(const std::uint8_t* i420) {
   check(av_frame_make_writable(m.frame), "cannot encode " + m.output.string());
   for (int plane = 0; plane < 3; ++plane) {
     const int w = plane ? m.codec->width / 2 : m.codec->width, h = plane ? m.codec->height / 2 : m.codec->height;
-    for (int y = 0; y < h; ++y, i420 += w) std::memcpy(m.frame->data[plane] + y * m.frame->linesize[plane], i420, static_cast<std::size_t>(w));
+    for (int y = 0; y < h; ++y, i420 += w)
+      std::memcpy(m.frame->data[plane] + y * m.frame->linesize[plane], i420, static_cast<std::size_t>(w));
   }
   m.frame->pts = m.next++;
   check(avcodec_send_frame(m.codec, m.frame), "cannot encode " + m.output.string());

@@ -17,8 +17,10 @@ void rgba_to_i420(const Image&, std::uint8_t* out);
 
 class VideoEncoder {
  public:
-  /// Sizes must be even (RenderError names the next even one). Writes fragments to OUT.part: a kill leaves what was encoded readable.
-  VideoEncoder(const std::filesystem::path& output, int width, int height, double fps, const std::map<std::string, std::string>& metadata);
+  /// Sizes must be even (RenderError names the next even one). Writes fragments to OUT.part: a kill leaves what was encoded
+  /// readable.
+  VideoEncoder(const std::filesystem::path& output, int width, int height, double fps,
+               const std::map<std::string, std::string>& metadata);
   ~VideoEncoder();
   VideoEncoder(const VideoEncoder&) = delete;
   VideoEncoder& operator=(const VideoEncoder&) = delete;

@@ -69,8 +69,7 @@ render::MaterialKind read_material_kind(Reader&, std::string_view key);
        "",                                                                                                                     \
        "Ratio of separating to closing normal speed, sets both kinds below. Of two objects the larger acts.",                  \
        kShare},                                                                                                                \
-      {"restitution_body", Type::schedule, Dimension::none, "", "The same against every other object.", kShare},               \
-  {                                                                                                                            \
+      {"restitution_body", Type::schedule, Dimension::none, "", "The same against every other object.", kShare}, {             \
     "restitution_ground", Type::schedule, Dimension::none, "", "The same against the ground.", kShare                          \
   }
 

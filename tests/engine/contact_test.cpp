@@ -36,7 +36,7 @@ TEST_P(StepSize, HeldOnASlopeItDoesNotCreepAndAboveItSlidesAsItShould) {
   const double slope = 0.5;
   for (const double factor : {1.001, 0.999}) {
     Model model = on_ground(11, GetParam());
-    model.settings.gravity = 9.81 * Vec3(std::sin(slope), 0, -std::cos(slope));   // the plane stays level, gravity leans
+    model.settings.gravity = 9.81 * Vec3(std::sin(slope), 0, -std::cos(slope));  // the plane stays level, gravity leans
     const double mu = std::tan(slope) * factor;
     model.bodies = {puck(mu)};
     const Recording run = simulate(model);
@@ -72,7 +72,8 @@ TEST_P(StepSize, BallRisesToTheSquareOfRestitution) {
 }
 
 TEST(Throw, SlidesToTheDistanceOfCoulombImpulses) {
-  // s = (v cos + mu v sin)^2 / (2 mu g) + mu H: friction acts in the landing impulse too. A body that cannot turn stands for a point.
+  // s = (v cos + mu v sin)^2 / (2 mu g) + mu H: friction acts in the landing impulse too. A body that cannot turn stands for a
+  // point.
   for (const double mu : {0.4, 0.6, 0.8}) {
     for (const double degrees : {0.0, 20.0, 40.0}) {
       const double theta = degrees * std::numbers::pi / 180, v = 11, H = 1;
@@ -126,7 +127,7 @@ TEST(OneContact, SolvesSignoriniAndCoulomb) {
     const double mu = std::abs(normal(random)) * 0.5, target = 0.1 * normal(random);
     const Vec3 L = solve_one_contact(A, b, target, mu, Vec3::Zero());
     const Vec3 u = A * L + b;
-    if (A(0, 0) - mu * std::hypot(A(0, 1), A(0, 2)) <= 0.05 * A(0, 0)) continue;   // near Painleve a solution need not be unique
+    if (A(0, 0) - mu * std::hypot(A(0, 1), A(0, 2)) <= 0.05 * A(0, 0)) continue;  // near Painleve a solution need not be unique
     const double slip = std::hypot(u[1], u[2]);
     const double rho = 1 / A.diagonal().maxCoeff();
     const Vec3 map = project_to_cone(L - rho * Vec3(u[0] - target + mu * slip, u[1], u[2]), mu);

@@ -19,7 +19,9 @@ inline Body solid(const HyperEllipsoid& shape, double mass, const Vec3& at) {
   return body;
 }
 
-inline Body ball(double radius, double mass, const Vec3& at) { return solid({Vec3::Constant(radius), 2}, mass, at); }
+inline Body ball(double radius, double mass, const Vec3& at) {
+  return solid({Vec3::Constant(radius), 2}, mass, at);
+}
 
 /// A body without a surface: only mass and inertia.
 inline Body inert(double mass, const Vec3& inertia, const Vec3& at) {
@@ -32,7 +34,8 @@ inline Body inert(double mass, const Vec3& inertia, const Vec3& at) {
 }
 
 /// Joint of kind at a world point between two bodies of the model as they stand, frames along the world's axes turned by q_WF.
-inline Joint joint_at(const Model& model, JointKind kind, int parent, int child, const Vec3& point, const Quat& q_WF = Quat::Identity()) {
+inline Joint joint_at(const Model& model, JointKind kind, int parent, int child, const Vec3& point,
+                      const Quat& q_WF = Quat::Identity()) {
   Joint joint;
   joint.name = "joint";
   joint.kind = kind;
@@ -71,6 +74,8 @@ inline Vec3 angular_momentum(const Model& model, const Snapshot& s) {
   return L;
 }
 
-inline double mechanical_energy(const Snapshot& s) { return s.energies.kinetic + s.energies.potential; }
+inline double mechanical_energy(const Snapshot& s) {
+  return s.energies.kinetic + s.energies.potential;
+}
 
 }  // namespace engine::test

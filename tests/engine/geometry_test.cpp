@@ -70,10 +70,12 @@ TEST_P(Exponent, GradientsAndHessiansAreThoseOfTheirFunctions) {
   for (int trial = 0; trial < 200; ++trial) {
     const Vec3 x = 0.2 * random_direction(random);
     const Vec3 d = random_direction(random);
-    if (d.cwiseAbs().minCoeff() < 0.05 || x.cwiseAbs().minCoeff() < 0.01) continue;   // there differences see the flats' singular curvature
+    if (d.cwiseAbs().minCoeff() < 0.05 || x.cwiseAbs().minCoeff() < 0.01)
+      continue;  // there differences see the flats' singular curvature
     for (int i = 0; i < 3; ++i) {
       const Vec3 e = eps * Vec3::Unit(i);
-      EXPECT_NEAR((gauge(shape, x + e) - gauge(shape, x - e)) / (2 * eps), gauge_gradient(shape, x)[i], 1e-5 * (1 + std::abs(gauge_gradient(shape, x)[i])));
+      EXPECT_NEAR((gauge(shape, x + e) - gauge(shape, x - e)) / (2 * eps), gauge_gradient(shape, x)[i],
+                  1e-5 * (1 + std::abs(gauge_gradient(shape, x)[i])));
       const Vec3 dg = (gauge_gradient(shape, x + e) - gauge_gradient(shape, x - e)) / (2 * eps);
       EXPECT_LT((dg - gauge_hessian(shape, x).col(i)).norm(), 1e-3 * (1 + dg.norm()));
       const Vec3 ds = (support_point(shape, d + e) - support_point(shape, d - e)) / (2 * eps);
@@ -114,7 +116,19 @@ TriangleMesh sheet(int cells, double size) {
 TriangleMesh box(const Vec3& half) {
   std::vector<Vec3> v;
   for (int k = 0; k < 8; ++k) v.push_back({(k & 1 ? 1 : -1) * half.x(), (k & 2 ? 1 : -1) * half.y(), (k & 4 ? 1 : -1) * half.z()});
-  return {v, {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}}};
+  return {v,
+          {{0, 2, 3},
+           {0, 3, 1},
+           {4, 5, 7},
+           {4, 7, 6},
+           {0, 1, 5},
+           {0, 5, 4},
+           {2, 6, 7},
+           {2, 7, 3},
+           {0, 4, 6},
+           {0, 6, 2},
+           {1, 3, 7},
+           {1, 7, 5}}};
 }
 
 TEST_P(Exponent, SheetOfTrianglesActsLikeAPlane) {
@@ -177,8 +191,10 @@ TEST(Pair, AgreesWithADirectionSweepAndActsEqualAndOpposite) {
   const double exponents[] = {2, 2.2, 2.5, 3, 4, 7.3, 15, 30};
   int overlapping = 0, worse = 0, trials = 2000;
   for (int trial = 0; trial < trials; ++trial) {
-    const HyperEllipsoid A{{0.05 + 0.2 * unit(random), 0.05 + 0.2 * unit(random), 0.05 + 0.2 * unit(random)}, exponents[random() % 8]};
-    const HyperEllipsoid B{{0.05 + 0.2 * unit(random), 0.05 + 0.2 * unit(random), 0.05 + 0.2 * unit(random)}, exponents[random() % 8]};
+    const HyperEllipsoid A{{0.05 + 0.2 * unit(random), 0.05 + 0.2 * unit(random), 0.05 + 0.2 * unit(random)},
+                           exponents[random() % 8]};
+    const HyperEllipsoid B{{0.05 + 0.2 * unit(random), 0.05 + 0.2 * unit(random), 0.05 + 0.2 * unit(random)},
+                           exponents[random() % 8]};
     const Pose X_WA{Vec3::Zero(), random_attitude(random)};
     const Pose X_WB{(0.15 + 0.3 * unit(random)) * random_direction(random), random_attitude(random)};
     Vec3 guess = Vec3::Zero(), back = Vec3::Zero();
@@ -202,8 +218,7 @@ TEST(Pair, AgreesWithADirectionSweepAndActsEqualAndOpposite) {
 }
 
 TEST(Mesh, LoaderAuditDropsWhatHasNoArea) {
-  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1e-7, 0, 0}, {2, 0, 0}},
-                          {{0, 1, 2}, {3, 1, 2}, {0, 1, 4}, {0, 0, 1}});
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1e-7, 0, 0}, {2, 0, 0}}, {{0, 1, 2}, {3, 1, 2}, {0, 1, 4}, {0, 0, 1}});
   EXPECT_EQ(mesh.triangles().size(), 1u);
   EXPECT_EQ(mesh.dropped_triangles(), 3);
 }

@@ -27,7 +27,8 @@ TEST(Pendulum, HasThePeriodOfTheEllipticIntegral) {
     if (a < 0 && b >= 0) crossings.push_back(run.snapshots[i - 1].time + 1e-3 * a / (a - b));
   }
   ASSERT_GE(crossings.size(), 3u);
-  const double expected = 2 * std::numbers::pi * std::sqrt((0.1 + 2 * l * l) / (2 * kGravity * l)) * pendulum_period_ratio(amplitude);
+  const double expected =
+      2 * std::numbers::pi * std::sqrt((0.1 + 2 * l * l) / (2 * kGravity * l)) * pendulum_period_ratio(amplitude);
   // linear interpolation of the crossing over 1 ms errs by x'' h^2 / (8 x') < 1e-6 s
   EXPECT_NEAR((crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1), expected, 2e-6);
 }
@@ -71,7 +72,7 @@ TEST(HeavyTop, AgreesWithThePublishedQuaternion) {
   model.bodies[0].V_WB.w = {0, 150, -4.61538};
   model.bodies[0].V_WB.v = model.bodies[0].V_WB.w.cross(Vec3(0, 1, 0));
   model.joints.push_back(joint_at(model, JointKind::spherical, -1, 0, {0, 0, 0}));
-  model.settings.step = 1e-4;   // 150 rad/s: RK4 needs it for 1e-6
+  model.settings.step = 1e-4;  // 150 rad/s: RK4 needs it for 1e-6
   const Recording run = simulate(model);
   auto distance = [&](double time, const Eigen::Vector4d& wxyz) {
     const Quat q = run.at(time).bodies[0].X_WB.q;
@@ -89,16 +90,16 @@ TEST(Babyboot, AgreesWithThePublishedAngles) {
   model.settings.gravity = {0, 0, -9.81};
   model.settings.record_interval = 1e-3;
   const double qA = 90 * kDegrees, qB = 1 * kDegrees;
-  const Quat turn(Eigen::AngleAxisd(qA, Vec3::UnitX()));           // A about x
+  const Quat turn(Eigen::AngleAxisd(qA, Vec3::UnitX()));  // A about x
   const Quat q_B = turn * Quat(Eigen::AngleAxisd(qB, Vec3::UnitZ()));
   Body A = inert(0.010, {50e-7, 50e-7, 1e-9}, turn * Vec3(0, 0, -0.075));
   A.X_WB.q = turn;
   Body B = inert(0.100, {2500e-7, 500e-7, 2000e-7}, turn * Vec3(0, 0, -0.20));
   B.X_WB.q = q_B;
   model.bodies = {A, B};
-  const Quat y_to_x(Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitZ()));   // joint frame whose y axis is world x
+  const Quat y_to_x(Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitZ()));  // joint frame whose y axis is world x
   model.joints.push_back(joint_at(model, JointKind::revolute, -1, 0, {0, 0, 0}, y_to_x));
-  const Quat y_to_z = turn * Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()));   // y axis along A's long axis
+  const Quat y_to_z = turn * Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()));  // y axis along A's long axis
   model.joints.push_back(joint_at(model, JointKind::revolute, 0, 1, turn * Vec3(0, 0, -0.1), y_to_z));
   const Recording run = simulate(model);
   double q_A_sum = qA, q_B_sum = qB;
@@ -163,7 +164,8 @@ TEST(JointedBodies, ConvergeWithOrderFour) {
   const Snapshot finest = end(1.25e-4);
   auto error = [&](const Snapshot& s) {
     double worst = 0;
-    for (std::size_t b = 0; b < s.bodies.size(); ++b) worst = std::max(worst, (s.bodies[b].X_WB.p - finest.bodies[b].X_WB.p).norm());
+    for (std::size_t b = 0; b < s.bodies.size(); ++b)
+      worst = std::max(worst, (s.bodies[b].X_WB.p - finest.bodies[b].X_WB.p).norm());
     return worst;
   };
   const double coarse = error(end(4e-3)), fine = error(end(2e-3));

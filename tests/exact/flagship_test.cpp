@@ -63,20 +63,23 @@ TEST_F(Flagship, ThrowsThePersonAsFarAsSuchCasesAreKnownTo) {
 }
 
 TEST_F(Flagship, ExchangesMomentumWithTheSedan) {
-  // what the sedan's contacts took, the person got: the recorded impulses act on both, so the sedan's delta-v is theirs over its mass
+  // what the sedan's contacts took, the person got: the recorded impulses act on both, so the sedan's delta-v is theirs over its
+  // mass
   const double delta_v = metric(engine::measure(scene_->model, *run_), "delta_v_mps");
   EXPECT_GT(delta_v, 0.2);
-  EXPECT_LT(delta_v, 78.0 * 11.1 / 1500 * 1.5);   // no more than stopping and throwing back the person's momentum
+  EXPECT_LT(delta_v, 78.0 * 11.1 / 1500 * 1.5);  // no more than stopping and throwing back the person's momentum
 }
 
-TEST_F(Flagship, IsTheSameToTheLastBitAgain) { EXPECT_EQ(engine::hash(*run_), engine::hash(engine::simulate(scene_->model))); }
+TEST_F(Flagship, IsTheSameToTheLastBitAgain) {
+  EXPECT_EQ(engine::hash(*run_), engine::hash(engine::simulate(scene_->model)));
+}
 
 TEST(SlidingPerson, StopsNearWhereAPuckDoes) {
   // lying down at 13.4112 m/s with mu = 0.6: the person rolls a little, limbs fly up and land (friction acts in each landing, but
   // rolling saves some), so it may differ from the puck's v^2 / (2 mu g) by a few per cent
   const auto scene = scenes::load(kScenes + "gallery/pose_lying_supine.toml",
-                                  {"person.0.velocity=13.4112 0 0 m/s", "person.0.zero_condition=false", "person.0.friction_ground=0.6",
-                                   "simulation.duration=5 s", "simulation.stop_at_rest=true"});
+                                  {"person.0.velocity=13.4112 0 0 m/s", "person.0.zero_condition=false",
+                                   "person.0.friction_ground=0.6", "simulation.duration=5 s", "simulation.stop_at_rest=true"});
   const engine::Recording run = engine::simulate(scene.model);
   const double expected = 13.4112 * 13.4112 / (2 * 0.6 * engine::kGravity);
   engine::Vec3 from = engine::Vec3::Zero(), to = engine::Vec3::Zero();

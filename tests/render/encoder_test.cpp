@@ -54,9 +54,14 @@ std::string bytes_of(const fs::path& path) {
 
 TEST_F(Encoder, ColoursAreBt709LimitedRange) {
   // Y', Cb, Cr of ITU-R BT.709 in 8 bits, rounded; one step is the rounding of the fixed-point coefficients
-  const struct { std::uint8_t rgb[3]; int yuv[3]; } known[] = {
-      {{0, 0, 0}, {16, 128, 128}}, {{255, 255, 255}, {235, 128, 128}}, {{255, 0, 0}, {63, 102, 240}},
-      {{0, 255, 0}, {173, 42, 26}}, {{0, 0, 255}, {32, 240, 118}}};
+  const struct {
+    std::uint8_t rgb[3];
+    int yuv[3];
+  } known[] = {{{0, 0, 0}, {16, 128, 128}},
+               {{255, 255, 255}, {235, 128, 128}},
+               {{255, 0, 0}, {63, 102, 240}},
+               {{0, 255, 0}, {173, 42, 26}},
+               {{0, 0, 255}, {32, 240, 118}}};
   for (const auto& k : known) {
     std::uint8_t out[6];
     render::rgba_to_i420(plain(k.rgb[0], k.rgb[1], k.rgb[2]), out);

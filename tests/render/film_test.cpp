@@ -18,7 +18,7 @@ using render::Container;
 using render::FilmJob;
 using render::Moment;
 
-constexpr int kFrames = 7;   // no multiple of 3 workers
+constexpr int kFrames = 7;  // no multiple of 3 workers
 
 class Film : public testing::Test {
  protected:
@@ -67,7 +67,9 @@ class Film : public testing::Test {
   std::vector<Moment> moments;
 };
 
-std::string name_of(int frame) { return "f_00" + std::to_string(frame) + ".png"; }
+std::string name_of(int frame) {
+  return "f_00" + std::to_string(frame) + ".png";
+}
 
 TEST_F(Film, OneAndThreeWorkersWriteTheSameBytes) {
   make_film(stage, recording, moments, job("one", 1));
@@ -129,7 +131,11 @@ TEST_F(Film, AKilledWorkersFramesAreDrawnAgain) {
   FilmJob film = job("killed", 1);
   film.container = Container::mp4;
   film.output = folder / "killed" / "film.mp4";
-  const FilmJob calm = [&] { FilmJob c = film; c.output = folder / "killed" / "calm.mp4"; return c; }();
+  const FilmJob calm = [&] {
+    FilmJob c = film;
+    c.output = folder / "killed" / "calm.mp4";
+    return c;
+  }();
   make_film(stage, recording, moments, calm);
   int killed = 0;
   make_film(stage, recording, moments, film, [&](const render::FilmProgress& p) {

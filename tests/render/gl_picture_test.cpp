@@ -61,8 +61,8 @@ DrawList plain(const View& view) {
 }
 
 TEST(Silhouette, OfABallHasTheWidthAndPlaceOfItsTangentCone) {
-  // seen from the middle of its height, a ball of radius r at lateral offset x and depth d: its horizontal section is a circle, whose
-  // tangents from the eye make the angles atan(x / d) +- asin(r / sqrt(x^2 + d^2))
+  // seen from the middle of its height, a ball of radius r at lateral offset x and depth d: its horizontal section is a circle,
+  // whose tangents from the eye make the angles atan(x / d) +- asin(r / sqrt(x^2 + d^2))
   const float tan_half = 0.35f;
   const double x = 0.8, d = 6, r = 0.5;
   DrawList list = plain(look_along_y({0, 0, 20}, tan_half, kAspect));
@@ -70,9 +70,10 @@ TEST(Silhouette, OfABallHasTheWidthAndPlaceOfItsTangentCone) {
   Renderer renderer(kWidth, kHeight, Quality::standard);
   const Span seen = ball_columns(draw_with(renderer, list));
   const double middle = std::atan2(x, d), half = std::asin(r / std::hypot(x, d));
-  const double focal = kHeight / 2.0 / static_cast<double>(tan_half);   // [pixels]
+  const double focal = kHeight / 2.0 / static_cast<double>(tan_half);  // [pixels]
   const double left = kWidth / 2.0 + focal * std::tan(middle - half), right = kWidth / 2.0 + focal * std::tan(middle + half);
-  // a pixel counts from about a third of its area red, so either edge is known to a pixel; radius and place are their half sum and difference
+  // a pixel counts from about a third of its area red, so either edge is known to a pixel; radius and place are their half sum and
+  // difference
   ASSERT_GE(seen.last, 0);
   EXPECT_NEAR((seen.last + 1 - seen.first) / 2.0, (right - left) / 2, 0.75);
   EXPECT_NEAR((seen.last + 1 + seen.first) / 2.0, (right + left) / 2, 0.75);
@@ -83,7 +84,7 @@ TEST(Silhouette, OfABallFromAboveIsTrueToScale) {
   list.ellipsoids.push_back(ball({3.5f, 60, 1}, 0.5));
   Renderer renderer(kWidth, kHeight, Quality::standard);
   const Span seen = ball_columns(draw_with(renderer, list));
-  const double scale = kHeight / 4.0;   // [pixels/m]
+  const double scale = kHeight / 4.0;  // [pixels/m]
   ASSERT_GE(seen.last, 0);
   EXPECT_NEAR((seen.last + 1 - seen.first) / 2.0, 0.5 * scale, 0.75);
   EXPECT_NEAR((seen.last + 1 + seen.first) / 2.0, kWidth / 2.0 + 0.5 * scale, 0.75);
@@ -94,7 +95,7 @@ TEST(Shadow, LiesWhereTheSunPutsIt) {
   DrawList list = plain(look_down(0, 60, 8, kAspect));
   list.sky.sun_azimuth = 0;
   list.sky.sun_elevation = std::atan(1.0);
-  for (const float height : {0.4f, 2.0f}) {   // the upper one shows that what is nearest to the sun casts too
+  for (const float height : {0.4f, 2.0f}) {  // the upper one shows that what is nearest to the sun casts too
     SCOPED_TRACE(height);
     DrawList with = list;
     with.ellipsoids.push_back(ball({0, 60, height}, 0.3));

@@ -14,7 +14,8 @@ inline View look_along_y(const Float3& eye, float tan_half, float aspect) {
   // rows of world to eye: right = x, up = z, back = -y
   v.world_to_eye = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, -eye[0], -eye[2], eye[1], 1};
   const float near = 0.1f, far = 500.0f;
-  v.eye_to_clip = {1 / (tan_half * aspect), 0, 0, 0, 0, 1 / tan_half, 0, 0, 0, 0, -(far + near) / (far - near), -1, 0, 0, -2 * far * near / (far - near), 0};
+  v.eye_to_clip = {1 / (tan_half * aspect),        0, 0, 0, 0, 1 / tan_half, 0, 0, 0, 0, -(far + near) / (far - near), -1, 0, 0,
+                   -2 * far * near / (far - near), 0};
   return v;
 }
 
@@ -26,7 +27,8 @@ inline View look_down(float x, float y, float extent, float aspect) {
   v.vertical_extent = static_cast<double>(extent);
   v.world_to_eye = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -x, -y, -50, 1};
   const float near = 0.1f, far = 100.0f;
-  v.eye_to_clip = {2 / (extent * aspect), 0, 0, 0, 0, 2 / extent, 0, 0, 0, 0, -2 / (far - near), 0, 0, 0, -(far + near) / (far - near), 1};
+  v.eye_to_clip = {2 / (extent * aspect),        0, 0, 0, 0, 2 / extent, 0, 0, 0, 0, -2 / (far - near), 0, 0, 0,
+                   -(far + near) / (far - near), 1};
   return v;
 }
 

@@ -50,14 +50,15 @@ TEST_P(TessellationOf, HasItsVerticesOnTheSurfaceAndAlmostItsVolume) {
   // floats hold the positions to 6e-8; the gauge multiplies that by n at most n times over the axes' ratio
   for (std::size_t v = 0; v < t.positions.size(); v += 3)
     ASSERT_NEAR(engine::gauge(shape, {t.positions[v], t.positions[v + 1], t.positions[v + 2]}), 1, 1e-6);
-  // inscribed: never more; a grid of h = pi / 80 rad a cell loses about h^2 / 2 of each width, three widths, and rounder edges n times that
+  // inscribed: never more; a grid of h = pi / 80 rad a cell loses about h^2 / 2 of each width, three widths, and rounder edges n
+  // times that
   const double h = std::numbers::pi / 80, exact = engine::volume(shape);
   EXPECT_LT(volume, exact * (1 + 1e-6));
   EXPECT_GT(volume, exact * (1 - 1.5 * h * h * std::min(shape.exponent, 10.0)));
 }
 
 TEST_P(TessellationOf, StaysWithinTheToleranceAskedFor) {
-  const double tolerance = 8e-4;   // [m] of quality `standard`
+  const double tolerance = 8e-4;  // [m] of quality `standard`
   const Tessellation t = tessellate(shape, cells_for(shape, tolerance));
   double gap = 0;
   for (std::size_t i = 0; i < t.indices.size(); i += 3) {

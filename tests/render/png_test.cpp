@@ -11,7 +11,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path scratch(const char* name) { return fs::path(testing::TempDir()) / name; }
+fs::path scratch(const char* name) {
+  return fs::path(testing::TempDir()) / name;
+}
 
 Image pattern() {
   Image image{7, 5, {}};
@@ -55,7 +57,9 @@ TEST(Png, OfAbsurdSizeIsRefused) {
   EXPECT_THROW(read_png(path), RenderError);
 }
 
-TEST(Png, ThatIsNotThereIsAnError) { EXPECT_THROW(read_png(scratch("none.png")), RenderError); }
+TEST(Png, ThatIsNotThereIsAnError) {
+  EXPECT_THROW(read_png(scratch("none.png")), RenderError);
+}
 
 }  // namespace
 }  // namespace render

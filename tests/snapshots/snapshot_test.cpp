@@ -19,10 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 const fs::path kSource = CRASHREEL_SOURCE_DIR;
 constexpr int kWidth = 320, kHeight = 180;
-constexpr int kTile = 12;   // [pixels]
+constexpr int kTile = 12;  // [pixels]
 // A tile of a picture that only another processor drew differs by some 1/255 in a few pixels: a mean of 0.02. A line moved by a
-// pixel or a missing arrow changes a tenth of a tile by a hundred: a mean of ten; another digit of the small caption, a mean of 1.5.
-constexpr double kWorstTile = 1;   // [1/255] mean absolute difference
+// pixel or a missing arrow changes a tenth of a tile by a hundred: a mean of ten; another digit of the small caption, a mean
+// of 1.5.
+constexpr double kWorstTile = 1;  // [1/255] mean absolute difference
 
 std::vector<fs::path> scenes_with_stills() {
   std::vector<fs::path> out;
@@ -57,8 +58,8 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Snapshot, testing::ValuesIn(scenes_with_stills
 
 TEST_P(Snapshot, LooksLikeItsBaseline) {
   scenes::Scene scene = scenes::load(GetParam());
-  if (scene.output.stills.empty()) return;   // an experiment with numbers only
-  scene.stage.provenance.clear();            // version and hash of the scene are no part of the picture
+  if (scene.output.stills.empty()) return;  // an experiment with numbers only
+  scene.stage.provenance.clear();           // version and hash of the scene are no part of the picture
   const engine::Recording run = engine::simulate(scene.model);
   render::Renderer renderer(kWidth, kHeight, render::Quality::standard);
   const bool update = std::getenv("CRASHREEL_UPDATE_SNAPSHOTS") != nullptr;
@@ -84,15 +85,17 @@ TEST(SnapshotLimit, SeesAWrongDigitAndATurnedLimb) {
   render::Renderer renderer(kWidth, kHeight, render::Quality::standard);
   auto draw = [&](const engine::Recording& what, double time) {
     render::Image image;
-    renderer.draw(render::arrange(scene.stage, what, {time, scene.stage.cameras.front().name, 1}, static_cast<double>(kWidth) / kHeight), image);
+    renderer.draw(
+        render::arrange(scene.stage, what, {time, scene.stage.cameras.front().name, 1}, static_cast<double>(kWidth) / kHeight),
+        image);
     return image;
   };
   const render::Image right = draw(run, 0);
   EXPECT_EQ(worst_tile(right, draw(run, 0)), 0);
-  engine::Recording later = run;   // the same picture, one digit of the clock apart
+  engine::Recording later = run;  // the same picture, one digit of the clock apart
   for (engine::Snapshot& s : later.snapshots) s.time += 0.008;
   EXPECT_GT(worst_tile(right, draw(later, 0.008)), kWorstTile);
-  engine::Recording turned = run;   // one arm by three degrees: half a pixel at its end in so small a picture
+  engine::Recording turned = run;  // one arm by three degrees: half a pixel at its end in so small a picture
   for (std::size_t b = 0; b < run.body_names.size(); ++b)
     if (run.body_names[b].find("left_forearm") != std::string::npos) {
       engine::Pose& X = turned.snapshots[0].bodies[b].X_WB;
