@@ -2,5 +2,7 @@
 #pragma once
 
 #define GL_GLEXT_PROTOTYPES
-#include <GL/glext.h>
 #include <GL/osmesa.h>
+
+// after osmesa.h, whose types it needs
+#include <GL/glext.h>
