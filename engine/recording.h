@@ -103,6 +103,7 @@ struct Diagnostics {
   double max_solver_residual = 0;    // [m/s]
   double max_energy_rise = 0;        // [J] largest rise of the mechanical energy between two snapshots that no source explains
   long contact_sweeps = 0;
+  long newton_steps = 0;        // of the contact solver
   long restitution_scaled = 0;  // impacts whose restitution was lowered because Newton's rule would have created energy
   long substeps = 0;            // steps divided to place an impact or to hold a bound
   std::vector<std::string> warnings;

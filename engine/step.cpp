@@ -6,10 +6,14 @@
 //   5 displacement that goes with them: all of the step for an impact, half of it for a force that acts all through the step, so
 //     that constant friction stops a body exactly where v^2/(2 mu g) says and a body held on a slope does not creep
 //   6 joint drift projected out
+//   7 contacts and limits at the end of the step: what it was blind to (curved surfaces, fast turns, neighbouring triangles) shows
+//   as
+//     penetration there; if that is more than a bound the step is taken again at half its length
 #include "engine/step.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/effects/effect.h"
 
@@ -18,14 +22,15 @@ namespace {
 
 constexpr double kTouching = 2e-5;         // [m] surfaces nearer than this exchange impulses
 constexpr double kSlop = 2e-5;             // [m] penetration that is let be: pushing it out would make resting bodies hum
-constexpr double kRecovery = 0.2;          // [-] share of the penetration beyond it taken out in one step
-constexpr double kRecoverySpeed = 0.2;     // [m/s] at most
-constexpr double kLimitRecoverySpeed = 2;  // [rad/s] at most
 constexpr double kLimitSlop = 2e-5;        // [rad]
+constexpr double kMayPenetrate = 5e-4;     // [m] more after a step than before: the step is halved
+constexpr double kMayExceed = 2e-3;        // [rad] the same of joint limits
 constexpr int kMaxCuts = 8;                // of one step; then impulses act where the bodies are
-constexpr int kMaxSweeps = 200;
-constexpr double kUnsolved = 0.01;    // [m/s] residual above which the step is halved and taken again
-constexpr double kLargestTurn = 0.1;  // [rad] of any body in one step
+constexpr double kRecovery = 0.5;          // [-] share of a penetration that a step left taken out in the next
+constexpr double kRecoverySpeed = 0.2;     // [m/s] at which a deeper one, there from the start, is taken out
+constexpr double kLimitRecoverySpeed = 2;  // [rad/s]
+constexpr double kUnsolved = 0.01;         // [m/s] residual above which the step is halved and taken again
+constexpr double kLargestTurn = 0.1;       // [rad] of any body in one step
 constexpr double kMostParts = 20;
 
 bool is_contact(const Constraint& c) {
@@ -41,8 +46,6 @@ double impact_speed(const World& world) {
 
 Stepper::Stepper(const Model& model)
     : smooth_(model),
-      X_(model.bodies.size()),
-      V_(model.bodies.size()),
       force_(model.bodies.size(), Vec6::Zero()),
       result_(model.bodies.size(), Vec6::Zero()),
       damping_(model.bodies.size(), Vec6::Zero()) {}
@@ -58,11 +61,27 @@ void Stepper::choose_trees(World& world, const State& state) {
   }
 }
 
-void Stepper::find_contacts(World& world, State& state, double h) {
-  world.step = h;
+void Stepper::find_contacts(World& world, const State& state, std::vector<Constraint>& found) {
   world.constraints.clear();
   for (std::size_t e = 0; e < world.plan.active.size(); ++e) {
     const Effect* effect = world.plan.active[e];
+    if (!effect->find_contacts) continue;
+    const double start = world.options.clock ? world.options.clock() : 0;
+    effect->find_contacts(world, state, static_cast<int>(e));
+    ++world.costs[e].calls;
+    if (world.options.clock) world.costs[e].wall_s += world.options.clock() - start;
+  }
+  world.constraints.swap(found);
+}
+
+/// The conditions of a step of length h: the contacts found at its start and what follows the clock, in the order of the plan.
+void Stepper::assemble_constraints(World& world, const State& state, double h) {
+  world.step = h;
+  world.constraints.clear();
+  auto contact = contacts_.begin();
+  for (std::size_t e = 0; e < world.plan.active.size(); ++e) {
+    const Effect* effect = world.plan.active[e];
+    while (contact != contacts_.end() && contact->effect == static_cast<int>(e)) world.constraints.push_back(*contact++);
     if (!effect->find) continue;
     const double start = world.options.clock ? world.options.clock() : 0;
     effect->find(world, state, static_cast<int>(e));
@@ -154,7 +173,7 @@ void Stepper::exchange_impulses(World& world, State& state, const std::vector<in
   }
   world.response.compute(world.topology, world.impulse);
   world.solver.assemble(world.topology, world.response, world.constraints, members);
-  SolveReport report = world.solver.solve(world.constraints, members, 1e-3 * world.model.settings.solver_tolerance, kMaxSweeps);
+  SolveReport report = world.solver.solve(world.constraints, members, 1e-3 * world.model.settings.solver_tolerance);
   energy_change = world.solver.kinetic_energy_change(world.constraints, members);
 
   // Newton's rule at several points with friction can create energy (Kane 1984): scale all restitutions until it does not
@@ -169,7 +188,7 @@ void Stepper::exchange_impulses(World& world, State& state, const std::vector<in
     for (int k = 0; k < 30; ++k) {
       const double share = k == 29 ? low : 0.5 * (low + high);
       for (std::size_t i = 0; i < members.size(); ++i) world.constraints[members[i]].target = share * targets[i];
-      report = world.solver.solve(world.constraints, members, 1e-3 * world.model.settings.solver_tolerance, kMaxSweeps);
+      report = world.solver.solve(world.constraints, members, 1e-3 * world.model.settings.solver_tolerance);
       energy_change = world.solver.kinetic_energy_change(world.constraints, members);
       (energy_change > 0 ? high : low) = share;
     }
@@ -222,11 +241,7 @@ void Stepper::set_targets(World& world, double h) {
       Constraint& c = world.constraints[i];
       if (c.kind == ConstraintKind::wheel || c.kind == ConstraintKind::bilateral) continue;  // their effect set it
       weight_[i] = impact ? 1.0 : 0.5;
-      const double slop = c.kind == ConstraintKind::limit ? kLimitSlop : kSlop;
-      const double fastest = c.kind == ConstraintKind::limit ? kLimitRecoverySpeed : kRecoverySpeed;
-      if (c.gap < -slop) {
-        c.target = std::min(kRecovery * (-c.gap - slop) / h, fastest);
-      } else if (impact) {
+      if (impact) {
         c.target = -std::max(0.0, c.gap) / h;
       } else {
         c.target = -std::max(0.0, 2 * c.gap / h + c.u_before[0]);
@@ -235,7 +250,7 @@ void Stepper::set_targets(World& world, double h) {
   }
 }
 
-double Stepper::solve_islands(World& world, State& state) {
+double Stepper::solve_islands(World& world, State& state, double h) {
   double residual = 0;
   for (auto& island : islands_) {
     if (island.empty()) continue;
@@ -260,11 +275,39 @@ double Stepper::solve_islands(World& world, State& state) {
     }
     world.response.compute(world.topology, world.impulse);
     world.solver.assemble(world.topology, world.response, world.constraints, island);
-    const SolveReport report = world.solver.solve(world.constraints, island, world.model.settings.solver_tolerance, kMaxSweeps);
+    const SolveReport report = world.solver.solve(world.constraints, island, world.model.settings.solver_tolerance);
     world.diagnostics.contact_sweeps += report.sweeps;
+    world.diagnostics.newton_steps += report.newton_steps;
     residual = std::max(residual, report.residual);
+    push_apart(world, island, h);
   }
   return residual;
+}
+
+/// What stands inside each other is moved apart at the level of positions, so that it leaves without speed.
+void Stepper::push_apart(World& world, const std::vector<int>& island, double h) {
+  bool any = false;
+  allowed_.clear();
+  for (const int i : island) {
+    const Constraint& c = world.constraints[i];
+    if (c.kind == ConstraintKind::wheel || c.kind == ConstraintKind::bilateral) {
+      allowed_.push_back(-std::numeric_limits<double>::infinity());
+      continue;
+    }
+    const bool limit = c.kind == ConstraintKind::limit;
+    const double slop = limit ? kLimitSlop : kSlop;
+    const double travel = h * (0.5 * (c.u_before[0] + c.u_smooth[0]) + weight_[i] * (c.u_after[0] - c.u_smooth[0]));
+    const double end = c.gap + travel;
+    double floor = -slop;
+    if (c.gap < -slop) {
+      const double fresh = limit ? kMayExceed : kMayPenetrate;  // what a step leaves; deeper was there before: apart gently
+      const double most = c.gap > -fresh ? kRecovery * (-c.gap - slop) : h * (limit ? kLimitRecoverySpeed : kRecoverySpeed);
+      floor = std::min(c.gap + std::min(most, -c.gap - slop), -slop);
+    }
+    allowed_.push_back(std::min(floor, 0.0) - end);
+    any = any || allowed_.back() > 1e-9;
+  }
+  if (any) world.solver.push_apart(world.constraints, island, allowed_);
 }
 
 void Stepper::keep_impulses(const World& world, State& state) const {
@@ -286,9 +329,10 @@ void Stepper::apply(World& world, double h) {
       const Constraint& c = world.constraints[i];
       const double share = displacement ? weight_[i] * h : 1;
       for (int r = 0; r < c.rows; ++r) {
-        if (c.impulse[r] == 0) continue;
-        if (c.body_a >= 0) force_[c.body_a] += c.J_a.row(r).transpose() * (share * c.impulse[r]);
-        if (c.body_b >= 0) force_[c.body_b] += c.J_b.row(r).transpose() * (share * c.impulse[r]);
+        const double amount = share * c.impulse[r] + (displacement && r == 0 ? c.push : 0);
+        if (amount == 0) continue;
+        if (c.body_a >= 0) force_[c.body_a] += c.J_a.row(r).transpose() * amount;
+        if (c.body_b >= 0) force_[c.body_b] += c.J_b.row(r).transpose() * amount;
       }
     }
     for (const int tree : world.active_trees) world.impulse.solve(world.topology, tree, force_, result_, Articulation::Bias::zero);
@@ -326,6 +370,7 @@ void Stepper::drop_open_rows(World& world, double h) {
   const double v_impact = impact_speed(world);
   std::erase_if(world.constraints, [&](Constraint& c) {
     c.impulse.setZero();
+    c.push = 0;
     c.u_smooth = row_velocity(c, V_);
     if (c.kind == ConstraintKind::wheel || c.kind == ConstraintKind::bilateral) return false;
     // an impact that the cut step ends at: a row would brake the approach
@@ -393,64 +438,100 @@ double Stepper::advance(World& world, State& state, double h) {
   const double divided = step_for_turning(world, state, h);
   if (divided < h) ++world.diagnostics.substeps;
   h = divided;
+  if (next_step_ > 0) h = std::min(h, next_step_);
   world.step = h;
   for (std::size_t e = 0; e < world.plan.active.size(); ++e)
     if (world.plan.active[e]->before_step) world.plan.active[e]->before_step(world, state, static_cast<int>(e));
   choose_trees(world, state);
-  find_contacts(world, state, h);
+  if (!contacts_known_ || contact_trees_ != world.active_trees) {
+    world.step = world.model.settings.step;
+    find_contacts(world, state, contacts_);
+  }
+  assemble_constraints(world, state, h);
   if (impact(world, state))
     for (Constraint& c : world.constraints) c.u_before = row_velocity(c, state.V_WB);
+  return attempt(world, state, h);
+}
 
+/// A step of at most h from contacts_; halves it until what it leaves at its end is acceptable.
+double Stepper::attempt(World& world, State& state, double h) {
   // cut the step where the next impact with restitution happens
   double taken = h;
   locating_ = world.model.settings.locate_events && cuts_ < kMaxCuts;
   if (locating_) taken = std::max(time_to_impact(world, h), 1e-3 * h);
-  if (taken < h) {
-    ++cuts_;
-    ++world.diagnostics.substeps;
-  } else {
-    cuts_ = 0;
-  }
-  world.step = taken;
+  const bool cut = taken < h;
+  if (taken != world.step) assemble_constraints(world, state, taken);
+  const bool may_halve = taken > world.model.settings.step / kMostParts;
   prepare_resistance(world, state, taken);
+  end_ = state;
+  end_.time = state.time + taken;
   smooth_.advance(world, state, taken, X_, V_);
 
   drop_open_rows(world, taken);
   const bool impulses = world.any_damper || !world.constraints.empty();
+  double residual = 0;
   if (impulses) {
     factor_for_impulses(world, state, world.any_damper ? &world.dampers : nullptr);
     if (world.any_damper) apply_resistance(world, taken);
     for (Constraint& c : world.constraints) c.u_free = row_velocity(c, V_);
     form_islands(world);
     set_targets(world, taken);
-    const double residual = solve_islands(world, state);
-    if (residual > kUnsolved && taken > world.model.settings.step / kMostParts) {
-      // conditions that no impulse of this step can meet together: their gaps change less in a shorter one
-      ++world.diagnostics.substeps;
-      return advance(world, state, 0.5 * taken);
-    }
+    residual = solve_islands(world, state, taken);
+    apply(world, taken);
+  }
+  const double gap = project_joints(world, X_, V_, force_, result_);
+
+  std::vector<Constraint>& of_step = step_constraints_;
+  of_step.swap(world.constraints);
+  world.step = world.model.settings.step;
+  find_contacts(world, end_, end_contacts_);
+  world.constraints.swap(of_step);
+  world.step = taken;
+  if (may_halve && (residual > kUnsolved || !acceptable(end_contacts_))) {
+    ++world.diagnostics.substeps;
+    next_step_ = 0.5 * taken;
+    assemble_constraints(world, state, next_step_);
+    return attempt(world, state, next_step_);
+  }
+
+  cuts_ = cut ? cuts_ + 1 : 0;
+  if (cut) ++world.diagnostics.substeps;
+  if (next_step_ > 0 && !cut) next_step_ = taken < world.model.settings.step / 2 ? 2 * taken : 0;
+  if (impulses) {
     world.diagnostics.max_solver_residual = std::max(world.diagnostics.max_solver_residual, residual);
     keep_impulses(world, state);
-    apply(world, taken);
     book(world);
     if (world.any_damper) book_resistance(world, taken);
     if (on_impulses) on_impulses(state.time + taken, taken);
   } else {
     state.warm.clear();
   }
-  const double gap = project_joints(world, X_, V_, force_, result_);
   world.diagnostics.max_joint_gap = std::max(world.diagnostics.max_joint_gap, gap);
-
   for (const int tree : world.active_trees)
     for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
       const int b = world.topology.links[l].body;
       state.X_WB[b] = X_[b];
       state.V_WB[b] = V_[b];
     }
-  state.time += taken;
+  state.time = end_.time;
+  contacts_.swap(end_contacts_);
+  contact_trees_ = world.active_trees;
+  contacts_known_ = true;
   for (std::size_t e = 0; e < world.plan.active.size(); ++e)
     if (world.plan.active[e]->after_step) world.plan.active[e]->after_step(world, state, static_cast<int>(e));
   return taken;
+}
+
+/// Do contacts and limits at the end of a step stand no deeper in each other than the bound, or than at its start?
+bool Stepper::acceptable(const std::vector<Constraint>& end) const {
+  auto deepest = [](const std::vector<Constraint>& list, ConstraintKind kind) {
+    double depth = 0;
+    for (const Constraint& c : list)
+      if (c.kind == kind) depth = std::max(depth, -c.gap);
+    return depth;
+  };
+  return deepest(end, ConstraintKind::contact) < kMayPenetrate + deepest(contacts_, ConstraintKind::contact) &&
+         deepest(end, ConstraintKind::limit) < kMayExceed + deepest(contacts_, ConstraintKind::limit);
 }
 
 }  // namespace engine

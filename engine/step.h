@@ -21,7 +21,11 @@ class Stepper {
 
  private:
   void choose_trees(World&, const State&);
-  void find_contacts(World&, State&, double h);
+  double attempt(World&, State&, double h);
+  void find_contacts(World&, const State&, std::vector<Constraint>& found);
+  void assemble_constraints(World&, const State&, double h);
+  void push_apart(World&, const std::vector<int>& island, double h);
+  bool acceptable(const std::vector<Constraint>& end) const;
   double step_for_turning(const World&, const State&, double h) const;
   double time_to_impact(World&, double h) const;
   void exchange_impulses(World&, State&, const std::vector<int>& members, double& energy_change);
@@ -30,7 +34,7 @@ class Stepper {
   void factor_for_impulses(World&, const State&, const std::vector<JointDamper>* dampers);
   void set_targets(World&, double h);
   void form_islands(World&);
-  double solve_islands(World&, State&);  // largest residual [m/s]
+  double solve_islands(World&, State&, double h);  // largest residual [m/s]
   void keep_impulses(const World&, State&) const;
   void apply(World&, double h);
   void book(World&);
@@ -39,8 +43,15 @@ class Stepper {
   void drop_open_rows(World&, double h);
 
   SmoothMotion smooth_;
-  std::vector<Pose> X_;  // at the end of the step
-  std::vector<Twist> V_;
+  State end_;  // of the step
+  std::vector<Pose>& X_ = end_.X_WB;
+  std::vector<Twist>& V_ = end_.V_WB;
+  std::vector<Constraint> step_constraints_;
+  std::vector<double> allowed_;
+  std::vector<Constraint> contacts_, end_contacts_;  // found at its start, at its end
+  std::vector<int> contact_trees_;                   // trees awake when contacts_ were found
+  bool contacts_known_ = false;
+  double next_step_ = 0;  // [s] what the last step suggests, 0: anything
   std::vector<Vec6> force_, result_;
   std::vector<std::vector<int>> islands_;
   std::vector<char> island_has_impact_;

@@ -71,6 +71,8 @@ void add_contact(World& world, const State& state, const SurfaceContact& touch, 
   };
   if (c.body_a >= 0) c.J_a = rows(c.body_a, 1);
   if (c.body_b >= 0) c.J_b = rows(c.body_b, -1);
+  for (const int body : {c.body_a, c.body_b})
+    if (body >= 0) c.free_response += 1 / world.model.bodies[body].mass;
   c.gap = touch.gap;
   c.friction = friction;
   c.restitution = restitution;

@@ -21,6 +21,6 @@ void find(World& world, const State& state, int self) {
 
 }  // namespace
 
-const Effect kBodyContactEffect{.name = "body_contact", .called_for = called_for, .begin = begin, .find = find};
+const Effect kBodyContactEffect{.name = "body_contact", .called_for = called_for, .begin = begin, .find_contacts = find};
 
 }  // namespace engine

@@ -37,6 +37,6 @@ void find(World& world, const State& state, int self) {
 
 }  // namespace
 
-const Effect kGroundContactEffect{.name = "ground_contact", .called_for = called_for, .find = find};
+const Effect kGroundContactEffect{.name = "ground_contact", .called_for = called_for, .find_contacts = find};
 
 }  // namespace engine

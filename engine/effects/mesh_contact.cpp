@@ -52,6 +52,6 @@ void find(World& world, const State& state, int self) {
 
 }  // namespace
 
-const Effect kMeshContactEffect{.name = "mesh_contact", .called_for = called_for, .begin = begin, .find = find};
+const Effect kMeshContactEffect{.name = "mesh_contact", .called_for = called_for, .begin = begin, .find_contacts = find};
 
 }  // namespace engine

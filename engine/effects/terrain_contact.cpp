@@ -40,6 +40,6 @@ void find(World& world, const State& state, int self) {
 
 }  // namespace
 
-const Effect kTerrainContactEffect{.name = "terrain_contact", .called_for = called_for, .begin = begin, .find = find};
+const Effect kTerrainContactEffect{.name = "terrain_contact", .called_for = called_for, .begin = begin, .find_contacts = find};
 
 }  // namespace engine

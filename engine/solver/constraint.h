@@ -27,8 +27,10 @@ struct Constraint {
   double restitution = 0;         // [-]
   double softness = 0;            // [1/kg] added to the normal's own response: 1 / (dt (k dt + c))
   double target = 0;              // [m/s] what u_0 + softness * impulse must reach
+  double free_response = 0;       // [1/kg] contact: of its two bodies were they free of joints
   double rolling_bound = 0;       // [N s] wheel: most that brake can give along t1
   Vec3 impulse = Vec3::Zero();    // [N s] result, in row coordinates
+  double push = 0;                // [N s^2] moves bodies apart that stand inside each other, without giving them speed
   Vec3 u_before = Vec3::Zero();   // [m/s] at the start of the step
   Vec3 u_smooth = Vec3::Zero();   // [m/s] at its end under smooth forces alone
   Vec3 u_free = Vec3::Zero();     // [m/s] the same with joint resistance: what the solver starts from

@@ -1,15 +1,32 @@
 #include "engine/solver/contact_solver.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace engine {
 namespace {
 
-constexpr int kPatience = 50;      // sweeps at full length
-constexpr double kShorter = 0.5;   // [-] of the change afterwards
-constexpr double kLimitArm = 0.3;  // [m] turns the speed of a joint limit into that of a limb's end, to compare residuals
+constexpr double kLeastResponse = 0.01;  // [-] of the free response of a contact's bodies
+constexpr int kFirstSweeps = 3;          // before Newton is tried; twice as many before it is tried again, and so on
+constexpr double kFirstGoal = 0.01;      // [-] of the tolerance
+constexpr int kPlainSweeps = 60;         // before the friction bounds are followed
+constexpr int kPatience = 3;             // Newton steps without a new best
+constexpr int kBoundedSweeps = 200;      // in each
+constexpr int kBoundSteps = 40;          // of the fixed point on the friction bounds
+constexpr double kNearBound = 1e-2;      // [m/s] change of a step after which Newton on the whole is tried
+constexpr int kNewtonSteps = 8;          // in a row
+constexpr double kProgress = 0.5;        // [-] of the residual: what a Newton step must reach to count
+constexpr double kTinyImpulse = 1e-14;   // [N s]
+constexpr double kRegularFirst =
+    1e-3;  // [-] of a row's own response added in Newton: redundant contacts leave impulses undetermined
+constexpr double kRegularFalls = 0.1;  // [-] with every step that succeeds, to
+constexpr double kRegularLast = 1e-10;
+constexpr double kRegularJammed = 1e-8;  // where impulses are large and well determined
+constexpr double kShorter = 0.5;         // [-] of the change afterwards
+constexpr double kLimitArm = 0.3;        // [m] turns the speed of a joint limit into that of a limb's end, to compare residuals
 
 Vec3 solve_wheel(const Mat3& A, const Vec3& u, const Vec3& old, const Constraint& c) {
   // normal first, then the ground plane: rolling direction bounded by the brake, both by the friction circle
@@ -35,7 +52,13 @@ Vec3 solve_wheel(const Mat3& A, const Vec3& u, const Vec3& old, const Constraint
   return {normal, x, y};
 }
 
-double natural_residual(const Constraint& c, const Vec3& u, const Mat3& A) {
+Eigen::Vector2d shortened(const Eigen::Vector2d& t, double most) {
+  const double length = t.norm();
+  return length <= most ? t : Eigen::Vector2d(t * (most / length));
+}
+
+/// `bound` [N s] of the friction, negative: Coulomb's own.
+double natural_residual(const Constraint& c, const Vec3& u, const Mat3& A, double bound) {
   const double a = A(0, 0) + c.softness;
   const double miss = u[0] + c.softness * c.impulse[0] - c.target;
   switch (c.kind) {
@@ -52,6 +75,10 @@ double natural_residual(const Constraint& c, const Vec3& u, const Mat3& A) {
       break;
   }
   const double rho = 1 / A.diagonal().maxCoeff();
+  if (bound >= 0) {
+    const double normal = a * std::abs(c.impulse[0] - std::max(0.0, c.impulse[0] - miss / a));
+    return std::max(normal, (c.impulse.tail<2>() - shortened(c.impulse.tail<2>() - rho * u.tail<2>(), bound)).norm() / rho);
+  }
   const double slip = std::hypot(u[1], u[2]);
   const Vec3 moved = c.impulse - rho * Vec3(miss + c.friction * slip, u[1], u[2]);
   return (c.impulse - project_to_cone(moved, c.friction)).norm() / rho;
@@ -68,44 +95,73 @@ Vec3 project_to_cone(const Vec3& impulse, double mu) {
   return {normal, scale * impulse[1], scale * impulse[2]};
 }
 
+namespace {
+
+/// Tangential impulse of a contact that slips: (S + y) t = -q with y > 0 such that |t| = most(t), S positive definite. At y = 0
+/// (stick) the left side is larger, for large y the right, so a root lies between; 1/|t| - 1/most is nearly straight in y: Newton,
+/// kept inside the bracket. `most` returns the bound and its rate for a change of t.
+template <class Bound>
+Eigen::Vector2d slip_impulse(const Eigen::Matrix2d& S, const Eigen::Vector2d& q, double y, const Bound& most) {
+  double low = 0, high = std::numeric_limits<double>::infinity();
+  Eigen::Vector2d t = Eigen::Vector2d::Zero();
+  for (int k = 0; k < 60; ++k) {
+    const double s11 = S(0, 0) + y, s22 = S(1, 1) + y, det = s11 * s22 - S(0, 1) * S(0, 1);
+    t = {-(s22 * q[0] - S(0, 1) * q[1]) / det, -(s11 * q[1] - S(0, 1) * q[0]) / det};
+    const Eigen::Vector2d slope(-(s22 * t[0] - S(0, 1) * t[1]) / det, -(s11 * t[1] - S(0, 1) * t[0]) / det);
+    const auto [bound, bound_rate] = most(t, slope);
+    const double length = t.norm();
+    if (std::abs(length - bound) <= 1e-12 * length) break;
+    (length > bound ? low : high) = y;
+    double next = -1;
+    if (bound > 0 && length > 0) {
+      const double value = 1 / length - 1 / bound;
+      const double rate = -t.dot(slope) / (length * length * length) + bound_rate / (bound * bound);
+      if (rate > 0) next = y - value / rate;
+    }
+    if (!(next > low && next < high))
+      next = std::isfinite(high) ? std::sqrt(std::max(low, 1e-9 * high) * high) : 4 * std::max(y, S.trace());
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::isfinite(high) && high - low <= 1e-14 * high) break;
+    y = next;
+  }
+  return t;
+}
+
+}  // namespace
+
 Vec3 solve_one_contact(const Mat3& A, const Vec3& b, double target, double mu, const Vec3& guess) {
   if (b[0] >= target) return Vec3::Zero();
   const Vec3 stick = A.inverse() * Vec3(target - b[0], -b[1], -b[2]);
   if (stick[0] >= 0 && std::hypot(stick[1], stick[2]) <= mu * stick[0]) return stick;
-  if (mu <= 0) return {(target - b[0]) / A(0, 0), 0, 0};
+  const double c = (target - b[0]) / A(0, 0);
+  if (mu <= 0) return {c, 0, 0};
 
-  // slip along c: L = L_n (1, -mu c); wanted p.u_t = 0 with p across c, and c.u_t >= 0
-  Eigen::Vector2d c(-guess[1], -guess[2]);
-  if (c.squaredNorm() < 1e-300) c = Eigen::Vector2d(-stick[1], -stick[2]);
-  if (c.squaredNorm() < 1e-300) c = Eigen::Vector2d(1, 0);
-  c.normalize();
+  // slip: u_t = -y L_t. The normal equation L_n = c - d.L_t put into the tangential ones leaves the two of slip_impulse
   const Eigen::Vector2d A_nt(A(0, 1), A(0, 2));
-  const Eigen::Matrix2d A_tt = A.bottomRightCorner<2, 2>();
-  Vec3 impulse = Vec3::Zero();
-  for (int k = 0; k < 8; ++k) {
-    const double den = A(0, 0) - mu * A_nt.dot(c);
-    if (den <=
-        1e-12 * A(0, 0)) {  // Painleve: no slip of this direction can hold the target; take the sticking impulse cut to the cone
-      return project_to_cone(stick, mu);
-    }
-    const double normal = (target - b[0]) / den;
-    impulse = Vec3(normal, -mu * normal * c[0], -mu * normal * c[1]);
-    const Eigen::Vector2d u_t = b.tail<2>() + A_nt * normal + A_tt * impulse.tail<2>();
-    const double size = u_t.norm();
-    if (size < 1e-14) break;
-    const Eigen::Vector2d p(-c[1], c[0]);
-    const double across = p.dot(u_t), along = c.dot(u_t);
-    if (along > 0 && std::abs(across) <= 1e-11 * size) break;
-    const double d_normal = normal * mu * A_nt.dot(p) / den;
-    const Eigen::Vector2d d_u = A_nt * d_normal - mu * (A_tt * (d_normal * c + normal * p));
-    const double slope = p.dot(d_u) - along;
-    if (along < 0 || slope >= 0) {
-      c = (c + u_t / size).squaredNorm() > 1e-6 ? Eigen::Vector2d((c + u_t / size).normalized()) : p;
-      continue;
-    }
-    c = (c + std::clamp(-across / slope, -0.7, 0.7) * p).normalized();
+  const Eigen::Vector2d d = A_nt / A(0, 0);
+  const Eigen::Matrix2d S = A.bottomRightCorner<2, 2>() - d * A_nt.transpose();
+  const double last = guess.tail<2>().norm();
+  const double y = last > 0 ? (b + A * guess).tail<2>().norm() / last : S.trace();
+  const Eigen::Vector2d t = slip_impulse(S, b.tail<2>() + A_nt * c, y, [&](const auto& L_t, const auto& slope) {
+    return std::pair(mu * (c - d.dot(L_t)), -mu * d.dot(slope));
+  });
+  return project_to_cone({c - d.dot(t), t[0], t[1]}, mu);
+}
+
+Vec3 solve_bounded_contact(const Mat3& A, const Vec3& u, double target, double softness, double bound, const Vec3& old) {
+  Vec3 next = old;
+  next[0] = std::max(0.0, old[0] + (target - u[0] - softness * old[0]) / (A(0, 0) + softness));
+  const Eigen::Matrix2d S = A.bottomRightCorner<2, 2>();
+  const Eigen::Vector2d q = u.tail<2>() + A.block<2, 1>(1, 0) * (next[0] - old[0]) - S * old.tail<2>();
+  Eigen::Vector2d t = -S.inverse() * q;
+  if (t.norm() > bound) {
+    const double last = old.tail<2>().norm();
+    t = bound > 0 ? slip_impulse(S, q, last > 0 ? u.tail<2>().norm() / last : S.trace(),
+                                 [&](const auto&, const auto&) { return std::pair(bound, 0.0); })
+                  : Eigen::Vector2d::Zero();
   }
-  return impulse;
+  next.tail<2>() = t;
+  return next;
 }
 
 void ContactSolver::assemble(const Topology& topology, const Response& response, const std::vector<Constraint>& all,
@@ -145,6 +201,27 @@ void ContactSolver::assemble(const Topology& topology, const Response& response,
         }
     }
   }
+  soften_dead_centres(all, members);
+}
+
+/// Two segments that press on each other along a chain of joints between them (chin on chest, through the neck) can stand at a dead
+/// centre, where no joint lets the contact give way: its bodies would answer like thousands of kilograms and a slip of millimetres
+/// a second would ask for the impulse of a crash. Such a contact yields a little: it answers no stiffer than a stated multiple of
+/// its bodies' mass. Contacts that are not at a dead centre are not touched.
+void ContactSolver::soften_dead_centres(const std::vector<Constraint>& all, const std::vector<int>& members) {
+  for (int i = 0; i < static_cast<int>(members.size()); ++i) {
+    const Constraint& c = all[members[i]];
+    if (c.kind != ConstraintKind::contact) continue;
+    const double least = kLeastResponse * c.free_response;
+    const Mat3 A = own_response(i, 3);
+    // det/(product of the two larger) bounds the smallest eigenvalue cheaply; exact only when it matters
+    const double trace = A.trace();
+    if (A.determinant() > least * trace * trace) continue;
+    const double smallest = Eigen::SelfAdjointEigenSolver<Mat3>().computeDirect(A, Eigen::EigenvaluesOnly).eigenvalues()[0];
+    if (smallest >= least) continue;
+    for (int r = 0; r < 3; ++r)
+      G_[static_cast<std::size_t>(offset_[i] + r) * static_cast<std::size_t>(size_ + 1)] += least - smallest;
+  }
 }
 
 void ContactSolver::add_to_velocity(int column, int rows, const Vec3& change) {
@@ -156,72 +233,310 @@ void ContactSolver::add_to_velocity(int column, int rows, const Vec3& change) {
   }
 }
 
-SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance, int max_sweeps) {
+Mat3 ContactSolver::own_response(int member, int rows) const {
+  Mat3 A = Mat3::Identity();
+  for (int q = 0; q < rows; ++q)
+    for (int r = 0; r < rows; ++r) A(r, q) = G(offset_[member] + r, offset_[member] + q);
+  return A;
+}
+
+Vec3 ContactSolver::velocity(int member, int rows) const {
+  Vec3 u = Vec3::Zero();
+  for (int r = 0; r < rows; ++r) u[r] = u_[static_cast<std::size_t>(offset_[member] + r)];
+  return u;
+}
+
+double ContactSolver::residual(const std::vector<Constraint>& all, const std::vector<int>& members) const {
+  double largest = 0;
+  for (int i = 0; i < static_cast<int>(members.size()); ++i) {
+    const Constraint& c = all[members[i]];
+    const double r = natural_residual(c, velocity(i, c.rows), own_response(i, c.rows), bounded_ ? bound_[i] : -1.0);
+    if (!(r <= largest)) largest = r;  // what is not a number stays visible
+  }
+  return largest;
+}
+
+/// One Gauss-Seidel sweep; returns the largest change of velocity it made.
+double ContactSolver::sweep(std::vector<Constraint>& all, const std::vector<int>& members) {
+  double largest = 0;
+  for (int i = 0; i < static_cast<int>(members.size()); ++i) {
+    Constraint& c = all[members[i]];
+    const Mat3 A = own_response(i, c.rows);
+    const Vec3 u = velocity(i, c.rows);
+    Vec3 next = Vec3::Zero();
+    double scale = 1;
+    switch (c.kind) {
+      case ConstraintKind::contact: {
+        if (bounded_) {
+          next = solve_bounded_contact(A, u, c.target, c.softness, bound_[i], c.impulse);
+          break;
+        }
+        Mat3 soft = A;
+        soft(0, 0) += c.softness;
+        next = solve_one_contact(soft, u - A * c.impulse, c.target, c.friction, c.impulse);
+        break;
+      }
+      case ConstraintKind::wheel:
+        next = solve_wheel(A, u, c.impulse, c);
+        break;
+      case ConstraintKind::limit:
+      case ConstraintKind::bilateral: {
+        next[0] = c.impulse[0] + (c.target - u[0] - c.softness * c.impulse[0]) / (A(0, 0) + c.softness);
+        if (c.kind == ConstraintKind::limit) {
+          next[0] = std::max(0.0, next[0]);
+          scale = kLimitArm;
+        }
+        break;
+      }
+    }
+    const Vec3 change = next - c.impulse;
+    if (change.squaredNorm() == 0) continue;
+    add_to_velocity(offset_[i], c.rows, change);
+    c.impulse = next;
+    largest = std::max(largest, scale * (A * change).cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+/// The conditions at the present impulses as linear equations in their change; returns the number of unknowns.
+int ContactSolver::linearise(const std::vector<Constraint>& all, const std::vector<int>& members) {
+  unknown_.clear();
+  rule_.clear();
+  for (int i = 0; i < static_cast<int>(members.size()); ++i) {
+    const Constraint& c = all[members[i]];
+    const Mat3 A = own_response(i, c.rows);
+    const Vec3 u = velocity(i, c.rows);
+    const double miss = u[0] + c.softness * c.impulse[0] - c.target;
+    const double active = c.impulse[0] - miss / (A(0, 0) + c.softness);
+    if (c.kind != ConstraintKind::bilateral && active <= 0) {
+      // opens: its impulse goes to zero with the others' knowledge
+      for (int r = 0; r < c.rows; ++r)
+        if (c.impulse[r] != 0) unknown_.push_back(offset_[i] + r), rule_.push_back({Row::let_go, i, r});
+      continue;
+    }
+    unknown_.push_back(offset_[i]);
+    rule_.push_back({Row::normal, i, 0});
+    if (c.rows < 3) continue;
+    Row::Kind kind = Row::stick;
+    if (c.kind == ConstraintKind::wheel) {
+      // brake or grip at its bound stays there for this step; the sweeps move it
+      const double held = std::hypot(c.impulse[1], c.impulse[2]);
+      if (held > 0.999999 * c.friction * c.impulse[0]) continue;
+      if (std::abs(c.impulse[1]) < 0.999999 * c.rolling_bound)
+        unknown_.push_back(offset_[i] + 1), rule_.push_back({Row::stick, i, 1});
+      unknown_.push_back(offset_[i] + 2), rule_.push_back({Row::stick, i, 2});
+      continue;
+    }
+    const double rho = 1 / std::max(A(1, 1), A(2, 2));
+    const Eigen::Vector2d wanted = c.impulse.tail<2>() - rho * u.tail<2>();
+    const double most = bounded_ ? bound_[i] : c.friction * active;
+    if (wanted.norm() > std::max(most, kTinyImpulse)) kind = Row::slip;
+    for (int r = 1; r < 3; ++r) unknown_.push_back(offset_[i] + r), rule_.push_back({kind, i, r});
+  }
+  return static_cast<int>(unknown_.size());
+}
+
+/// Moves the impulses to the solution of the linearised conditions; false if there is none.
+bool ContactSolver::newton_step(std::vector<Constraint>& all, const std::vector<int>& members) {
+  const int n = linearise(all, members);
+  if (n == 0) return false;
+  newton_.resize(n);
+  for (int k = 0; k < n; ++k) {
+    const auto [kind, member, r] = rule_[k];
+    const Constraint& c = all[members[member]];
+    const int row = unknown_[k];
+    const double u = u_[static_cast<std::size_t>(row)];
+    if (kind == Row::let_go) {
+      newton_.A(k, k) = 1;
+      newton_.b(k) = -c.impulse[r];
+      continue;
+    }
+    if (kind != Row::slip) {
+      for (int m = 0; m < n; ++m) newton_.A(k, m) = G(row, unknown_[m]);
+      newton_.A(k, k) += regular_ * G(row, row) + (r == 0 ? c.softness : 0);
+      newton_.b(k) = r == 0 ? c.target - u - c.softness * c.impulse[0] : -u;
+      continue;
+    }
+    // L_t = mu L_n x/|x| with x = L_t - rho u_t
+    const Mat3 A = own_response(member, 3);
+    const double rho = 1 / std::max(A(1, 1), A(2, 2));
+    const Vec3 v = velocity(member, 3);
+    const Eigen::Vector2d x = c.impulse.tail<2>() - rho * v.tail<2>();
+    const double length = x.norm();
+    const Eigen::Vector2d d = x / length;
+    const double most = bounded_ ? bound_[member] : c.friction * std::max(0.0, c.impulse[0]);
+    const double share = std::min(1.0, most / length);
+    const Eigen::Vector2d across = share * (Eigen::Vector2d::Unit(r - 1) - d[r - 1] * d);
+    const int first = offset_[member];
+    for (int m = 0; m < n; ++m) {
+      const int column = unknown_[m];
+      double a = rho * (across[0] * G(first + 1, column) + across[1] * G(first + 2, column));
+      if (column == first && !bounded_) a -= c.friction * d[r - 1];
+      if (column == first + 1) a -= across[0];
+      if (column == first + 2) a -= across[1];
+      if (column == row) a += 1;
+      newton_.A(k, m) = a;
+    }
+    newton_.b(k) = most * d[r - 1] - c.impulse[r];
+  }
+  if (!newton_.solve()) return false;
+
+  L_.resize(static_cast<std::size_t>(size_));
+  for (int i = 0; i < static_cast<int>(members.size()); ++i)
+    for (int r = 0; r < all[members[i]].rows; ++r) L_[static_cast<std::size_t>(offset_[i] + r)] = all[members[i]].impulse[r];
+  for (int k = 0; k < n; ++k) L_[static_cast<std::size_t>(unknown_[k])] += newton_.b(k);
+  for (int i = 0; i < static_cast<int>(members.size()); ++i) {
+    Constraint& c = all[members[i]];
+    Vec3 next = Vec3::Zero();
+    for (int r = 0; r < c.rows; ++r) next[r] = L_[static_cast<std::size_t>(offset_[i] + r)];
+    if (c.kind == ConstraintKind::contact && bounded_) next.tail<2>() = shortened(next.tail<2>(), bound_[i]);
+    if (c.kind == ConstraintKind::contact && !bounded_) next = project_to_cone(next, c.friction);
+    if (c.kind != ConstraintKind::bilateral) next[0] = std::max(0.0, next[0]);
+    const Vec3 change = next - c.impulse;
+    c.impulse = next;
+    add_to_velocity(offset_[i], c.rows, change);
+  }
+  return true;
+}
+
+void ContactSolver::keep(const std::vector<Constraint>& all, const std::vector<int>& members) {
+  u_kept_ = u_;
+  L_kept_.resize(static_cast<std::size_t>(size_));
+  for (int i = 0; i < static_cast<int>(members.size()); ++i)
+    for (int r = 0; r < all[members[i]].rows; ++r) L_kept_[static_cast<std::size_t>(offset_[i] + r)] = all[members[i]].impulse[r];
+}
+
+void ContactSolver::go_back(std::vector<Constraint>& all, const std::vector<int>& members) {
+  u_ = u_kept_;
+  for (int i = 0; i < static_cast<int>(members.size()); ++i)
+    for (int r = 0; r < all[members[i]].rows; ++r) all[members[i]].impulse[r] = L_kept_[static_cast<std::size_t>(offset_[i] + r)];
+}
+
+/// Newton steps at full length: the set of open, sticking and slipping contacts settles on the way, so the residual may rise for a
+/// while; the best of them is kept.
+void ContactSolver::newton(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance, bool settle,
+                           SolveReport& report) {
+  keep(all, members);
+  double best = report.residual;
+  bool at_best = true;
+  int worse = 0;
+  regular_ = settle ? kRegularFirst : kRegularJammed;
+  for (int k = 0; k < kNewtonSteps && report.residual > tolerance; ++k) {
+    ++report.newton_steps;
+    if (!newton_step(all, members)) break;
+    if (settle) {
+      sweep(all, members);  // contacts on the edge between sticking and slipping, where Newton alone goes to and fro
+      ++report.sweeps;
+    }
+    report.residual = residual(all, members);
+    at_best = report.residual < best;
+    if (!std::isfinite(report.residual)) break;
+    regular_ = std::max(kRegularLast, (at_best ? kRegularFalls : 1.0) * regular_);
+    if (!at_best && ++worse == kPatience) break;
+    if (!at_best) continue;
+    best = report.residual;
+    keep(all, members);
+  }
+  if (!at_best) go_back(all, members);
+  report.residual = best;
+}
+
+/// Sweeps and Newton in turns; stops at the tolerance or after the sweeps given.
+void ContactSolver::iterate(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance, int sweeps,
+                            SolveReport& report) {
+  const int last = report.sweeps + sweeps;
+  int round = kFirstSweeps;
+  bool redundant = true;  // or jammed: the two ask for different care, and one cannot tell before
+  // the first round asks for more than the tolerance: Newton gives it for a step or two, and resting bodies creep by what is left
+  double goal = kFirstGoal * tolerance;
+  while (report.residual > goal && report.sweeps < last) {
+    double change = 0;
+    for (int k = 0; k < round; ++k) {
+      ++report.sweeps;
+      change = sweep(all, members);
+      if (change < 0.1 * goal) break;
+    }
+    report.residual = residual(all, members);
+    if (report.residual > goal) newton(all, members, goal, redundant, report), redundant = !redundant;
+    if (change == 0) break;
+    round *= 2;
+    goal = tolerance;
+  }
+}
+
+/// Fixed point on the friction bounds (Haslinger 1983): with every bound held the conditions are those of a convex problem, which
+/// sweeps and Newton always solve; then the bounds follow the normal impulses found. Where friction jams a chain of limits
+/// (Painleve's rod) the bounds climb from the sliding solution that no longer holds to the one that does.
+void ContactSolver::follow_bounds(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance,
+                                  SolveReport& report) {
+  const std::size_t count = members.size();
+  bound_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) bound_[i] = all[members[i]].friction * all[members[i]].impulse[0];
+  double share = 1, last = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kBoundSteps; ++k) {
+    bounded_ = true;
+    report.residual = residual(all, members);
+    iterate(all, members, 0.1 * tolerance, kBoundedSweeps, report);
+    bounded_ = false;
+    double change = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Constraint& c = all[members[i]];
+      if (c.kind != ConstraintKind::contact) continue;
+      const double difference = c.friction * c.impulse[0] - bound_[i];
+      change = std::max(change, std::abs(difference) * G(offset_[i] + 1, offset_[i] + 1));
+      bound_[i] += share * difference;
+    }
+    report.residual = residual(all, members);
+    if (report.residual <= tolerance) return;
+    if (change < kNearBound || k % 4 == 3) {
+      newton(all, members, tolerance, false, report);
+      if (report.residual <= tolerance) return;
+    }
+    if (change > 0.9 * last) share = std::max(0.25, 0.7 * share);
+    last = change;
+  }
+}
+
+SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance) {
   const int count = static_cast<int>(members.size());
   for (int i = 0; i < count; ++i)
-    for (int r = 0; r < all[members[i]].rows; ++r) u_[offset_[i] + r] = all[members[i]].u_free[r];
+    for (int r = 0; r < all[members[i]].rows; ++r) u_[static_cast<std::size_t>(offset_[i] + r)] = all[members[i]].u_free[r];
   for (int i = 0; i < count; ++i) add_to_velocity(offset_[i], all[members[i]].rows, all[members[i]].impulse);
 
-  auto own = [&](int i) {
-    Mat3 A = Mat3::Identity();
-    const int rows = all[members[i]].rows;
-    for (int q = 0; q < rows; ++q)
-      for (int r = 0; r < rows; ++r) A(r, q) = G_[static_cast<std::size_t>(offset_[i] + q) * size_ + offset_[i] + r];
-    return A;
-  };
-  auto velocity = [&](int i) {
-    Vec3 u = Vec3::Zero();
-    for (int r = 0; r < all[members[i]].rows; ++r) u[r] = u_[offset_[i] + r];
-    return u;
-  };
-
   SolveReport report;
-  for (report.sweeps = 1; report.sweeps <= max_sweeps; ++report.sweeps) {
+  report.residual = residual(all, members);
+  u_start_ = u_;
+  L_start_.clear();
+  for (const int m : members) L_start_.push_back(all[m].impulse);
+  iterate(all, members, tolerance, kPlainSweeps, report);
+  if (!(report.residual <= tolerance)) {
+    u_ = u_start_;  // where the sweeps went may be far off
+    for (int i = 0; i < count; ++i) all[members[i]].impulse = L_start_[i];
+    follow_bounds(all, members, tolerance, report);
+  }
+  for (int i = 0; i < count; ++i) all[members[i]].u_after = velocity(i, all[members[i]].rows);
+  return report;
+}
+
+void ContactSolver::push_apart(std::vector<Constraint>& all, const std::vector<int>& members, const std::vector<double>& wanted) {
+  constexpr int kSweeps = 30;
+  constexpr double kTight = 1e-8;  // [m], [rad]
+  const int count = static_cast<int>(members.size());
+  for (int k = 0; k < kSweeps; ++k) {
     double largest = 0;
     for (int i = 0; i < count; ++i) {
       Constraint& c = all[members[i]];
-      const Mat3 A = own(i);
-      const Vec3 u = velocity(i);
-      Vec3 next = Vec3::Zero();
-      double scale = 1;
-      switch (c.kind) {
-        case ConstraintKind::contact: {
-          Mat3 soft = A;
-          soft(0, 0) += c.softness;
-          const Vec3 b = u - A * c.impulse;
-          next = solve_one_contact(soft, b, c.target, c.friction, c.impulse);
-          break;
-        }
-        case ConstraintKind::wheel:
-          next = solve_wheel(A, u, c.impulse, c);
-          break;
-        case ConstraintKind::limit:
-        case ConstraintKind::bilateral: {
-          next[0] = c.impulse[0] + (c.target - u[0] - c.softness * c.impulse[0]) / (A(0, 0) + c.softness);
-          if (c.kind == ConstraintKind::limit) {
-            next[0] = std::max(0.0, next[0]);
-            scale = kLimitArm;
-          }
-          break;
-        }
-      }
-      // contacts that chase each other between slip and stick come together with shorter steps; the cone is convex, so they stay in
-      // it
-      if (report.sweeps > kPatience) next = c.impulse + kShorter * (next - c.impulse);
-      const Vec3 change = next - c.impulse;
-      if (change.squaredNorm() == 0) continue;
-      add_to_velocity(offset_[i], c.rows, change);
-      c.impulse = next;
-      largest = std::max(largest, scale * (A * change).cwiseAbs().maxCoeff());
+      if (!std::isfinite(wanted[i])) continue;
+      double moved = 0;
+      for (int j = 0; j < count; ++j)
+        if (all[members[j]].push != 0) moved += G(offset_[i], offset_[j]) * all[members[j]].push;
+      const double own = G(offset_[i], offset_[i]);
+      const double next = std::max(0.0, c.push + (wanted[i] - moved) / own);
+      largest = std::max(largest, own * std::abs(next - c.push));
+      c.push = next;
     }
-    if (largest < tolerance) break;
+    if (largest < kTight) return;
   }
-  for (int i = 0; i < count; ++i) {
-    Constraint& c = all[members[i]];
-    c.u_after = velocity(i);
-    report.residual = std::max(report.residual, natural_residual(c, c.u_after, own(i)));
-  }
-  return report;
 }
 
 double ContactSolver::kinetic_energy_change(const std::vector<Constraint>& all, const std::vector<int>& members) const {

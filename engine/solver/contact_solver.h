@@ -1,20 +1,25 @@
 // Impulses of all contacts, limits and wheels of an island at once: Signorini's condition and the exact Coulomb cone, eq. (61).
 //
 //   u = G L + u_free,   u_n + s L_n >= t,  L_n >= 0,  L_n (u_n + s L_n - t) = 0,   |L_t| <= mu L_n, L_t against u_t
-// G = J K^-1 J^T through the joint factorisation (eq. (63) with K for M), s softness, t target. Block Gauss-Seidel, each contact
-// solved exactly for given others: open, stick, or slip along the direction c that its own slip then has (Newton on c, no
-// trigonometry).
+// G = J K^-1 J^T through the joint factorisation (eq. (63) with K for M), s softness, t target.
+//
+// Block Gauss-Seidel, each contact solved exactly for given others: open, stick, or slip along the direction c that its own slip
+// then has (Newton on c, no trigonometry). It finds who is open, who sticks, who slips in a few sweeps, but closes in on the
+// impulses slowly where light limbs are pressed between heavy things. So it alternates with Newton on all conditions at once
+// (semi-smooth, after Alart and Curnier 1991): a full step is taken if it lowers the residual, else more sweeps follow.
 #pragma once
 
 #include <vector>
 
 #include "engine/solver/constraint.h"
+#include "engine/solver/dense_system.h"
 #include "engine/solver/response.h"
 
 namespace engine {
 
 struct SolveReport {
   int sweeps = 0;
+  int newton_steps = 0;
   double residual = 0;  // [m/s] natural map, largest over the blocks
 };
 
@@ -24,24 +29,60 @@ class ContactSolver {
   void assemble(const Topology&, const Response&, const std::vector<Constraint>&, const std::vector<int>& members);
 
   /// Solves; impulses of the constraints are start value and result, u_after is set. `tolerance` [m/s].
-  SolveReport solve(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, int max_sweeps);
+  SolveReport solve(std::vector<Constraint>&, const std::vector<int>& members, double tolerance);
+
+  /// Displaces along the normals alone, none pulled: G push + displacement wanted >= 0. Sets Constraint::push.
+  void push_apart(std::vector<Constraint>&, const std::vector<int>& members, const std::vector<double>& wanted);
 
   /// Change of kinetic energy [J] by the impulses: L.u_after - 1/2 L.G L.
   double kinetic_energy_change(const std::vector<Constraint>&, const std::vector<int>& members) const;
 
  private:
+  void soften_dead_centres(const std::vector<Constraint>&, const std::vector<int>& members);
   void add_to_velocity(int column, int rows, const Vec3& change);
+  double sweep(std::vector<Constraint>&, const std::vector<int>& members);
+  void iterate(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, int sweeps, SolveReport&);
+  void follow_bounds(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, SolveReport&);
+  double residual(const std::vector<Constraint>&, const std::vector<int>& members) const;
+  void newton(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, bool settle, SolveReport&);
+  bool newton_step(std::vector<Constraint>&, const std::vector<int>& members);
+  void keep(const std::vector<Constraint>&, const std::vector<int>& members);
+  void go_back(std::vector<Constraint>&, const std::vector<int>& members);
+  int linearise(const std::vector<Constraint>&, const std::vector<int>& members);
+  Mat3 own_response(int member, int rows) const;
+  Vec3 velocity(int member, int rows) const;
+  double G(int row, int column) const {
+    return G_[static_cast<std::size_t>(column) * static_cast<std::size_t>(size_) + static_cast<std::size_t>(row)];
+  }
 
+  /// What Newton asks of one row.
+  struct Row {
+    enum Kind { normal, stick, slip, let_go } kind;
+    int member, r;
+  };
+
+  double regular_ = 0;
+  bool bounded_ = false;       // friction bounds are held at bound_
+  std::vector<double> bound_;  // [N s] per member
   int size_ = 0;
   std::vector<int> offset_;  // per member
   std::vector<double> G_;    // column-major size_ x size_
   std::vector<double> u_;
+  DenseSystem newton_;        // of the rows that can change
+  std::vector<int> unknown_;  // row of G per unknown
+  std::vector<Row> rule_;     // per unknown
+  std::vector<double> L_, u_kept_, L_kept_, u_start_;
+  std::vector<Vec3> L_start_;
   std::vector<Eigen::Matrix<double, 3, 6>> Y_;
 };
 
 /// Exact impulse of one contact with own response A (3x3), velocity b without it, normal target t and softness s (already in A).
 /// `guess` is the last impulse: its tangential part starts the search for the direction of slip.
 Vec3 solve_one_contact(const Mat3& A, const Vec3& b, double target, double mu, const Vec3& guess);
+
+/// The same with friction bounded by a given impulse [N s]: the normal first, then the tangents; `old` is the last impulse, u what
+/// it left.
+Vec3 solve_bounded_contact(const Mat3& A, const Vec3& u, double target, double softness, double bound, const Vec3& old);
 
 /// Nearest point of the cone |L_t| <= mu L_n.
 Vec3 project_to_cone(const Vec3& impulse, double mu);

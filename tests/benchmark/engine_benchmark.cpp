@@ -1,0 +1,186 @@
+// What the engine does in a second, and how well: `build/tests/benchmark_engine [part...] [--peer name=program]...`
+// Parts: scenes, ensemble, persons, triangles, plan. Times are medians on one core; ratios compare runs of the same call.
+// A peer is a program that takes `scene=NAME dt=SECONDS reps=N` and prints comma separated values with steps/s in column six.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "engine/plan.h"
+#include "engine/simulate.h"
+#include "tests/benchmark/common_scenes.h"
+
+namespace {
+
+using engine::Model;
+using engine::Recording;
+
+struct Peer {
+  std::string name, program;
+};
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct Timed {
+  Recording run;
+  double wall_s = 0;  // median
+  double steps_per_s() const { return static_cast<double>(run.steps) / wall_s; }
+};
+
+Timed timed(const Model& model, int repetitions) {
+  Timed out;
+  std::vector<double> walls;
+  for (int r = 0; r < repetitions; ++r) {
+    const double start = now();
+    out.run = engine::simulate(model);
+    walls.push_back(now() - start);
+  }
+  std::nth_element(walls.begin(), walls.begin() + repetitions / 2, walls.end());
+  out.wall_s = walls[static_cast<std::size_t>(repetitions / 2)];
+  return out;
+}
+
+engine::Vec3 centre_of_figure(const Model& model, const Recording& run) {
+  engine::Vec3 sum = engine::Vec3::Zero();
+  double mass = 0;
+  for (const int b : model.persons.front().bodies) {
+    sum += model.bodies[b].mass * run.snapshots.back().bodies[b].X_WB.p;
+    mass += model.bodies[b].mass;
+  }
+  return sum / mass;
+}
+
+double peer_rate(const Peer& peer, const std::string& scene) {
+  const std::string command = peer.program + " scene=" + scene + " dt=0.001 reps=5";
+  FILE* pipe = popen(command.c_str(), "r");
+  if (!pipe) return 0;
+  char line[1024] = {};
+  const bool any = std::fgets(line, sizeof line, pipe) != nullptr;
+  pclose(pipe);
+  if (!any) return 0;
+  std::string text = line;
+  for (int column = 0; column < 5; ++column) {
+    const auto comma = text.find(',');
+    if (comma == std::string::npos) return 0;
+    text.erase(0, comma + 1);
+  }
+  return std::strtod(text.c_str(), nullptr);
+}
+
+void scenes(const std::vector<Peer>& peers) {
+  std::printf("Common scenes, step 1 ms, one core\n%-8s %9s %9s %10s %10s %9s %8s", "scene", "steps/s", "drift m", "limit deg",
+              "penetr. mm", "residual", "x end m");
+  for (const Peer& peer : peers) std::printf(" %14s", ("x " + peer.name).c_str());
+  std::printf("\n");
+  for (const std::string scene : {"flight", "drop", "throw", "vehicle"}) {
+    const Model model = benchmark::common_scene(scene, 1e-3);
+    const Timed t = timed(model, 5);
+    const auto& d = t.run.diagnostics;
+    std::printf("%-8s %9.0f %9.1e %10.4f %10.4f %9.1e %8.3f", scene.c_str(), t.steps_per_s(), d.max_joint_gap,
+                d.max_joint_angle_error * 180 / std::numbers::pi, d.max_penetration * 1e3, d.max_solver_residual,
+                centre_of_figure(model, t.run).x());
+    for (const Peer& peer : peers) std::printf(" %14.2f", t.steps_per_s() / peer_rate(peer, scene));
+    std::printf("\n");
+    std::fflush(stdout);
+  }
+  const Model coarse = benchmark::common_scene("flight", 1e-3), fine = benchmark::common_scene("flight", 1.0 / 16e3);
+  const Recording a = engine::simulate(coarse), b = engine::simulate(fine);
+  double error = 0;
+  for (std::size_t i = 0; i < coarse.bodies.size(); ++i)
+    error = std::max(error, (a.snapshots.back().bodies[i].X_WB.p - b.snapshots.back().bodies[i].X_WB.p).norm());
+  std::printf("flight: error after 1 s at 1 ms %.2e m\n\n", error);
+}
+
+void ensemble() {
+  std::printf("Twenty starts shifted by 0 to 19 micrometres\n");
+  for (const std::string scene : {"throw", "vehicle"})
+    for (const double step : {1e-3, 5e-4}) {
+      double sum = 0, squares = 0;
+      for (int k = 0; k < 20; ++k) {
+        const Model model = benchmark::common_scene(scene, step, 1e-6 * k);
+        const double x = centre_of_figure(model, engine::simulate(model)).x();
+        sum += x;
+        squares += x * x;
+      }
+      const double mean = sum / 20;
+      std::printf("%-8s step %.2g ms: mean %.4f m, standard deviation %.2f mm\n", scene.c_str(), step * 1e3, mean,
+                  1e3 * std::sqrt(std::max(0.0, squares / 20 - mean * mean)));
+    }
+  std::printf("\n");
+}
+
+void persons() {
+  std::printf("Cost of a step against the number of persons [microseconds a person]\n%-8s", "");
+  for (const int count : {1, 2, 5, 20, 50}) std::printf(" %7d", count);
+  std::printf("\n");
+  for (const std::string what : {"lying", "thrown", "struck"}) {
+    std::printf("%-8s", what.c_str());
+    for (const int count : {1, 2, 5, 20, 50}) {
+      const Timed t = timed(benchmark::crowd(what, count, 1e-3), count > 5 ? 1 : 3);
+      std::printf(" %7.1f", 1e6 * t.wall_s / static_cast<double>(t.run.steps) / count);
+      std::fflush(stdout);
+    }
+    std::printf("\n");
+  }
+  std::printf("\n");
+}
+
+void triangles() {
+  std::printf("Cost of a step against the triangles of the vehicle\n");
+  double first = 0;
+  for (const int count : {1000, 10000, 100000, 1000000}) {
+    const Timed t = timed(benchmark::struck_by_mesh(count, 1e-3), 3);
+    const double cost = 1e6 * t.wall_s / static_cast<double>(t.run.steps);
+    if (first == 0) first = cost;
+    std::printf("%8d triangles: %7.1f us a step, %.2f times the first\n", count, cost, cost / first);
+    std::fflush(stdout);
+  }
+  std::printf("\n");
+}
+
+/// What is not called for costs nothing: one falling ball, a person who still waits, a person in contact.
+void plan() {
+  Model ball = benchmark::common_scene("flight", 1e-3);
+  ball.bodies.resize(1);
+  ball.bodies[0].person = -1;
+  ball.joints.clear();
+  ball.persons.clear();
+  ball.settings.effects.clear();
+  Model waiting = benchmark::crowd("struck", 1, 1e-3);
+  waiting.persons[0].zero_condition = true;
+  waiting.bodies.pop_back();  // the car
+  waiting.vehicles.clear();
+  const Model contact = benchmark::common_scene("vehicle", 1e-3);
+  auto cost = [](const Timed& t) { return 1e6 * t.wall_s / static_cast<double>(t.run.steps); };
+  const double one = cost(timed(ball, 9)), idle = cost(timed(waiting, 9)), full = cost(timed(contact, 5));
+  std::printf("One ball %.3f us a step, a waiting person %.3f us, a struck person %.1f us: ratios %.0f and %.4f\n\n", one, idle,
+              full, full / one, idle / full);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::string> parts;
+  std::vector<Peer> peers;
+  for (int i = 1; i < argc; ++i) {
+    const std::string arg = argv[i];
+    if (arg == "--peer" && i + 1 < argc) {
+      const std::string peer = argv[++i];
+      const auto equals = peer.find('=');
+      peers.push_back({peer.substr(0, equals), peer.substr(equals + 1)});
+    } else {
+      parts.push_back(arg);
+    }
+  }
+  auto wanted = [&](const char* part) { return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end(); };
+  if (wanted("scenes")) scenes(peers);
+  if (wanted("ensemble")) ensemble();
+  if (wanted("persons")) persons();
+  if (wanted("triangles")) triangles();
+  if (wanted("plan")) plan();
+}
