@@ -530,8 +530,8 @@ bool Stepper::acceptable(const std::vector<Constraint>& end) const {
       if (c.kind == kind) depth = std::max(depth, -c.gap);
     return depth;
   };
-  return deepest(end, ConstraintKind::contact) < kMayPenetrate + deepest(contacts_, ConstraintKind::contact) &&
-         deepest(end, ConstraintKind::limit) < kMayExceed + deepest(contacts_, ConstraintKind::limit);
+  return deepest(end, ConstraintKind::contact) < std::max(kMayPenetrate, deepest(contacts_, ConstraintKind::contact) + kSlop) &&
+         deepest(end, ConstraintKind::limit) < std::max(kMayExceed, deepest(contacts_, ConstraintKind::limit) + kSlop);
 }
 
 }  // namespace engine

@@ -2,6 +2,8 @@
 // allocated once, so that the step allocates nothing.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -17,12 +19,29 @@
 
 namespace engine {
 
+/// What is known of the distance between two bodies: at least `least` when the second stood at `X` in the frame of the first.
+/// Spares a pair its narrow phase for as long as it cannot matter; a bound, not a guess.
+struct Clearance {
+  double least = 0;  // [m]
+  Pose X;
+
+  /// Farther apart than `margin` still, wherever the second body has gone since? Its points lie within `reach` of its centre [m].
+  bool beyond(double margin, const Pose& X_now, double reach) const {
+    if (least <= margin) return false;
+    // |dq| = 2 sin(angle/4), so 2 |dq| bounds the chord 2 sin(angle/2) of a point at distance one
+    const double dq =
+        std::sqrt(std::min((X_now.q.coeffs() - X.q.coeffs()).squaredNorm(), (X_now.q.coeffs() + X.q.coeffs()).squaredNorm()));
+    return least - (X_now.p - X.p).norm() - 2 * dq * reach > margin;
+  }
+};
+
 /// A segment that may touch a mesh (of a vehicle, of any other body, or the terrain).
 struct MeshPair {
   int effect = 0;
   int body = 0;
   int mesh_body = -1;  // -1: terrain
   const TriangleMesh* mesh = nullptr;
+  Clearance clearance;  // of the segment in the frame of the mesh
   MeshContactScratch scratch;
 };
 
@@ -31,6 +50,7 @@ struct BodyPair {
   int effect = 0;
   int a = 0, b = 0;
   Vec3 normal_W = Vec3::Zero();  // of the last step, zero: none yet
+  Clearance clearance;           // of b in the frame of a
 };
 
 /// What the wheel effect keeps between steps.

@@ -33,7 +33,7 @@ std::vector<BodyPair> pairs_within_persons(const Model& model, int effect) {
     for (std::size_t i = 0; i < person.bodies.size(); ++i)
       for (std::size_t k = i + 1; k < person.bodies.size(); ++k)
         if (can_meet(model, person.bodies[i], person.bodies[k]) && !overlaps_at_start(model, person.bodies[i], person.bodies[k]))
-          pairs.push_back({effect, person.bodies[i], person.bodies[k], Vec3::Zero()});
+          pairs.push_back({effect, person.bodies[i], person.bodies[k], Vec3::Zero(), {}});
   return pairs;
 }
 
@@ -43,7 +43,7 @@ std::vector<BodyPair> pairs_between_bodies(const Model& model, int effect) {
   for (int a = 0; a < n; ++a)
     for (int b = a + 1; b < n; ++b) {
       const bool same_person = model.bodies[a].person >= 0 && model.bodies[a].person == model.bodies[b].person;
-      if (!same_person && can_meet(model, a, b)) pairs.push_back({effect, a, b, Vec3::Zero()});
+      if (!same_person && can_meet(model, a, b)) pairs.push_back({effect, a, b, Vec3::Zero(), {}});
     }
   return pairs;
 }
@@ -59,9 +59,15 @@ void find_pair_contacts(World& world, const State& state, int effect, ContactKin
     const Body& B = world.model.bodies[pair.b];
     const bool frozen = (!world.awake[pair.a] && !A.fixed) || (!world.awake[pair.b] && !B.fixed);
     if (frozen) continue;  // in the zero condition: that effect watches
+    const Pose X_AB = state.X_WB[pair.a].inverse() * state.X_WB[pair.b];
+    if (pair.clearance.beyond(margin, X_AB, world.reach[pair.b])) continue;
+    pair.clearance.least = 0;
     const auto touch = contact_of_pair(std::get<HyperEllipsoid>(A.shape), state.X_WB[pair.a], std::get<HyperEllipsoid>(B.shape),
-                                       state.X_WB[pair.b], margin, pair.normal_W);
-    if (!touch) continue;
+                                       state.X_WB[pair.b], margin, pair.normal_W, &pair.clearance.least);
+    if (!touch) {
+      pair.clearance.X = X_AB;
+      continue;
+    }
     const double mu = std::min(A.surface.friction_body.at(state.time), B.surface.friction_body.at(state.time));
     const double e = std::max(A.surface.restitution_body.at(state.time), B.surface.restitution_body.at(state.time));
     add_contact(world, state, *touch, pair.a, pair.b, effect, kind, mu, e);

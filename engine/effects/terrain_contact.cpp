@@ -20,7 +20,7 @@ std::optional<std::string> called_for(const Model& model) {
 void begin(World& world, const State&, int self) {
   if (!world.model.ground.terrain) return;
   for (int b = 0; b < static_cast<int>(world.model.bodies.size()); ++b)
-    if (has_surface(world.model.bodies[b])) world.mesh_pairs.push_back({self, b, -1, world.model.ground.terrain.get(), {}});
+    if (has_surface(world.model.bodies[b])) world.mesh_pairs.push_back({self, b, -1, world.model.ground.terrain.get(), {}, {}});
 }
 
 void find(World& world, const State& state, int self) {
@@ -29,8 +29,10 @@ void find(World& world, const State& state, int self) {
     if (pair.effect != self || !world.awake[pair.body]) continue;
     const Body& body = world.model.bodies[pair.body];
     const auto& shape = std::get<HyperEllipsoid>(body.shape);
-    contacts_with_mesh(shape, state.X_WB[pair.body], *pair.mesh, Pose{}, contact_margin(world, state, pair.body), pair.scratch,
-                       touches);
+    const double margin = contact_margin(world, state, pair.body);
+    if (pair.clearance.beyond(margin, state.X_WB[pair.body], world.reach[pair.body])) continue;
+    contacts_with_mesh(shape, state.X_WB[pair.body], *pair.mesh, Pose{}, margin, pair.scratch, touches);
+    pair.clearance = {pair.scratch.apart, state.X_WB[pair.body]};
     const SurfaceProperties& ground = world.model.ground.surface;
     const double mu = std::min(body.surface.friction_ground.at(state.time), ground.friction_ground.at(state.time));
     const double e = std::max(body.surface.restitution_ground.at(state.time), ground.restitution_ground.at(state.time));

@@ -16,6 +16,7 @@ double power(double base, double exponent) {
   if (exponent == 1) return base;
   if (exponent == 2) return base * base;
   if (exponent == 0.5) return std::sqrt(base);
+  if (exponent == 1.5) return base * std::sqrt(base);
   return std::pow(base, exponent);
 }
 

@@ -14,6 +14,8 @@
 namespace engine {
 namespace {
 
+constexpr double kLookAhead = 0.15;  // [m] how far beyond the margin a free neighbourhood is told
+
 constexpr double kBorder = 1e-6;    // [-] barycentric tolerance: on the border counts as inside
 constexpr double kCluster = 0.985;  // [-] cosine of 10 degrees
 constexpr int kKeep = 4;            // contacts of one body with one mesh
@@ -152,13 +154,19 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
   const Pose X_MA = X_WM.inverse() * X_WA;
   // the sphere around the body first: most pairs are far apart
   const double radius = shape.semi_axes.norm() + margin;
-  if ((X_MA.p.array() - radius > mesh.bounds().upper.array()).any() ||
-      (X_MA.p.array() + radius < mesh.bounds().lower.array()).any())
+  scratch.apart = (X_MA.p - mesh.bounds().upper).cwiseMax(mesh.bounds().lower - X_MA.p).maxCoeff() - radius + margin;
+  if (scratch.apart > margin) return;
+  scratch.apart = 0;
+  const Vec3 half = aabb_half_widths(shape, X_MA.q);
+  auto look = [&](double around) {
+    scratch.triangles.clear();
+    mesh.query({X_MA.p - half - Vec3::Constant(around), X_MA.p + half + Vec3::Constant(around)}, scratch.triangles);
+    return !scratch.triangles.empty();
+  };
+  if (!look(margin)) {
+    scratch.apart = look(margin + kLookAhead) ? margin : margin + kLookAhead;
     return;
-  const Vec3 half = aabb_half_widths(shape, X_MA.q) + Vec3::Constant(margin);
-  scratch.triangles.clear();
-  mesh.query({X_MA.p - half, X_MA.p + half}, scratch.triangles);
-  if (scratch.triangles.empty()) return;
+  }
 
   // away with triangles whose plane the body does not reach, or whose back its centre has passed
   const Mat3 R_AM = X_MA.q.conjugate().toRotationMatrix();

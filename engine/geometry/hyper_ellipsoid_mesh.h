@@ -14,6 +14,7 @@ struct MeshContactScratch {
   std::vector<int> triangles;
   std::vector<SurfaceContact> candidates;
   std::vector<int> vertices;
+  double apart = 0;  // [m] when nothing was found: the surfaces are at least this far from each other
 };
 
 /// Points with gap < margin [m] between the hyper-ellipsoid at X_WA and the mesh at X_WM; `out` is cleared first. Normals within

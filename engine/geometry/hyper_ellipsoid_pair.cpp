@@ -109,13 +109,17 @@ Found climb(const Pair& pair, Vec3 n, int iterations) {
 }  // namespace
 
 std::optional<SurfaceContact> contact_of_pair(const HyperEllipsoid& A, const Pose& X_WA, const HyperEllipsoid& B, const Pose& X_WB,
-                                              double margin, Vec3& normal_guess) {
+                                              double margin, Vec3& normal_guess, double* apart) {
   const Pair pair{A, B, X_WA.q.toRotationMatrix(), X_WB.q.toRotationMatrix(), X_WA.p - X_WB.p};
   const double distance = pair.d.norm();
   const Vec3 towards = distance > 1e-12 ? Vec3(pair.d / distance) : Vec3(Vec3::UnitZ());
   // any direction that separates by more than the margin ends it
-  if (pair.gap(towards) >= margin) return std::nullopt;
-  if (normal_guess.squaredNorm() > 0.5 && pair.gap(normal_guess) >= margin) return std::nullopt;
+  double known = pair.gap(towards);
+  if (known < margin && normal_guess.squaredNorm() > 0.5) known = pair.gap(normal_guess);
+  if (known >= margin) {
+    if (apart) *apart = known;
+    return std::nullopt;
+  }
 
   const bool warm = normal_guess.squaredNorm() > 0.5;
   Found best = climb(pair, warm ? normal_guess : towards, 40);
@@ -150,7 +154,10 @@ std::optional<SurfaceContact> contact_of_pair(const HyperEllipsoid& A, const Pos
   }
   if (!best.stationary && best.gap < margin) best = polish(pair, best);
   normal_guess = best.n;
-  if (best.gap >= margin) return std::nullopt;
+  if (best.gap >= margin) {
+    if (apart) *apart = best.gap;
+    return std::nullopt;
+  }
   SurfaceContact c;
   c.normal = best.n;
   c.gap = best.gap;

@@ -9,8 +9,9 @@
 namespace engine {
 
 /// Common normal of A and B (points from B to A) with gap < margin [m], else nothing. `normal_guess` (world, zero: none) is the
-/// last step's normal and is updated to the one found even when nothing is returned. Works apart (gap > 0) and overlapping.
+/// last step's normal and is updated to the one found even when nothing is returned; `apart` then receives a lower bound of the gap
+/// [m]. Works apart (gap > 0) and overlapping.
 std::optional<SurfaceContact> contact_of_pair(const HyperEllipsoid& A, const Pose& X_WA, const HyperEllipsoid& B, const Pose& X_WB,
-                                              double margin, Vec3& normal_guess);
+                                              double margin, Vec3& normal_guess, double* apart = nullptr);
 
 }  // namespace engine

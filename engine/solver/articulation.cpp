@@ -1,35 +1,34 @@
 #include "engine/solver/articulation.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 namespace engine {
 namespace {
 
+/// Inverse of a symmetric positive definite matrix by blocks of 3 and K - 3: fixed sizes, no loops, no allocation.
 template <int K>
 Eigen::Matrix<double, K, K> inverse_small(const Eigen::Matrix<double, K, K>& A) {
   if constexpr (K == 3) {
     return A.inverse();
-  } else if constexpr (K == 6) {
-    return inverse_spd(A);
   } else {
-    return A.llt().solve(Eigen::Matrix<double, K, K>::Identity());
+    constexpr int R = K - 3;
+    const Mat3 Pi = A.template topLeftCorner<3, 3>().inverse();
+    const Eigen::Matrix<double, 3, R> PiQ = Pi * A.template topRightCorner<3, R>();
+    const Eigen::Matrix<double, R, R> Si =
+        (A.template bottomRightCorner<R, R>() - A.template topRightCorner<3, R>().transpose() * PiQ).inverse();
+    Eigen::Matrix<double, K, K> out;
+    out.template bottomRightCorner<R, R>() = Si;
+    out.template topRightCorner<3, R>() = -PiQ * Si;
+    out.template bottomLeftCorner<R, 3>() = out.template topRightCorner<3, R>().transpose();
+    out.template topLeftCorner<3, 3>() = Pi - out.template topRightCorner<3, R>() * PiQ.transpose();
+    return out;
   }
 }
 
 }  // namespace
 
 Mat6 inverse_spd(const Mat6& H) {
-  const Mat3 Ai = H.topLeftCorner<3, 3>().inverse();
-  const Mat3 AiB = Ai * H.topRightCorner<3, 3>();
-  const Mat3 S = H.bottomRightCorner<3, 3>() - H.topRightCorner<3, 3>().transpose() * AiB;
-  const Mat3 Si = S.inverse();
-  Mat6 out;
-  out.bottomRightCorner<3, 3>() = Si;
-  out.topRightCorner<3, 3>() = -AiB * Si;
-  out.bottomLeftCorner<3, 3>() = out.topRightCorner<3, 3>().transpose();
-  out.topLeftCorner<3, 3>() = Ai - out.topRightCorner<3, 3>() * AiB.transpose();
-  return out;
+  return inverse_small<6>(H);
 }
 
 Mat3 inertia_W(const Body& body, const Quat& q_WB) {
