@@ -30,7 +30,8 @@ constexpr double kRecovery = 0.5;          // [-] share of a penetration that a 
 constexpr double kRecoverySpeed = 0.2;     // [m/s] at which a deeper one, there from the start, is taken out
 constexpr double kLimitRecoverySpeed = 2;  // [rad/s]
 constexpr double kUnsolved = 0.01;         // [m/s] residual above which the step is halved and taken again
-constexpr double kLargestTurn = 0.1;       // [rad] of any body in one step
+constexpr double kSmoothTurn = 0.1;        // [rad] of any body in one step of the smooth motion
+constexpr double kLargestTurn = 0.3;       // [rad] in one step of all
 constexpr double kMostParts = 20;
 
 bool is_contact(const Constraint& c) {
@@ -423,21 +424,23 @@ void Stepper::book_resistance(World& world, double h) {
   }
 }
 
-/// The step for bodies that turn fast: joint rows and contact points change by the angle turned, to second order of which the
-/// step is blind. A light limb flung at 200 rad/s gets its steps divided, the rest of the run keeps its own.
-double Stepper::step_for_turning(const World& world, const State& state, double h) const {
+/// Angular speed [rad/s] of the fastest body. Joint rows and contact points change by the angle turned, to second order of which a
+/// step is blind: a light limb flung at 300 rad/s gets its steps divided, the rest of the run keeps its own.
+double Stepper::fastest_turning(const World& world, const State& state) const {
   double fastest = 0;
   for (const int tree : world.active_trees)
     for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l)
-      fastest = std::max(fastest, state.V_WB[world.topology.links[l].body].w.norm());
-  return fastest * h > kLargestTurn ? std::max(kLargestTurn / fastest, h / kMostParts) : h;
+      fastest = std::max(fastest, state.V_WB[world.topology.links[l].body].w.squaredNorm());
+  return std::sqrt(fastest);
 }
 
 double Stepper::advance(World& world, State& state, double h) {
   choose_trees(world, state);
-  const double divided = step_for_turning(world, state, h);
-  if (divided < h) ++world.diagnostics.substeps;
-  h = divided;
+  turning_ = fastest_turning(world, state);
+  if (turning_ * h > kLargestTurn) {
+    ++world.diagnostics.substeps;
+    h = std::max(kLargestTurn / turning_, h / kMostParts);
+  }
   if (next_step_ > 0) h = std::min(h, next_step_);
   world.step = h;
   for (std::size_t e = 0; e < world.plan.active.size(); ++e)
@@ -465,7 +468,8 @@ double Stepper::attempt(World& world, State& state, double h) {
   prepare_resistance(world, state, taken);
   end_ = state;
   end_.time = state.time + taken;
-  smooth_.advance(world, state, taken, X_, V_);
+  const int parts = static_cast<int>(std::clamp(std::ceil(turning_ * taken / kSmoothTurn), 1.0, kMostParts));
+  for (int k = 0; k < parts; ++k) smooth_.advance(world, end_, taken / parts, X_, V_);
 
   drop_open_rows(world, taken);
   const bool impulses = world.any_damper || !world.constraints.empty();

@@ -26,7 +26,7 @@ class Stepper {
   void assemble_constraints(World&, const State&, double h);
   void push_apart(World&, const std::vector<int>& island, double h);
   bool acceptable(const std::vector<Constraint>& end) const;
-  double step_for_turning(const World&, const State&, double h) const;
+  double fastest_turning(const World&, const State&) const;
   double time_to_impact(World&, double h) const;
   void exchange_impulses(World&, State&, const std::vector<int>& members, double& energy_change);
   bool impact(World&, State&);
@@ -57,6 +57,7 @@ class Stepper {
   std::vector<char> island_has_impact_;
   std::vector<int> island_of_tree_;
   std::vector<double> weight_;  // per constraint: share of the step its displacement acts
+  double turning_ = 0;          // [rad/s] of the fastest body
   int cuts_ = 0;                // of the step under way
   bool locating_ = false;       // impacts are still placed inside this step
   std::vector<Vec6> damping_;   // dV by joint resistance, per body

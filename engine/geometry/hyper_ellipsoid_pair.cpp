@@ -38,13 +38,16 @@ struct Found {
 
 /// Near the flats of n > 2 the support function has all but kinks where n is across a body axis, and the maximum often lies on one:
 /// Newton stalls there. Steps along and across the six circles of kinks, halved until nothing is gained.
-Found polish(const Pair& pair, Found at) {
-  constexpr double kFirstStep = 0.02, kLastStep = 1e-9;  // [rad]
-  for (double step = kFirstStep; step > kLastStep; step *= 0.5) {
+/// With a guess from the last step at hand only the kinks nearby are tried.
+Found polish(const Pair& pair, Found at, bool warm) {
+  constexpr double kFirstStep = 0.02, kLastStep = 1e-9, kLastWarmStep = 1e-8;  // [rad]
+  const double nearby = warm ? 0.2 : 2.0;                                      // [-] sine of the angle to a kink
+  for (double step = kFirstStep; step > (warm ? kLastWarmStep : kLastStep); step *= 0.5) {
     for (int round = 0; round < 8; ++round) {
       bool better = false;
       for (int i = 0; i < 6; ++i) {
         const Vec3 axis = i < 3 ? pair.R_WA.col(i) : pair.R_WB.col(i - 3);
+        if (std::abs(at.n.dot(axis)) > nearby) continue;
         const Vec3 along = at.n.cross(axis);
         if (along.squaredNorm() < 1e-12) continue;
         const Vec3 t = along.normalized();
@@ -128,7 +131,7 @@ std::optional<SurfaceContact> contact_of_pair(const HyperEllipsoid& A, const Pos
     auto try_from = [&](const Vec3& n) {
       if (pair.gap(n) < 2 * best.gap - 0.5 * A.semi_axes.maxCoeff()) return;
       Found found = climb(pair, n, 25);
-      if (!found.stationary && !warm) found = polish(pair, found);
+      if (!found.stationary && !warm) found = polish(pair, found, false);
       if (found.gap > best.gap + 1e-12) best = found;
     };
     if (warm) try_from(towards);
@@ -152,7 +155,7 @@ std::optional<SurfaceContact> contact_of_pair(const HyperEllipsoid& A, const Pos
     }
     best = climb(pair, best.n, 60);
   }
-  if (!best.stationary && best.gap < margin) best = polish(pair, best);
+  if (!best.stationary && best.gap < margin) best = polish(pair, best, warm && !deep);
   normal_guess = best.n;
   if (best.gap >= margin) {
     if (apart) *apart = best.gap;
