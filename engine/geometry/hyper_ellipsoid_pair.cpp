@@ -78,7 +78,7 @@ constexpr int kSweep = 48;                 // directions
 constexpr double kGoldenAngle = 2.399963;  // [rad]
 
 Found climb(const Pair& pair, Vec3 n, int iterations) {
-  constexpr double kStationary = 1e-11;  // [m]
+  constexpr double kStationary = 1e-9;  // [m] of the tangential miss; the gap errs by its square over the radius
   double g = pair.gap(n);
   double damping = 1e-3 * pair.d.norm() + 1e-6;
   for (int k = 0; k < iterations; ++k) {

@@ -73,6 +73,34 @@ void Articulation::eliminate(Factor& f, const Mat6& J_c, const Mat6& J_p, const 
   H_parent->noalias() += F * Jp;
 }
 
+/// The same for the three rows of a point that two bodies share, J_c = s [-1, C], J_p = s [1, -P] with C, P skew: the most frequent
+/// joint, and half of the general products are with the identity.
+void Articulation::eliminate_point(Factor& f, double s, const Mat3& C, const Mat3& P, const Mat6& H, Mat6* H_parent) {
+  const Mat6 Hi = inverse_spd(H);
+  Eigen::Matrix<double, 6, 3> HJ = -Hi.leftCols<3>();
+  HJ.noalias() -= Hi.rightCols<3>() * C;
+  Mat3 A = -HJ.topRows<3>();
+  A.noalias() += C * HJ.bottomRows<3>();
+  const Mat3 Ai = A.inverse();
+  const Eigen::Matrix<double, 6, 3> E = HJ * Ai;
+  f.D = Hi;
+  f.D.noalias() -= E * HJ.transpose();
+  f.E.leftCols<3>() = s * E;
+  if (!H_parent) {
+    f.X.setZero();
+    return;
+  }
+  f.X.leftCols<3>() = -E;
+  f.X.rightCols<3>().noalias() = E * P;
+  const Mat3 AiP = Ai * P, PAi = -AiP.transpose() /* P skew, A symmetric */;
+  f.F.topLeftCorner<3, 3>() = s * Ai;
+  f.F.block<3, 3>(3, 0) = s * PAi;
+  H_parent->topLeftCorner<3, 3>() += Ai;
+  H_parent->topRightCorner<3, 3>() -= AiP;
+  H_parent->bottomLeftCorner<3, 3>() += PAi;
+  H_parent->bottomRightCorner<3, 3>().noalias() -= PAi * P;
+}
+
 void Articulation::factor(const Topology& topology, int tree, const std::vector<Pose>& X_WB,
                           const std::vector<JointDamper>* dampers) {
   const Topology::Tree& range = topology.trees[tree];
@@ -102,7 +130,12 @@ void Articulation::factor(const Topology& topology, int tree, const std::vector<
     Mat6* H_parent = link.parent < 0 ? nullptr : &H_[link.parent];
     switch (f.rows.count) {
       case 3:
-        eliminate<3>(f, J_c, J_p, H, H_parent, damper);
+        if (damper && damper->present) {
+          eliminate<3>(f, J_c, J_p, H, H_parent, damper);
+        } else {
+          const double s = link.body_is_joint_child ? 1 : -1;
+          eliminate_point(f, s, s * J_c.topRightCorner<3, 3>(), -s * J_p.topRightCorner<3, 3>(), H, H_parent);
+        }
         break;
       case 4:
         eliminate<4>(f, J_c, J_p, H, H_parent, damper);

@@ -49,6 +49,8 @@ class Articulation {
   template <int K>
   void eliminate(Factor&, const Mat6& J_c, const Mat6& J_p, const Mat6& H, Mat6* H_parent, const JointDamper*);
 
+  void eliminate_point(Factor&, double sign, const Mat3& C, const Mat3& P, const Mat6& H, Mat6* H_parent);
+
   const Model& model_;
   std::vector<Factor> factors_;  // per link
   std::vector<Mat6> H_;          // per body
