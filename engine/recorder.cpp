@@ -123,6 +123,15 @@ void Recorder::snapshot(const World& world, const State& state, Recording& recor
     s.contacts.push_back(t.record);
   }
   tallies_.clear();
+  for (; exchanges_told_ < world.exchanges.size(); ++exchanges_told_) {
+    ContactRecord c = world.exchanges[exchanges_told_];
+    if (since > 0) {
+      c.force = c.impulse / since;
+      c.normal_force = c.normal_impulse / since;
+      c.tangential_force = c.tangential_impulse / since;
+    }
+    s.contacts.push_back(c);
+  }
   for (std::size_t i = 0; i < world.wheels.size(); ++i) {
     const WheelState& w = world.wheels[i];
     const double h = world.step > 0 ? world.step : 1;

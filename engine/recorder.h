@@ -40,6 +40,7 @@ class Recorder {
   std::vector<char> hit_vehicle_, hit_head_, hit_ground_;  // per person
   std::vector<char> support_;                              // per body: carried its person when that was released
   std::vector<double> last_ground_;                        // [s] per person: last time on the ground
+  std::size_t exchanges_told_ = 0;
   double initial_energy_ = 0;
   double last_energy_ = 0;
   double energy_rise_ = 0;  // [J] largest between two snapshots

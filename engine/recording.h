@@ -37,6 +37,7 @@ struct ContactRecord {
   double normal_impulse = 0;      // [N s] since the snapshot before
   double tangential_impulse = 0;  // [N s] sum of magnitudes
   Vec3 impulse = Vec3::Zero();    // [N s] on a, world, since the snapshot before: the sum of vectors, which may turn meanwhile
+  double energy_lost = 0;         // [J] by deformation; only Kudlich-Slibar impacts know it
   double slip = 0;                // [m/s]
   ContactState state = ContactState::approach;
 };

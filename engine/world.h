@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/geometry/hyper_ellipsoid_mesh.h"
+#include "engine/geometry/mesh_overlap.h"
 #include "engine/model/model.h"
 #include "engine/plan.h"
 #include "engine/simulate.h"
@@ -53,6 +54,15 @@ struct BodyPair {
   Clearance clearance;           // of b in the frame of a
 };
 
+/// Two meshes that collide by Kudlich-Slibar.
+struct ImpactPair {
+  int a = 0, b = 0;
+  ImpactSettings settings;
+  bool touching = false;
+  double due = 0;  // [s] when the impulse is exchanged, while touching
+  int exchanges = 0;
+};
+
 /// What the wheel effect keeps between steps.
 struct WheelState {
   int vehicle = 0, wheel = 0;
@@ -93,6 +103,8 @@ struct World {
   std::vector<MeshPair> mesh_pairs;
   std::vector<BodyPair> body_pairs;
   std::vector<WheelState> wheels;
+  std::vector<ImpactPair> impact_pairs;
+  OverlapScratch overlap;
 
   // this step
   double step = 0;  // [s] its length
@@ -108,6 +120,7 @@ struct World {
   double spring_energy = 0;  // [J] in the suspensions now
   Diagnostics diagnostics;
   std::vector<Event> events;
+  std::vector<ContactRecord> exchanges;  // at an instant and by no constraint (Kudlich-Slibar), over the whole run
   std::optional<Failure> failure;
 };
 

@@ -17,5 +17,6 @@ extern const Effect kTerrainContactEffect;
 extern const Effect kMeshContactEffect;
 extern const Effect kSelfContactEffect;
 extern const Effect kBodyContactEffect;
+extern const Effect kKudlichSlibarEffect;
 
 }  // namespace engine

@@ -60,6 +60,19 @@ Exchange exchange_of(const Recording& recording, int body) {
   return out;
 }
 
+/// Share of the deformation energy of its Kudlich-Slibar impacts: two vehicles are pressed together by the same force, taken over
+/// the same depth, so each has half; a barrier that is part of the world is rigid and leaves all to the vehicle.
+double deformation_energy(const Model& model, const Recording& recording, int body) {
+  double sum = 0;
+  for (const Snapshot& s : recording.snapshots)
+    for (const ContactRecord& c : s.contacts) {
+      if (c.energy_lost == 0 || (c.body_a != body && c.body_b != body)) continue;
+      const int other = c.body_a == body ? c.body_b : c.body_a;
+      sum += model.bodies[other].fixed ? c.energy_lost : 0.5 * c.energy_lost;
+    }
+  return sum;
+}
+
 }  // namespace
 
 void measure_vehicle(const Model& model, const Recording& recording, int v, std::vector<Metric>& out) {
@@ -69,6 +82,8 @@ void measure_vehicle(const Model& model, const Recording& recording, int v, std:
   if (delta_v <= 0) return;
   out.push_back({"delta_v_mps", vehicle.name, delta_v});
   const Vec3 push = exchange.q_WB.conjugate() * exchange.impulse;
+  if (const double energy = deformation_energy(model, recording, vehicle.body); energy > 0)
+    out.push_back({"ees_mps", vehicle.name, std::sqrt(2 * energy / model.bodies[vehicle.body].mass)});
   out.push_back({"pdof_deg", vehicle.name, std::atan2(push.y(), -push.x()) * 180 / std::numbers::pi});
 }
 

@@ -48,8 +48,8 @@ void measure_body(const Model&, const Recording&, int body, std::vector<Metric>&
 /// Of a vehicle: delta_v_mps, the sum of all contact impulses but those of tyres and ground over the whole run, by its mass
 /// (couplings carry part of it on, so that of a vehicle with a trailer is an upper bound); pdof_deg, the direction the force came
 /// from in the vehicle's axes at first contact: 0 from the front, positive from the right, 90 square on the right side, 180 from
-/// behind. Neither without contact. ees_mps follows from the deformation energy of a Kudlich-Slibar impact and is absent where none
-/// was computed.
+/// behind. Neither without contact. ees_mps, the speed whose kinetic energy is the vehicle's share of the energy lost in
+/// Kudlich-Slibar impacts (half between two vehicles, all against a fixed barrier); absent where there was none.
 void measure_vehicle(const Model&, const Recording&, int vehicle, std::vector<Metric>&);
 
 /// Head injury criterion: max over windows of at most `window` [s] of (t2 - t1) (mean of a)^2.5, a in g at equally or unequally

@@ -16,6 +16,12 @@ namespace engine {
 /// do.
 enum class CollisionModel { default_auto, kudlich_slibar };
 
+/// Of a pair of objects.
+inline CollisionModel model_between(CollisionModel a, CollisionModel b) {
+  const bool both = a == CollisionModel::kudlich_slibar && b == CollisionModel::kudlich_slibar;
+  return both ? CollisionModel::kudlich_slibar : CollisionModel::default_auto;
+}
+
 /// Coefficients come in two kinds: `ground` against the ground, `body` against every other object (source 002).
 struct SurfaceProperties {
   Schedule friction_body = 0.3;       // [-] Coulomb

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/model/body.h"
+#include "engine/model/impact.h"
 #include "engine/model/joint.h"
 #include "engine/model/person.h"
 #include "engine/model/vehicle.h"
@@ -46,6 +47,7 @@ struct Model {
   std::vector<Joint> joints;
   std::vector<Person> persons;
   std::vector<Vehicle> vehicles;
+  std::vector<ImpactSettings> impacts;  // pairs not named here have the defaults
   Ground ground;
   Settings settings;
 };

@@ -34,7 +34,10 @@ const Key kKeys[] = {
     {"angular_velocity_body", Type::vector3, Dimension::angular_speed, "", "In body axes, in place of angular_velocity."},
     CRASHREEL_SURFACE_KEYS,
     {"fixed", Type::boolean, Dimension::none, "false", "Part of the world: never moves."},
-    {"collision", Type::choice, Dimension::none, "'default_auto'", "Collision model the body asks for.", kAny, "default_auto"},
+    {"collision", Type::choice, Dimension::none, "'default_auto'",
+     "Collision model the body asks for. Kudlich-Slibar acts between two meshes that both ask for it, Default-Auto in every other "
+     "case.",
+     kAny, "default_auto|kudlich_slibar"},
     {"colour", Type::colour, Dimension::none, "'#c87838'", "Colour in pictures."},
     {"material", Type::choice, Dimension::none, "'matte'", "Surface in pictures.", kAny,
      "matte|paint|glass|lamp|rubber|metal|skin|cloth"},
@@ -133,6 +136,8 @@ void read_body(Builder& builder, Reader r) {
   if (body.mass > 0 && builder.errors.count() == errors_before) read_inertia(r, body);
   body.surface = read_surface(r, {});
   body.collision_model = static_cast<engine::CollisionModel>(r.choice("collision"));
+  if (body.collision_model == engine::CollisionModel::kudlich_slibar && !r.has("mesh"))
+    r.fail("collision", "must be default_auto for a body without a mesh; Kudlich-Slibar needs two meshes");
   body.X_WB = {r.vector("position"), read_attitude(r)};
   body.V_WB.v = r.vector("velocity");
   if (const auto w = r.vector_if("angular_velocity")) body.V_WB.w = *w;

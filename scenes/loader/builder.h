@@ -32,11 +32,13 @@ void read_settings(Builder&, std::optional<Reader>);
 void read_ground(Builder&, std::optional<Reader>);
 void read_body(Builder&, Reader);
 void read_joint(Builder&, Reader);
+void read_impact(Builder&, Reader);
 void read_person(Builder&, Reader);
 void read_vehicle(Builder&, Reader);
 void read_film(Builder&, Reader& scene);  // camera, shot, overlays, output, road, sky
 
-extern const Section kSimulationSection, kGroundSection, kBodySection, kJointSection, kPersonSection, kVehicleSection;
+extern const Section kSimulationSection, kGroundSection, kBodySection, kJointSection, kImpactSection, kPersonSection,
+    kVehicleSection;
 extern const Section kCameraSection, kShotSection, kOverlaysSection, kOutputSection, kRoadSection, kSkySection;
 
 // Shared by several sections.
@@ -44,6 +46,8 @@ extern const Section kCameraSection, kShotSection, kOverlaysSection, kOutputSect
 /// Attitude from the keys attitude (roll pitch yaw) or quaternion. Roll about x, then pitch about y, then yaw about z, all world
 /// axes.
 engine::Quat read_attitude(Reader&);
+/// Index of the body a key names; -1 for the world (key `parent` only) and, with an error told, for none.
+int find_body(Builder&, Reader&, std::string_view key);
 /// friction, restitution, each also as _body and _ground, and stiffness on top of `base`.
 engine::SurfaceProperties read_surface(Reader&, engine::SurfaceProperties base);
 /// Checks that an inertia tensor belongs to some distribution of mass: positive, and no moment above the sum of the others.

@@ -39,18 +39,6 @@ const Key kKeys[] = {
     {"z", Type::table, Dimension::none, "", "The twist.", kAny, {}, &kAngleSection},
 };
 
-int find_body(Builder& builder, Reader& r, std::string_view key) {
-  const std::string name = r.text(key);
-  if (name == "world" && key == "parent") return -1;
-  const int index = builder.body_index(name);
-  const bool told = !builder.errors.empty() && builder.is_declared(name);
-  if (index < 0 && !told) {
-    const std::string guess = nearest(name, builder.body_names());
-    r.fail(key, guess.empty() ? "is no body of the scene" : fmt::format("is no body of the scene; did you mean \"{}\"?", guess));
-  }
-  return index;
-}
-
 engine::Quat read_frame(Reader& r) {
   const engine::Vec3 y = r.vector("axis");
   if (y.norm() < 1e-9) {
@@ -72,6 +60,18 @@ engine::Quat read_frame(Reader& r) {
 }
 
 }  // namespace
+
+int find_body(Builder& builder, Reader& r, std::string_view key) {
+  const std::string name = r.text(key);
+  if (name == "world" && key == "parent") return -1;
+  const int index = builder.body_index(name);
+  const bool told = !builder.errors.empty() && builder.is_declared(name);
+  if (index < 0 && !told) {
+    const std::string guess = nearest(name, builder.body_names());
+    r.fail(key, guess.empty() ? "is no body of the scene" : fmt::format("is no body of the scene; did you mean \"{}\"?", guess));
+  }
+  return index;
+}
 
 const Section kJointSection{"joint", "[[joint]]",
                             "Ties a body to another or to the world. All angles are zero in the pose at the start.", kKeys};

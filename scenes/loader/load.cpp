@@ -31,6 +31,7 @@ const Key kSceneKeys[] = {
     {"person", Type::tables, Dimension::none, "", "Persons.", kAny, {}, &kPersonSection},
     {"body", Type::tables, Dimension::none, "", "Free bodies.", kAny, {}, &kBodySection},
     {"joint", Type::tables, Dimension::none, "", "Joints between bodies.", kAny, {}, &kJointSection},
+    {"impact", Type::tables, Dimension::none, "", "Kudlich-Slibar impacts settled by hand.", kAny, {}, &kImpactSection},
     {"camera", Type::tables, Dimension::none, "", "Cameras.", kAny, {}, &kCameraSection},
     {"shot", Type::tables, Dimension::none, "", "The film, shot by shot.", kAny, {}, &kShotSection},
     {"overlays", Type::table, Dimension::none, "", "What is drawn over the picture.", kAny, {}, &kOverlaysSection},
@@ -127,6 +128,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   for (Reader& person : r.tables("person")) read_person(builder, person);
   for (Reader& body : r.tables("body")) read_body(builder, body);
   for (Reader& joint : r.tables("joint")) read_joint(builder, joint);
+  for (Reader& impact : r.tables("impact")) read_impact(builder, impact);
   read_film(builder, r);
   read_closed_form(builder, r.table("closed_form"));
 

@@ -60,7 +60,10 @@ const Key kKeys[] = {
     {"steer", Type::schedule, Dimension::angle, "'0 deg'", "Angle of the steered wheels, left positive."},
     {"drive_force", Type::schedule, Dimension::force, "'0 N'", "Shared by the driven wheels."},
     CRASHREEL_SURFACE_KEYS,
-    {"collision", Type::choice, Dimension::none, "'default_auto'", "Collision model the vehicle asks for.", kAny, "default_auto"},
+    {"collision", Type::choice, Dimension::none, "'default_auto'",
+     "Collision model the vehicle asks for. Kudlich-Slibar acts between two meshes that both ask for it, Default-Auto in every "
+     "other case.",
+     kAny, "default_auto|kudlich_slibar"},
     {"colour", Type::colour, Dimension::none, "", "Of the paint, in place of the mesh's own."},
     {"wheel", Type::tables, Dimension::none, "", "Wheels.", kAny, {}, &kWheelSection},
 };

@@ -1,0 +1,167 @@
+// Vehicle against vehicle or barrier by Kudlich-Slibar, where both ask for it: the bodies run into each other unhindered for the
+// time t_P from their first touch; then one impulse acts at the centroid of the overlap. If they still close at it another t_P
+// later, or touch again after having parted, a further one does.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/effects/effects.h"
+#include "engine/geometry/mesh_overlap.h"
+#include "engine/solver/kudlich_slibar.h"
+
+namespace engine {
+namespace {
+
+constexpr double kSecondary = 0.1;  // [m/s] bodies that lie against each other and close slower have no further impact
+
+bool jointed(const Model& model, int a, int b) {
+  return std::any_of(model.joints.begin(), model.joints.end(),
+                     [&](const Joint& j) { return (j.parent == a && j.child == b) || (j.parent == b && j.child == a); });
+}
+
+std::vector<ImpactPair> pairs_of(const Model& model) {
+  std::vector<ImpactPair> out;
+  const int n = static_cast<int>(model.bodies.size());
+  for (int a = 0; a < n; ++a)
+    for (int b = a + 1; b < n; ++b) {
+      const Body& A = model.bodies[a];
+      const Body& B = model.bodies[b];
+      if (!std::holds_alternative<MeshShape>(A.shape) || !std::holds_alternative<MeshShape>(B.shape)) continue;
+      if (model_between(A.collision_model, B.collision_model) != CollisionModel::kudlich_slibar) continue;
+      if ((A.fixed && B.fixed) || jointed(model, a, b)) continue;
+      ImpactPair pair;
+      pair.a = a;
+      pair.b = b;
+      for (const ImpactSettings& s : model.impacts)
+        if ((s.body_a == a && s.body_b == b) || (s.body_a == b && s.body_b == a)) pair.settings = s;
+      out.push_back(pair);
+    }
+  return out;
+}
+
+std::optional<std::string> called_for(const Model& model) {
+  const std::size_t count = pairs_of(model).size();
+  if (count == 0) return std::nullopt;
+  return std::to_string(count) + " pairs of meshes that both ask for Kudlich-Slibar";
+}
+
+void begin(World& world, const State&, int) {
+  world.impact_pairs = pairs_of(world.model);
+}
+
+std::optional<MeshOverlap> overlap_now(World& world, const State& state, const ImpactPair& pair) {
+  const auto& A = std::get<MeshShape>(world.model.bodies[pair.a].shape);
+  const auto& B = std::get<MeshShape>(world.model.bodies[pair.b].shape);
+  return overlap_of(*A.mesh, state.X_WB[pair.a] * A.X_BM, *B.mesh, state.X_WB[pair.b] * B.X_BM, world.overlap);
+}
+
+Vec3 velocity_at(const State& state, int body, const Vec3& point) {
+  return state.V_WB[body].v + state.V_WB[body].w.cross(point - state.X_WB[body].p);
+}
+
+/// Change of velocity of all bodies by an impulse [N s] at a point, on a and opposite on b, through their joints.
+class ImpulseThroughJoints {
+ public:
+  ImpulseThroughJoints(World& world, const State& state, int a, int b, const Vec3& point)
+      : world_(world), a_(a), b_(b), point_(point), state_(state), force_(state.X_WB.size()), change_(state.X_WB.size()) {
+    for (const int body : {a, b}) {
+      const int tree = world.topology.tree_of_body[body];
+      if (tree < 0 || std::find(trees_.begin(), trees_.end(), tree) != trees_.end()) continue;
+      trees_.push_back(tree);
+      world.impulse.factor(world.topology, tree, state.X_WB, nullptr);
+    }
+  }
+  void respond(const Vec3& impulse) {
+    for (Vec6& f : force_) f.setZero();
+    for (Vec6& c : change_) c.setZero();
+    force_[a_] << impulse, (point_ - state_.X_WB[a_].p).cross(impulse);
+    force_[b_] << -impulse, -(point_ - state_.X_WB[b_].p).cross(impulse);
+    for (const int tree : trees_) world_.impulse.solve(world_.topology, tree, force_, change_, Articulation::Bias::zero);
+  }
+  Vec3 change_at(int body) const { return change_[body].head<3>() + change_[body].tail<3>().cross(point_ - state_.X_WB[body].p); }
+  /// K: change of the relative velocity at the point by an impulse.
+  Mat3 matrix() {
+    Mat3 K;
+    for (int k = 0; k < 3; ++k) {
+      respond(Vec3::Unit(k));
+      K.col(k) = change_at(a_) - change_at(b_);
+    }
+    return 0.5 * (K + K.transpose());
+  }
+  const std::vector<int>& trees() const { return trees_; }
+  const Vec6& change(int body) const { return change_[body]; }
+
+ private:
+  World& world_;
+  int a_, b_;
+  Vec3 point_;
+  const State& state_;
+  std::vector<int> trees_;
+  std::vector<Vec6> force_, change_;  // an impact is rare: these may allocate
+};
+
+void record(World& world, const ImpactPair& pair, const State& state, const Vec3& point, const Vec3& normal,
+            const PlaneImpact& impact, double closing) {
+  ContactRecord c;
+  c.kind = ContactKind::vehicle_pair;
+  c.body_a = pair.a;
+  c.body_b = pair.b;
+  c.point = point;
+  c.normal = normal;
+  c.state = ContactState::impact;
+  c.impulse = impact.impulse;
+  c.normal_impulse = impact.impulse.dot(normal);
+  c.tangential_impulse = (impact.impulse - c.normal_impulse * normal).norm();
+  c.energy_lost = impact.energy_lost;
+  c.slip = (impact.u_after - impact.u_after.dot(normal) * normal).norm();
+  world.exchanges.push_back(c);
+  world.events.push_back({state.time, "impact", pair.a, pair.b, point, closing});
+}
+
+void exchange(World& world, State& state, ImpactPair& pair, const MeshOverlap& overlap, int self) {
+  const bool first = pair.exchanges == 0;
+  const Vec3 point = first ? pair.settings.point_W.value_or(overlap.centroid) : overlap.centroid;
+  Vec3 normal = first ? pair.settings.normal_W.value_or(overlap.normal_W) : overlap.normal_W;
+  if (normal.dot(overlap.normal_W) < 0) normal = -normal;
+  const Vec3 u = velocity_at(state, pair.a, point) - velocity_at(state, pair.b, point);
+  if (u.dot(normal) > (first ? 0 : -kSecondary)) return;
+
+  const SurfaceProperties& A = world.model.bodies[pair.a].surface;
+  const SurfaceProperties& B = world.model.bodies[pair.b].surface;
+  const double t = state.time;
+  const double mu = pair.settings.friction.value_or(std::min(A.friction_body.at(t), B.friction_body.at(t)));
+  const double e = pair.settings.restitution.value_or(std::max(A.restitution_body.at(t), B.restitution_body.at(t)));
+  ImpulseThroughJoints through(world, state, pair.a, pair.b, point);
+  const PlaneImpact impact = kudlich_slibar(through.matrix(), u, normal, mu, e);
+  through.respond(impact.impulse);
+  for (const int tree : through.trees())
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      const int body = world.topology.links[l].body;
+      state.V_WB[body].v += through.change(body).head<3>();
+      state.V_WB[body].w += through.change(body).tail<3>();
+    }
+  world.dissipated[self] += impact.energy_lost;
+  record(world, pair, state, point, normal, impact, -u.dot(normal));
+  ++pair.exchanges;
+}
+
+void before_step(World& world, State& state, int self) {
+  for (ImpactPair& pair : world.impact_pairs) {
+    // between touch and exchange nothing needs looking at
+    if (pair.touching && state.time + 0.5 * world.step < pair.due) continue;
+    const double apart = (state.X_WB[pair.a].p - state.X_WB[pair.b].p).norm();
+    if (apart > world.reach[pair.a] + world.reach[pair.b]) {
+      pair.touching = false;
+      continue;
+    }
+    const auto overlap = overlap_now(world, state, pair);
+    if (overlap && pair.touching) exchange(world, state, pair, *overlap, self);
+    pair.touching = overlap.has_value();
+    if (overlap) pair.due = state.time + pair.settings.penetration_time;
+  }
+}
+
+}  // namespace
+
+const Effect kKudlichSlibarEffect{.name = "kudlich_slibar", .called_for = called_for, .begin = begin, .before_step = before_step};
+
+}  // namespace engine

@@ -1,0 +1,114 @@
+#include "engine/geometry/mesh_overlap.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace engine {
+namespace {
+
+constexpr int kCells = 64;          // along each side
+constexpr int kSide = kCells + 2;   // with one cell of margin, so that the grid can be shifted by one
+constexpr double kThinnest = 1e-6;  // [m] overlap along a line that counts
+
+using Span = OverlapScratch::Span;
+
+struct Grid {
+  double x = 0, y = 0, dx = 0, dy = 0;  // first cell's corner and sizes, margin left out
+};
+
+std::size_t cell(int i, int k) {
+  return static_cast<std::size_t>(i * kSide + k);
+}
+
+double shared(const Span& p, const Span& q, double lift = 0) {
+  return std::max(0.0, std::min(p.high + lift, q.high) - std::max(p.low + lift, q.low));
+}
+
+void cast(const TriangleMesh& mesh, const Pose& X_WM, const Grid& grid, std::vector<Span>& spans) {
+  spans.assign(static_cast<std::size_t>(kSide) * kSide, Span{});
+  const Aabb box = world_bounds(mesh, X_WM);
+  const Pose X_MW = X_WM.inverse();
+  const Vec3 up = X_MW.q * Vec3::UnitZ();
+  const double height = box.upper.z() - box.lower.z() + 2e-3;
+  for (int i = 0; i < kSide; ++i)
+    for (int k = 0; k < kSide; ++k) {
+      const double x = grid.x + (i - 0.5) * grid.dx, y = grid.y + (k - 0.5) * grid.dy;
+      if (x < box.lower.x() || x > box.upper.x() || y < box.lower.y() || y > box.upper.y()) continue;
+      const Vec3 foot(x, y, box.lower.z() - 1e-3);
+      double s = 0, t = 0;
+      int triangle = -1;
+      if (!mesh.raycast(X_MW * foot, up, height, s, triangle)) continue;
+      if (!mesh.raycast(X_MW * Vec3(foot + Vec3(0, 0, height)), -up, height, t, triangle)) continue;
+      spans[cell(i, k)] = {foot.z() + s, foot.z() + height - t};
+    }
+}
+
+/// Shared volume with a's columns shifted by whole cells, or lifted.
+double volume(const OverlapScratch& s, const Grid& grid, int di, int dk) {
+  double sum = 0;
+  for (int i = std::max(0, di); i < kSide + std::min(0, di); ++i)
+    for (int k = std::max(0, dk); k < kSide + std::min(0, dk); ++k) sum += shared(s.a[cell(i - di, k - dk)], s.b[cell(i, k)]);
+  return sum * grid.dx * grid.dy;
+}
+
+Grid over(double x_low, double x_high, double y_low, double y_high) {
+  return {x_low, y_low, (x_high - x_low) / kCells, (y_high - y_low) / kCells};
+}
+
+/// Smallest grid around the cells that share something; false if there are none.
+bool tighten(const OverlapScratch& s, Grid& grid) {
+  int i_low = kSide, i_high = -1, k_low = kSide, k_high = -1;
+  for (int i = 0; i < kSide; ++i)
+    for (int k = 0; k < kSide; ++k) {
+      if (shared(s.a[cell(i, k)], s.b[cell(i, k)]) < kThinnest) continue;
+      i_low = std::min(i_low, i), i_high = std::max(i_high, i);
+      k_low = std::min(k_low, k), k_high = std::max(k_high, k);
+    }
+  if (i_high < 0) return false;
+  // a cell stands for half a cell on either side of its line that was not looked at: one cell more all round
+  grid = over(grid.x + (i_low - 2) * grid.dx, grid.x + (i_high + 1) * grid.dx, grid.y + (k_low - 2) * grid.dy,
+              grid.y + (k_high + 1) * grid.dy);
+  return true;
+}
+
+}  // namespace
+
+Aabb world_bounds(const TriangleMesh& mesh, const Pose& X_WM) {
+  const Vec3 centre = X_WM * Vec3(0.5 * (mesh.bounds().lower + mesh.bounds().upper));
+  const Vec3 half = X_WM.q.toRotationMatrix().cwiseAbs() * (0.5 * (mesh.bounds().upper - mesh.bounds().lower));
+  return {centre - half, centre + half};
+}
+
+std::optional<MeshOverlap> overlap_of(const TriangleMesh& a, const Pose& X_WA, const TriangleMesh& b, const Pose& X_WB,
+                                      OverlapScratch& s) {
+  const Aabb box_a = world_bounds(a, X_WA), box_b = world_bounds(b, X_WB);
+  const Vec3 low = box_a.lower.cwiseMax(box_b.lower), high = box_a.upper.cwiseMin(box_b.upper);
+  if ((low.array() >= high.array()).any()) return std::nullopt;
+  Grid grid = over(low.x(), high.x(), low.y(), high.y());
+  for (int pass = 0; pass < 2; ++pass) {
+    cast(a, X_WA, grid, s.a);
+    cast(b, X_WB, grid, s.b);
+    if (pass == 0 && !tighten(s, grid)) return std::nullopt;
+  }
+  MeshOverlap out;
+  Vec3 moment = Vec3::Zero();
+  for (int i = 0; i < kSide; ++i)
+    for (int k = 0; k < kSide; ++k) {
+      const Span& p = s.a[cell(i, k)];
+      const Span& q = s.b[cell(i, k)];
+      const double part = shared(p, q) * grid.dx * grid.dy;
+      const double z = 0.5 * (std::min(p.high, q.high) + std::max(p.low, q.low));
+      if (part > 0) moment += part * Vec3(grid.x + (i - 0.5) * grid.dx, grid.y + (k - 0.5) * grid.dy, z);
+      out.volume += part;
+    }
+  if (out.volume <= 0) return std::nullopt;
+  out.centroid = moment / out.volume;
+  const Vec3 growth((volume(s, grid, 1, 0) - volume(s, grid, -1, 0)) / (2 * grid.dx),
+                    (volume(s, grid, 0, 1) - volume(s, grid, 0, -1)) / (2 * grid.dy), 0);
+  // one body wholly inside the other in plan: no side to speak of, the line of centres is what is left
+  const Vec3 apart = Vec3(0.5 * (box_a.lower + box_a.upper - box_b.lower - box_b.upper)).cwiseProduct(Vec3(1, 1, 0));
+  out.normal_W = growth.norm() > 1e-9 ? Vec3(-growth.normalized()) : (apart.norm() > 0 ? apart.normalized() : Vec3::UnitX());
+  return out;
+}
+
+}  // namespace engine
