@@ -36,6 +36,7 @@ extern const Overlay kSkidMarks;
 extern const Overlay kTraces;
 extern const Overlay kContacts;
 extern const Overlay kForces;
+extern const Overlay kImpulse;
 extern const Overlay kCaption;
 extern const Overlay kScaleBar;
 extern const Overlay kDisclaimer;

@@ -6,7 +6,7 @@ namespace render {
 
 std::span<const Overlay* const> overlay_table() {
   // labels placed first keep their place: caption and scale before the labels that may move aside
-  static constexpr std::array kTable{&kSkidMarks, &kTraces, &kContacts, &kCaption, &kScaleBar, &kDisclaimer, &kForces};
+  static constexpr std::array kTable{&kSkidMarks, &kTraces, &kContacts, &kCaption, &kScaleBar, &kDisclaimer, &kForces, &kImpulse};
   return kTable;
 }
 
