@@ -136,7 +136,7 @@ void Recorder::snapshot(const World& world, const State& state, Recording& recor
     const WheelState& w = world.wheels[i];
     const double h = world.step > 0 ? world.step : 1;
     s.wheels.push_back({w.vehicle, w.wheel, w.hub, w.contact, w.steer, state.wheel_spin[i], w.impulse[0] / h,
-                        w.impulse[1] / h + w.drive, w.impulse[2] / h, w.slip});
+                        w.impulse[1] / h, w.impulse[2] / h, w.slip});
   }
   s.energies.kinetic = kinetic_energy(world.model, state);
   s.energies.potential = potential_energy(world.model, state) + world.spring_energy;

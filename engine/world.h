@@ -103,6 +103,7 @@ struct World {
   std::vector<MeshPair> mesh_pairs;
   std::vector<BodyPair> body_pairs;
   std::vector<WheelState> wheels;
+  std::vector<double> path_steer;  // [rad] per vehicle that follows a path
   std::vector<ImpactPair> impact_pairs;
   OverlapScratch overlap;
 

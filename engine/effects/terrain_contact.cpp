@@ -33,10 +33,13 @@ void find(World& world, const State& state, int self) {
     if (pair.clearance.beyond(margin, state.X_WB[pair.body], world.reach[pair.body])) continue;
     contacts_with_mesh(shape, state.X_WB[pair.body], *pair.mesh, Pose{}, margin, pair.scratch, touches);
     pair.clearance = {pair.scratch.apart, state.X_WB[pair.body]};
-    const SurfaceProperties& ground = world.model.ground.surface;
-    const double mu = std::min(body.surface.friction_ground.at(state.time), ground.friction_ground.at(state.time));
-    const double e = std::max(body.surface.restitution_ground.at(state.time), ground.restitution_ground.at(state.time));
-    for (const SurfaceContact& touch : touches) add_contact(world, state, touch, pair.body, -1, self, ContactKind::terrain, mu, e);
+    const Ground& ground = world.model.ground;
+    const double t = state.time;
+    const double e = std::max(body.surface.restitution_ground.at(t), ground.surface.restitution_ground.at(t));
+    for (const SurfaceContact& touch : touches) {
+      const double mu = std::min(body.surface.friction_ground.at(t), ground.friction_at(touch.p_b, t));
+      add_contact(world, state, touch, pair.body, -1, self, ContactKind::terrain, mu, e);
+    }
   }
 }
 

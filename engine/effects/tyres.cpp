@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/effects/driver.h"
 #include "engine/effects/effects.h"
+#include "engine/laws/tyre.h"
 
 namespace engine {
 namespace {
@@ -30,6 +32,7 @@ Eigen::VectorXd static_loads(const Model& model, const Vehicle& vehicle) {
 }
 
 void begin(World& world, const State&, int) {
+  world.path_steer.assign(world.model.vehicles.size(), 0);
   for (int v = 0; v < static_cast<int>(world.model.vehicles.size()); ++v) {
     const Vehicle& vehicle = world.model.vehicles[v];
     if (vehicle.wheels.empty()) continue;
@@ -82,6 +85,16 @@ double spring_energy(const Wheel& spec, double static_load, double compression) 
   return static_load * compression + 0.5 * spec.spring * (compression * compression + kStopStiffness * beyond * beyond);
 }
 
+Grip grip_of(const Wheel& spec, const WheelState& wheel, double load, double mu, double v_x, double v_y) {
+  switch (spec.tyre) {
+    case TyreModel::tm_easy:
+      return tm_easy_grip(passenger_car_tyre(wheel.static_load), load, mu, v_x, v_y, wheel.brake + std::abs(wheel.drive));
+    case TyreModel::linear:
+      break;
+  }
+  return linear_grip(load, mu, spec.saturation_angle, v_x, v_y);
+}
+
 void add_wheel(World& world, const State& state, WheelState& wheel, const Footing& footing, int index, int self) {
   const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
   const Wheel& spec = vehicle.wheels[wheel.wheel];
@@ -103,13 +116,25 @@ void add_wheel(World& world, const State& state, WheelState& wheel, const Footin
   const double implicit = stiffness * h + spec.damper;
   c.softness = 1 / (h * implicit);
   c.target = force / implicit;
-  c.friction = std::min(spec.friction, world.model.ground.surface.friction_ground.at(state.time));
+  const Vec3 v = state.V_WB[vehicle.body].v + state.V_WB[vehicle.body].w.cross(r);
+  const double mu = std::min(spec.friction, world.model.ground.friction_at(c.point, state.time));
+  const Grip grip = grip_of(spec, wheel, std::max(0.0, force), mu, t1.dot(v), c.frame.col(2).dot(v));
+  c.friction = grip.friction;
+  c.grip_softness = grip.damping > 0 ? 1 / (h * grip.damping) : 0;
   c.rolling_bound = h * wheel.brake;
+  c.rolling_drive = h * wheel.drive;
   c.gap = -wheel.compression;
   c.key = (static_cast<std::uint64_t>(self) << 56) | static_cast<std::uint64_t>(index);
   c.effect = self;
   c.wheel = index;
   world.constraints.push_back(c);
+}
+
+/// Part of a wheel's longitudinal impulse that the engine gave: all it offered, unless the tyre slipped.
+double engine_share(const Constraint& c) {
+  const double most =
+      std::abs(c.impulse[1] - c.rolling_drive) <= c.rolling_bound * (1 + 1e-9) ? std::abs(c.rolling_drive) : std::abs(c.impulse[1]);
+  return std::copysign(std::min(std::abs(c.rolling_drive), most), c.rolling_drive);
 }
 
 void find(World& world, const State& state, int self) {
@@ -119,8 +144,10 @@ void find(World& world, const State& state, int self) {
     const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
     const Wheel& spec = vehicle.wheels[wheel.wheel];
     const Pose& X = state.X_WB[vehicle.body];
-    wheel.steer = spec.steered ? vehicle.steer.at(state.time) : 0;
-    wheel.brake = std::clamp(vehicle.brake.at(state.time), 0.0, 1.0) * vehicle.brake_force * spec.brake_share;
+    const bool follows = vehicle.path.points.size() > 1;
+    wheel.steer = !spec.steered ? 0 : (follows ? world.path_steer[wheel.vehicle] : vehicle.steer.at(state.time));
+    wheel.brake = brake_of(vehicle, wheel.wheel, state.time);
+    wheel.drive = drive_of(vehicle, wheel.wheel, state.time);
     const Vec3 hub_static = X * spec.hub_B;
     const Vec3 down = -(X.q * Vec3::UnitZ());
     const double droop = spec.travel + wheel.static_load / spec.spring;
@@ -138,28 +165,8 @@ void find(World& world, const State& state, int self) {
   world.spring_energy = energy;
 }
 
-/// Drive force, shared by the driven wheels that stand, within their friction.
-void add_forces(const World& world, const std::vector<Pose>& X, const std::vector<Twist>&, std::vector<Vec6>& force) {
-  for (const WheelState& wheel : world.wheels) {
-    const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
-    const Wheel& spec = vehicle.wheels[wheel.wheel];
-    if (!spec.driven || wheel.drive == 0) continue;
-    const Vec3 push = wheel.drive * (X[vehicle.body].q * Vec3(std::cos(wheel.steer), std::sin(wheel.steer), 0));
-    force[vehicle.body].head<3>() += push;
-    force[vehicle.body].tail<3>() += (wheel.contact - X[vehicle.body].p).cross(push);
-  }
-}
-
 void before_step(World& world, State& state, int) {
-  for (WheelState& wheel : world.wheels) {
-    const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
-    const Wheel& spec = vehicle.wheels[wheel.wheel];
-    wheel.drive = 0;
-    if (!spec.driven) continue;
-    const auto driven = std::count_if(vehicle.wheels.begin(), vehicle.wheels.end(), [](const Wheel& w) { return w.driven; });
-    const double most = spec.friction * std::max(0.0, spring_force(spec, wheel.static_load, wheel.compression));
-    wheel.drive = std::clamp(vehicle.drive_force.at(state.time) / static_cast<double>(driven), -most, most);
-  }
+  for (std::size_t v = 0; v < world.model.vehicles.size(); ++v) steer_along_path(world, state, static_cast<int>(v));
 }
 
 void after_step(World& world, State& state, int) {
@@ -170,21 +177,19 @@ void after_step(World& world, State& state, int) {
     wheel.impulse = c.impulse;
     const double grip = c.friction * c.impulse[0];
     const bool sliding = std::hypot(c.impulse[1], c.impulse[2]) >= 0.999 * grip && grip > 0;
-    wheel.locked = sliding && wheel.brake > 0 && std::abs(c.impulse[1]) < 0.999 * c.rolling_bound;
+    wheel.locked = sliding && wheel.brake > 0 && std::abs(c.impulse[1] - c.rolling_drive) < 0.999 * c.rolling_bound;
     wheel.slip = sliding ? std::hypot(wheel.locked ? c.u_after[1] : 0.0, c.u_after[2]) : 0;
     if (!wheel.locked) state.wheel_spin[c.wheel] += world.step * c.u_after[1] / spec.radius;
-    if (wheel.drive != 0) world.added += world.step * wheel.drive * 0.5 * (c.u_before[1] + c.u_after[1]);
+    // the engine's work is a source, not a loss: the books took it with the whole impulse
+    const double work = engine_share(c) * 0.5 * (c.u_before[1] + c.u_after[1]);
+    world.added += work;
+    world.dissipated[c.effect] += work;
   }
 }
 
 }  // namespace
 
-const Effect kTyresEffect{.name = "tyres",
-                          .called_for = called_for,
-                          .begin = begin,
-                          .before_step = before_step,
-                          .find = find,
-                          .add_forces = add_forces,
-                          .after_step = after_step};
+const Effect kTyresEffect{
+    .name = "tyres", .called_for = called_for, .begin = begin, .before_step = before_step, .find = find, .after_step = after_step};
 
 }  // namespace engine

@@ -16,11 +16,25 @@ namespace engine {
 
 constexpr double kGravity = 9.81;  // [m/s^2] the value of the published cases the tests compare with
 
+/// A rectangle, sides along x and y, where the road has another friction: wet, ice. Later ones lie over earlier ones.
+struct GroundPatch {
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  // [m] world, z is not looked at
+  Schedule friction = 1.0;                          // [-]
+};
+
 struct Ground {
   bool plane = true;                                   // an infinite plane z = height
   double height = 0;                                   // [m]
   std::shared_ptr<const TriangleMesh> terrain;         // world frame; in place of or besides the plane
   SurfaceProperties surface{1.0, 1.0, 0.0, 0.0, 1e9};  // friction: the smaller of two surfaces acts, so 1.0 leaves it to the other
+  std::vector<GroundPatch> patches;
+
+  double friction_at(const Vec3& point, double time) const {
+    for (auto patch = patches.rbegin(); patch != patches.rend(); ++patch)
+      if (((point - patch->lower).head<2>().array() >= 0).all() && ((patch->upper - point).head<2>().array() >= 0).all())
+        return patch->friction.at(time);
+    return surface.friction_ground.at(time);
+  }
 };
 
 enum class Scheme { stepping, rk4, adaptive };

@@ -29,6 +29,8 @@ struct Constraint {
   double target = 0;              // [m/s] what u_0 + softness * impulse must reach
   double free_response = 0;       // [1/kg] contact: of its two bodies were they free of joints
   double rolling_bound = 0;       // [N s] wheel: most that brake can give along t1
+  double rolling_drive = 0;       // [N s] wheel: what the engine gives along t1
+  double grip_softness = 0;       // [1/kg] wheel: added to the lateral's own response: a tyre needs slip to give a force
   Vec3 impulse = Vec3::Zero();    // [N s] result, in row coordinates
   double push = 0;                // [N s^2] moves bodies apart that stand inside each other, without giving them speed
   Vec3 u_before = Vec3::Zero();   // [m/s] at the start of the step

@@ -16,7 +16,7 @@ double length_of(double x, double y) {
 
 constexpr double kLeastResponse = 0.01;  // [-] of the free response of a contact's bodies
 constexpr int kFirstSweeps = 1;          // before Newton is tried; twice as many before it is tried again, and so on
-constexpr double kFirstGoal = 0.1;      // [-] of the tolerance
+constexpr double kFirstGoal = 0.1;       // [-] of the tolerance
 constexpr int kPlainSweeps = 60;         // before the friction bounds are followed
 constexpr int kPatience = 3;             // Newton steps without a new best
 constexpr int kBoundedSweeps = 200;      // in each
@@ -34,20 +34,28 @@ constexpr double kShorter = 0.5;         // [-] of the change afterwards
 constexpr double kLimitArm = 0.3;        // [m] turns the speed of a joint limit into that of a limb's end, to compare residuals
 
 Vec3 solve_wheel(const Mat3& A, const Vec3& u, const Vec3& old, const Constraint& c) {
-  // normal first, then the ground plane: rolling direction bounded by the brake, both by the friction circle
+  // normal first, then the ground plane: rolling direction bounded by brake and engine, both by the friction circle
   const double normal = std::max(0.0, old[0] + (c.target - u[0] - c.softness * old[0]) / (A(0, 0) + c.softness));
   const Vec3 u1 = u + A.col(0) * (normal - old[0]);
-  const double det = A(1, 1) * A(2, 2) - A(1, 2) * A(2, 1);
-  double x = old[1] - (A(2, 2) * u1[1] - A(1, 2) * u1[2]) / det;
-  double y = old[2] - (A(1, 1) * u1[2] - A(2, 1) * u1[1]) / det;
-  if (std::abs(x) > c.rolling_bound) {
-    x = std::copysign(c.rolling_bound, x);
-    y = old[2] - (u1[2] + A(2, 1) * (x - old[1])) / A(2, 2);
-  }
+  double x = 0, y = 0;
+  bool rolls = false;
+  auto hold = [&](double soft) {
+    const double a22 = A(2, 2) + soft, v = u1[2] + soft * old[2];
+    const double det = A(1, 1) * a22 - A(1, 2) * A(2, 1);
+    x = old[1] - (a22 * u1[1] - A(1, 2) * v) / det;
+    y = old[2] - (A(1, 1) * v - A(2, 1) * u1[1]) / det;
+    rolls = std::abs(x - c.rolling_drive) > c.rolling_bound;
+    if (!rolls) return;
+    x = c.rolling_drive + std::copysign(c.rolling_bound, x - c.rolling_drive);
+    y = old[2] - (v + A(2, 1) * (x - old[1])) / a22;
+  };
+  hold(c.grip_softness);
   const double most = c.friction * normal;
+  // a locked wheel slides like a block: it has no slip angle
+  if (!rolls && c.grip_softness > 0 && length_of(x, y) > most) hold(0);
   const double length = length_of(x, y);
-  if (length > most && std::abs(x) >= c.rolling_bound && c.rolling_bound < most) {
-    // the brake has its share first: a rolling wheel keeps turning, what grip is left holds sideways
+  if (length > most && rolls && std::abs(x) < most) {
+    // brake and engine have their share first: a rolling wheel keeps turning, what grip is left holds sideways
     y = std::copysign(std::sqrt(most * most - x * x), y);
   } else if (length > most) {
     const double scale = most / length;
@@ -74,7 +82,7 @@ double natural_residual(const Constraint& c, const Vec3& u, const Mat3& A, doubl
     case ConstraintKind::wheel: {
       // the soft normal answers to the suspension, the road plane to the tyre: each by its own response
       const Vec3 change = solve_wheel(A, u, c.impulse, c) - c.impulse;
-      return std::max(std::abs(change[0]) * a, length_of(change[1] * A(1, 1), change[2] * A(2, 2)));
+      return std::max(std::abs(change[0]) * a, length_of(change[1] * A(1, 1), change[2] * (A(2, 2) + c.grip_softness)));
     }
     case ConstraintKind::contact:
       break;
@@ -327,7 +335,7 @@ int ContactSolver::linearise(const std::vector<Constraint>& all, const std::vect
       // brake or grip at its bound stays there for this step; the sweeps move it
       const double held = length_of(c.impulse[1], c.impulse[2]);
       if (held > 0.999999 * c.friction * c.impulse[0]) continue;
-      if (std::abs(c.impulse[1]) < 0.999999 * c.rolling_bound)
+      if (std::abs(c.impulse[1] - c.rolling_drive) < 0.999999 * c.rolling_bound)
         unknown_.push_back(offset_[i] + 1), rule_.push_back({Row::stick, i, 1});
       unknown_.push_back(offset_[i] + 2), rule_.push_back({Row::stick, i, 2});
       continue;
@@ -358,8 +366,8 @@ bool ContactSolver::newton_step(std::vector<Constraint>& all, const std::vector<
     }
     if (kind != Row::slip) {
       for (int m = 0; m < n; ++m) newton_.A(k, m) = G(row, unknown_[m]);
-      newton_.A(k, k) += regular_ * G(row, row) + (r == 0 ? c.softness : 0);
-      newton_.b(k) = r == 0 ? c.target - u - c.softness * c.impulse[0] : -u;
+      newton_.A(k, k) += regular_ * G(row, row) + (r == 0 ? c.softness : (r == 2 ? c.grip_softness : 0));
+      newton_.b(k) = r == 0 ? c.target - u - c.softness * c.impulse[0] : -u - (r == 2 ? c.grip_softness * c.impulse[2] : 0);
       continue;
     }
     // L_t = mu L_n x/|x| with x = L_t - rho u_t

@@ -5,6 +5,14 @@
 namespace scenes {
 namespace {
 
+const Key kPatchKeys[] = {
+    {"from", Type::vector2, Dimension::length, kRequired, "World x, y of a corner."},
+    {"to", Type::vector2, Dimension::length, kRequired, "World x, y of the opposite corner."},
+    {"friction", Type::schedule, Dimension::none, kRequired, "Coulomb coefficient: 0.8 dry, 0.5 wet, 0.15 ice.", kNotNegative},
+};
+const Section kPatchSection{"ground.patch", "[[ground.patch]]",
+                            "A rectangle with a friction of its own; later ones lie over earlier ones.", kPatchKeys};
+
 const Key kKeys[] = {
     {"kind", Type::choice, Dimension::none, "'plane'", "An infinite plane z = height, or none (free fall, or terrain only).", kAny,
      "plane|none"},
@@ -12,6 +20,7 @@ const Key kKeys[] = {
     {"friction", Type::schedule, Dimension::none, "1",
      "Coulomb coefficient of the ground. Of two objects the smaller acts, so 1 leaves it to the other.", kNotNegative},
     {"restitution", Type::schedule, Dimension::none, "0", "Restitution of the ground. Of two objects the larger acts.", kShare},
+    {"patch", Type::tables, Dimension::none, "", "Where the road is wet or icy.", kAny, {}, &kPatchSection},
     {"terrain", Type::path, Dimension::none, "", "A mesh file in world axes (z up), besides or in place of the plane."},
 };
 
@@ -26,6 +35,11 @@ void read_ground(Builder& builder, std::optional<Reader> reader) {
   ground.height = r.number("height");
   ground.surface.friction_body = ground.surface.friction_ground = r.schedule("friction");
   ground.surface.restitution_body = ground.surface.restitution_ground = r.schedule("restitution");
+  for (Reader& patch : r.tables("patch")) {
+    const engine::Vec3 p = patch.vector("from"), q = patch.vector("to");
+    if (p.x() == q.x() || p.y() == q.y()) patch.fail("to", "must differ from the other corner in x and in y");
+    ground.patches.push_back({p.cwiseMin(q), p.cwiseMax(q), patch.schedule("friction")});
+  }
   if (r.has("terrain")) {
     if (const auto mesh = import_mesh(builder, r, "terrain")) {
       ground.terrain = mesh->solid;

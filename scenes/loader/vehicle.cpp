@@ -19,6 +19,10 @@ const Key kWheelKeys[] = {
     {"damper", Type::number, Dimension::damping, "'2.5 kN s/m'", "Suspension, at the wheel.", kNotNegative},
     {"travel", Type::number, Dimension::length, "'0.1 m'", "Each way to the stop.", kPositive},
     {"friction", Type::number, Dimension::none, "0.8", "Tyre on the road; the ground's own friction limits it too.", kNotNegative},
+    {"tyre", Type::choice, Dimension::none, "'linear'",
+     "Lateral force: linear in the slip angle up to the friction circle, or TM-Easy.", kAny, "linear|tm_easy"},
+    {"saturation_angle", Type::number, Dimension::angle, "'10 deg'",
+     "Linear tyre: the slip angle at which it reaches the friction circle.", between(0.001, 1.2)},
     {"brake_share", Type::number, Dimension::none, "0.25", "Share of the brake force; the shares sum to 1.", kShare},
     {"steered", Type::boolean, Dimension::none, "false", "Turns with steer."},
     {"driven", Type::boolean, Dimension::none, "false", "Takes its part of drive_force."},
@@ -34,6 +38,33 @@ const Key kBrakeKeys[] = {
      "That the full brake force would give this mass; the tyres may give less.", kNotNegative},
 };
 const Section kBrakeSection{"vehicle.brake", "[vehicle.brake]", "One braking by the driver.", kBrakeKeys};
+
+const Key kDriverKeys[] = {
+    {"action", Type::choice, Dimension::none, "'brake'", "What is done. To coast needs no act.", kAny, "brake|accelerate"},
+    {"from", Type::number, Dimension::time, "'0 s'", "When it begins; may be negative: before the scene begins."},
+    {"lag", Type::number, Dimension::time, "'0 s'", "Reaction and lag until the first force.", kNotNegative},
+    {"build_up", Type::number, Dimension::time, "'0.2 s'", "From the first force to the full one.", kNotNegative},
+    {"until", Type::number, Dimension::time, "", "When it ends; left out: never."},
+    {"level", Type::number, Dimension::acceleration, "'0.7 g'",
+     "That the full force would give this mass; the tyres may give less. Negative acceleration reverses."},
+    {"wheels", Type::numbers, Dimension::none, "",
+     "Share of the force at each wheel in the order of the file; left out: brake_share, or evenly at the driven wheels."},
+};
+const Section kDriverSection{"vehicle.driver", "[[vehicle.driver]]",
+                             "One act of the driver. Acts may overlap: their forces add up.", kDriverKeys};
+
+const Key kPathPointKeys[] = {
+    {"at", Type::vector2, Dimension::length, kRequired, "World x, y."},
+};
+const Section kPathPointSection{"vehicle.path.point", "[[vehicle.path.point]]", "A point of the path, in order.", kPathPointKeys};
+const Key kPathKeys[] = {
+    {"point", Type::tables, Dimension::none, "", "Two points or more.", kAny, {}, &kPathPointSection},
+    {"preview", Type::number, Dimension::time, "'0.6 s'", "How far the driver looks ahead, at least two metres.", kPositive},
+    {"largest", Type::number, Dimension::angle, "'35 deg'", "Of the wheel angle.", between(0.01, 1.2)},
+    {"rate", Type::number, Dimension::angular_speed, "'35 deg/s'", "At which the wheel angle may change.", kPositive},
+};
+const Section kPathSection{"vehicle.path", "[vehicle.path]",
+                           "A line on the ground that the driver steers along (pure pursuit), in place of steer.", kPathKeys};
 
 const Key kKeys[] = {
     {"name", Type::text, Dimension::none, "''", "Name in every output. (Required in a scene; a library file has none.)"},
@@ -57,6 +88,8 @@ const Key kKeys[] = {
     {"attitude", Type::vector3, Dimension::angle, "'0 0 0 deg'", "Roll, pitch, yaw on top of the heading."},
     {"quaternion", Type::numbers, Dimension::none, "", "The same as [w, x, y, z]."},
     {"brake", Type::table, Dimension::none, "", "Braking.", kAny, {}, &kBrakeSection},
+    {"driver", Type::tables, Dimension::none, "", "What the driver does, act by act.", kAny, {}, &kDriverSection},
+    {"path", Type::table, Dimension::none, "", "A line to steer along.", kAny, {}, &kPathSection},
     {"steer", Type::schedule, Dimension::angle, "'0 deg'", "Angle of the steered wheels, left positive."},
     {"drive_force", Type::schedule, Dimension::force, "'0 N'", "Shared by the driven wheels."},
     CRASHREEL_SURFACE_KEYS,
@@ -97,6 +130,8 @@ void read_wheels(Reader& r, const engine::Vec3& cg, engine::Vehicle& vehicle) {
     wheel.damper = w.number("damper");
     wheel.travel = w.number("travel");
     wheel.friction = w.number("friction");
+    wheel.tyre = static_cast<engine::TyreModel>(w.choice("tyre"));
+    wheel.saturation_angle = w.number("saturation_angle");
     wheel.brake_share = w.number("brake_share");
     wheel.steered = w.boolean("steered");
     wheel.driven = w.boolean("driven");
@@ -124,6 +159,42 @@ void read_brake(Reader& r, double mass, engine::Vehicle& vehicle) {
     }
   }
   vehicle.brake = engine::Schedule(std::move(knots));
+}
+
+void read_driver(Reader& r, double mass, engine::Vehicle& vehicle) {
+  for (Reader& act : r.tables("driver")) {
+    engine::DriverPhase phase;
+    phase.drives = act.choice("action") == 1;
+    phase.first_force = act.number("from") + act.number("lag");
+    phase.build_up = act.number("build_up");
+    if (act.has("until")) phase.until = act.number("until");
+    if (phase.until < phase.first_force) act.fail("until", "must not be earlier than the first force");
+    phase.force = mass * act.number("level");
+    if (!phase.drives && phase.force < 0) act.fail("level", "must not be negative for a brake");
+    if (act.has("wheels")) {
+      phase.share = act.numbers("wheels");
+      double sum = 0;
+      for (const double share : phase.share) sum += share;
+      if (phase.share.size() != vehicle.wheels.size())
+        act.fail("wheels", fmt::format("must be {} numbers, one for each wheel", vehicle.wheels.size()));
+      else if (sum > 1 + 1e-6 || *std::min_element(phase.share.begin(), phase.share.end()) < 0)
+        act.fail("wheels", "must not be negative and not sum to more than 1");
+    }
+    vehicle.sequence.push_back(std::move(phase));
+  }
+  if (auto path = r.table("path")) {
+    for (Reader& point : path->tables("point")) {
+      vehicle.path.points.push_back(point.vector("at"));
+      const auto n = vehicle.path.points.size();
+      if (n > 1 && (vehicle.path.points[n - 1] - vehicle.path.points[n - 2]).norm() < 0.01)
+        point.fail("at", "must be at least a centimetre from the point before");
+    }
+    if (vehicle.path.points.size() < 2) path->fail_here("has fewer than two points");
+    if (r.has("steer")) r.fail("steer", "must not be given together with path");
+    vehicle.path.preview = path->number("preview");
+    vehicle.path.largest = path->number("largest");
+    vehicle.path.rate = path->number("rate");
+  }
 }
 
 /// A car is some metres long; a mesh in centimetres or feet is the commonest slip of all.
@@ -209,6 +280,7 @@ void read_vehicle(Builder& builder, Reader scene) {
   const engine::Vec3 cg = r.vector("cg");
   read_wheels(r, cg, vehicle);
   read_brake(r, body.mass, vehicle);
+  read_driver(r, body.mass, vehicle);
   vehicle.steer = r.schedule("steer");
   vehicle.drive_force = r.schedule("drive_force");
   if (!meshes.bodywork || !meshes.collision) return;

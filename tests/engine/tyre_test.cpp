@@ -1,0 +1,285 @@
+// Tyre laws against their defining points, vehicles against closed forms and published time histories.
+#include "engine/laws/tyre.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/geometry/triangle_mesh.h"
+#include "tests/engine/experiment.h"
+
+namespace engine::test {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// ---- laws ----
+
+TEST(TmEasy, PassesThroughItsDefiningPoints) {
+  const TmEasyTyre tyre = passenger_car_tyre(4000);
+  const double mu = 1.1;  // the longitudinal maximum over the nominal load: as published
+  const TyreForce at_max = tm_easy_force(tyre, 4000, mu, 0.11, 0);
+  EXPECT_NEAR(at_max.longitudinal, 4400, 1e-9 * 4400);
+  EXPECT_NEAR(at_max.lateral, 0, 1e-9);
+  EXPECT_NEAR(tm_easy_force(tyre, 4000, mu, 0, 0.20).lateral, 4200, 1e-9 * 4200);
+  EXPECT_NEAR(tm_easy_force(tyre, 8000, mu, 0.10, 0).longitudinal, 8700, 1e-9 * 8700);
+  EXPECT_NEAR(tm_easy_force(tyre, 4000, mu, 0, 5).lateral, 4150, 1e-9 * 4150);
+  // slope at the origin: the secant of a slip of 1e-6 differs by (dF0 sM/FM - 2) s/sM < 1e-5
+  EXPECT_NEAR(tm_easy_force(tyre, 4000, mu, 0, 1e-6).lateral / 1e-6, 55e3, 1e-5 * 55e3);
+  EXPECT_NEAR(tm_easy_force(tyre, 4000, mu, 1e-6, 0).longitudinal / 1e-6, 120e3, 1e-5 * 120e3);
+}
+
+TEST(TmEasy, IsContinuousInForceAndSlopeAndNeverBeyondItsCircle) {
+  const SlipCurve c{55e3, 0.2, 4200, 0.8, 4150};
+  for (const double s : {c.slip_max, c.slip_sliding}) {
+    constexpr double d = 1e-6;
+    EXPECT_NEAR(force_of(c, s - d), force_of(c, s + d), 1e-3);
+    const double before = (force_of(c, s) - force_of(c, s - d)) / d, after = (force_of(c, s + d) - force_of(c, s)) / d;
+    EXPECT_NEAR(before, after, 2e-5 * c.slope);  // both vanish; second order in d
+  }
+  const TmEasyTyre tyre = passenger_car_tyre(4000);
+  for (double sx = 0; sx < 1.2; sx += 0.07)
+    for (double sy = 0; sy < 1.2; sy += 0.07) {
+      const TyreForce f = tm_easy_force(tyre, 5000, 0.8, sx, sy);
+      EXPECT_LE(std::hypot(f.longitudinal, f.lateral), 0.8 * 5000 * 1.001);
+    }
+}
+
+TEST(TmEasy, BrakingTakesFromTheLateralForce) {
+  const TmEasyTyre tyre = passenger_car_tyre(4000);
+  double last = 1e9;
+  for (const double asked : {0.0, 1000.0, 2000.0, 3000.0}) {
+    const double lateral = tm_easy_grip(tyre, 4000, 1.0, 20, 1, asked).damping;
+    EXPECT_LT(lateral, last);
+    last = lateral;
+  }
+}
+
+TEST(LinearTyre, SaturatesAtItsAngle) {
+  const double v = 20, angle = 10 * kDegree;
+  const Grip grip = linear_grip(4000, 0.8, angle, v, v * std::tan(angle));
+  EXPECT_NEAR(grip.damping * v * std::tan(angle), 0.8 * 4000, 1e-9 * 3200);
+}
+
+// ---- vehicles ----
+
+/// The 2004 sedan of the reference histories: 3298 lb, yaw inertia 2040 slug ft^2, wheelbase 106 in, centre of mass 38.1 in behind
+/// the front axle and 21.5 in high, track 60 in, overhangs 38 and 43 in, width 70 in; tyre friction 0.76.
+constexpr double kInch = 0.0254, kFoot = 0.3048, kMph = 0.44704;
+
+void add_reference_car(Model& model, double x, double speed) {
+  Body body = inert(1495.95, {560, 2600, 2765.9}, {x, 0, 21.5 * kInch});
+  body.name = "car" + std::to_string(model.vehicles.size());
+  body.V_WB.v.x() = speed;
+  const double front = (38.1 + 38) * kInch, rear = -(106 - 38.1 + 43) * kInch, half = 35 * kInch;
+  // the bodywork that meets in a rear-end collision: bumpers and all between, level with the centre of mass
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) corners.push_back({i & 1 ? front : rear, i & 2 ? half : -half, i & 4 ? 0.25 : -0.25});
+  const std::vector<Triangle> faces{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  body.shape = MeshShape{std::make_shared<TriangleMesh>(corners, faces), {}};
+  body.collision_model = CollisionModel::kudlich_slibar;
+  body.surface.restitution_body = 0.1;
+  Vehicle vehicle;
+  vehicle.name = body.name;
+  vehicle.body = static_cast<int>(model.bodies.size());
+  body.vehicle = static_cast<int>(model.vehicles.size());
+  for (const double at : {38.1, 38.1 - 106})
+    for (const double side : {30.0, -30.0}) {
+      Wheel wheel;
+      wheel.hub_B = Vec3(at * kInch, side * kInch, -(21.5 * kInch - 0.31));
+      wheel.radius = 0.31;
+      wheel.friction = 0.76;
+      wheel.steered = at > 0;
+      wheel.driven = at > 0;
+      wheel.brake_share = at > 0 ? 0.35 : 0.15;
+      vehicle.wheels.push_back(wheel);
+    }
+  model.vehicles.push_back(vehicle);
+  model.bodies.push_back(body);
+}
+
+DriverPhase braking(double from, double force) {
+  DriverPhase phase;
+  phase.first_force = from;
+  phase.force = force;
+  return phase;
+}
+
+Snapshot last_of(const Recording& run) {
+  return run.snapshots.back();
+}
+
+TEST(ReferenceHistory, FullBrakingFromThirtyMilesAnHour) {
+  Model model = on_ground(2.7);
+  add_reference_car(model, 0, 30 * kMph);
+  model.vehicles[0].sequence = {braking(1.0, 1495.95 * 9.81 * 2)};  // full: far beyond what the tyres hold
+  const Recording run = simulate(model);
+  // t [s], x [ft]: computed by a commercial program, public validation data
+  const std::vector<std::array<double, 2>> rows{
+      {0.1, 4.4},   {0.2, 8.8},   {0.3, 13.2},  {0.4, 17.6},  {0.5, 22},    {0.6, 26.4},  {0.7, 30.8},  {0.8, 35.2},  {0.9, 39.6},
+      {1.0, 44},    {1.1, 48.3},  {1.2, 52.36}, {1.3, 56.18}, {1.4, 59.75}, {1.5, 63.08}, {1.6, 66.17}, {1.7, 69.01}, {1.8, 71.61},
+      {1.9, 73.96}, {2.0, 76.07}, {2.1, 77.93}, {2.2, 79.55}, {2.3, 80.92}, {2.4, 82.05}, {2.5, 82.93}, {2.6, 83.57}, {2.7, 83.97}};
+  for (const auto& [t, feet] : rows) EXPECT_NEAR(run.at(t).bodies[0].X_WB.p.x() / kFoot, feet, 0.01 * feet) << "t = " << t;
+}
+
+TEST(ReferenceHistory, InLineCollisionAtThirtyMilesAnHour) {
+  Model model = on_ground(1.0);
+  add_reference_car(model, 0, 30 * kMph);
+  add_reference_car(model, 40 * kFoot, 0);
+  model.vehicles[0].sequence = {braking(0.5, 0.30 * 1495.95 * 9.81)};
+  // the history's own exchange: between 0.6 and 0.7 s its positions and speeds meet at 0.616 s, with the front 0.80 m inside
+  ImpactSettings settled;
+  settled.body_a = 0;
+  settled.body_b = 1;
+  settled.penetration_time = 0.06;
+  model.impacts.push_back(settled);
+  const Recording run = simulate(model);
+  EXPECT_NEAR(run.at(0.7).bodies[1].V_WB.v.x() / kMph, 16.02, 0.01 * 16.02);
+  EXPECT_NEAR(run.at(1.0).bodies[1].V_WB.v.x() / kMph, 16.02, 0.01 * 16.02);
+  EXPECT_NEAR(run.at(0.7).bodies[1].X_WB.p.x() / kFoot, 42, 0.01 * 42);
+  EXPECT_NEAR(run.at(1.0).bodies[1].X_WB.p.x() / kFoot, 49.05, 0.01 * 49.05);
+  EXPECT_NEAR(run.at(0.7).bodies[0].X_WB.p.x() / kFoot, 28.62, 0.01 * 28.62);
+}
+
+/// All wheels on one tyre model.
+Model one_car(double duration, double speed, TyreModel tyre) {
+  Model model = on_ground(duration);
+  add_reference_car(model, 0, speed);
+  for (Wheel& wheel : model.vehicles[0].wheels) wheel.tyre = tyre;
+  return model;
+}
+
+class EitherTyre : public testing::TestWithParam<TyreModel> {};
+INSTANTIATE_TEST_SUITE_P(Models, EitherTyre, testing::Values(TyreModel::linear, TyreModel::tm_easy),
+                         [](const auto& p) { return p.param == TyreModel::linear ? "linear" : "tm_easy"; });
+
+TEST_P(EitherTyre, CoastingCarKeepsItsSpeedAndLine) {
+  const Recording run = simulate(one_car(5, 20, GetParam()));
+  EXPECT_NEAR(last_of(run).bodies[0].X_WB.p.x(), 100, 1e-6);
+  // the contact solver stops at 1e-5 m/s
+  EXPECT_NEAR(last_of(run).bodies[0].X_WB.p.y(), 0, 5e-5);
+}
+
+TEST(Braking, StopsAfterTheDistanceOfCoulombFriction) {
+  Model model = on_ground(4);
+  add_reference_car(model, 0, 15);
+  model.vehicles[0].sequence = {braking(0, 1e6)};
+  const Recording run = simulate(model);
+  // loads change while it pitches, their sum wavers about the weight by mu h/wheelbase at the most at the start: half a percent
+  const double want = 15 * 15 / (2 * 0.76 * kGravity);
+  EXPECT_NEAR(last_of(run).bodies[0].X_WB.p.x(), want, 5e-3 * want);
+  EXPECT_NEAR(last_of(run).bodies[0].V_WB.v.norm(), 0, 1e-3);
+}
+
+TEST(Braking, PartialLevelLagAndBuildUpAreThoseAsked) {
+  Model model = on_ground(2);
+  add_reference_car(model, 0, 25);
+  DriverPhase act = braking(0.3, 0.4 * 1495.95 * kGravity);
+  act.build_up = 0.2;
+  act.until = 1.5;
+  model.vehicles[0].sequence = {act};
+  const Recording run = simulate(model);
+  const double lost = 0.4 * kGravity * (1.5 - 0.3 - 0.1);
+  // the force ends within a step; pitching moves the centre of mass against the wheels, at rest again by a few mm/s
+  EXPECT_NEAR(25 - last_of(run).bodies[0].V_WB.v.x(), lost, 0.4 * kGravity * 1e-3 + 2e-3);
+  EXPECT_NEAR(25 - run.at(0.3).bodies[0].V_WB.v.x(), 0, 1e-9);
+}
+
+TEST(Braking, MovesLoadToTheFrontAxle) {
+  Model model = on_ground(3);
+  add_reference_car(model, 0, 30);
+  model.vehicles[0].sequence = {braking(0, 0.5 * 1495.95 * kGravity)};
+  const Recording run = simulate(model);
+  const Snapshot s = run.at(2.5);
+  const double front = s.wheels[0].load + s.wheels[1].load, rear = s.wheels[2].load + s.wheels[3].load;
+  const double weight = 1495.95 * kGravity, wheelbase = 106 * kInch, height = s.bodies[0].X_WB.p.z();
+  EXPECT_NEAR(front + rear, weight, 1e-3 * weight);
+  // moment about the rear contacts; the car is pitched by 1.5 degrees, which moves its centre by 1 % of the lever: 0.5 %
+  const double want = weight * (106 - 38.1) / 106 + 0.5 * weight * height / wheelbase;
+  EXPECT_NEAR(front, want, 5e-3 * weight);
+}
+
+TEST(Braking, OneSideTurnsTheCarTowardsIt) {
+  Model model = on_ground(0.5);
+  add_reference_car(model, 0, 20);
+  DriverPhase act = braking(0, 0.2 * 1495.95 * kGravity);
+  act.share = {0.5, 0, 0.5, 0};
+  model.vehicles[0].sequence = {act};
+  EXPECT_GT(last_of(simulate(model)).bodies[0].V_WB.w.z(), 0.01);
+}
+
+TEST_P(EitherTyre, SteadyCircleHasTheRadiusOfTheGeometryAndTheForceOfTheSpeed) {
+  // slow: no slip to speak of, so radius = wheelbase / tan(steer) about the rear axle
+  Model model = one_car(12, 2, GetParam());
+  model.vehicles[0].steer = Schedule(std::vector<Schedule::Knot>{{0, 0}, {1, 0.2}});
+  const Recording run = simulate(model);
+  const Twist& V = last_of(run).bodies[0].V_WB;
+  const double rear = 106 * kInch / std::tan(0.2), centre = std::hypot(rear, (106 - 38.1) * kInch);
+  // slip angles at a_y = 0.03 g: 0.4 degrees against 11 of steer, nearly alike in front and rear; equal wheel angles (no Ackermann)
+  // drag a little
+  EXPECT_NEAR(V.v.norm() / V.w.z(), centre, 0.03 * centre);
+  // lateral forces carry the centripetal acceleration: all components, over the steered frames
+  double lateral = 0;
+  for (const WheelRecord& w : last_of(run).wheels) lateral += w.lateral;
+  EXPECT_NEAR(lateral, 1495.95 * V.v.norm() * V.w.z(), 0.03 * lateral);
+}
+
+TEST_P(EitherTyre, TooFastForTheCircleItSlidesAtTheFrictionLimit) {
+  Model model = one_car(1.5, 30, GetParam());
+  model.vehicles[0].steer = Schedule(std::vector<Schedule::Knot>{{0, 0}, {0.3, 0.3}});
+  const Recording run = simulate(model);
+  const Vec3 a = (run.at(1.2).bodies[0].V_WB.v - run.at(1.0).bodies[0].V_WB.v) / 0.2;
+  EXPECT_LT(a.norm(), 0.76 * kGravity * 1.02);  // loads waver with the ride
+  EXPECT_GT(a.norm(), 0.5 * kGravity);
+}
+
+TEST_P(EitherTyre, ParkedOnASlopeItDoesNotCreepForAMinute) {
+  Model model = one_car(60, 0, GetParam());
+  const double slope = 15 * kDegree;
+  for (const bool across : {false, true}) {
+    model.settings.gravity = kGravity * Vec3(across ? 0 : std::sin(slope), across ? std::sin(slope) : 0, -std::cos(slope));
+    model.settings.record_interval = 0.5;
+    model.vehicles[0].sequence = {braking(-1, 1e5)};
+    const Recording run = simulate(model);
+    // the suspension settles in the first two seconds, after that nothing may move
+    EXPECT_LT((last_of(run).bodies[0].X_WB.p - run.at(5).bodies[0].X_WB.p).norm(), 1e-3) << (across ? "across" : "along");
+  }
+}
+
+TEST(Patch, OfIceIsFeltWhereItLies) {
+  Model model = on_ground(3);
+  add_reference_car(model, 0, 15);
+  model.vehicles[0].sequence = {braking(0, 1e6)};
+  model.ground.patches.push_back({{4, -5, 0}, {300, 5, 0}, 0.1});
+  const Recording run = simulate(model);
+  const Vec3 a = (run.at(2.5).bodies[0].V_WB.v - run.at(2.0).bodies[0].V_WB.v) / 0.5;
+  EXPECT_NEAR(-a.x(), 0.1 * kGravity, 0.01 * kGravity);
+}
+
+TEST(Accelerating, GainsTheWorkOfTheEngine) {
+  Model model = on_ground(3);
+  add_reference_car(model, 0, 5);
+  DriverPhase act = braking(0, 0.2 * 1495.95 * kGravity);
+  act.drives = true;
+  model.vehicles[0].sequence = {act};
+  const Recording run = simulate(model);
+  const Snapshot s = last_of(run);
+  EXPECT_NEAR(s.bodies[0].V_WB.v.x(), 5 + 0.2 * kGravity * 3, 0.02);
+  const double kinetic = s.energies.kinetic;
+  EXPECT_NEAR(s.energies.residual, 0, 2e-3 * kinetic);
+}
+
+TEST(Path, IsFollowedRoundABend) {
+  Model model = on_ground(8);
+  add_reference_car(model, 0, 10);
+  model.vehicles[0].path.points = {{-10, 0, 0}, {30, 0, 0}, {50, 10, 0}, {100, 35, 0}};
+  const Recording run = simulate(model);
+  // pure pursuit cuts the corner by half its preview; on the last leg it is back on the line
+  const Snapshot s = last_of(run);
+  const Vec3 on = Vec3(50, 10, 0), along = Vec3(2, 1, 0).normalized();
+  const Vec3 off = s.bodies[0].X_WB.p - on;
+  EXPECT_GT(off.dot(along), 15);
+  EXPECT_LT(std::abs(Vec3(0, 0, 1).dot(along.cross(Vec3(off.x(), off.y(), 0)))), 0.3);
+}
+
+}  // namespace
+}  // namespace engine::test
