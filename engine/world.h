@@ -54,6 +54,12 @@ struct BodyPair {
   Clearance clearance;           // of b in the frame of a
 };
 
+/// A point that stands for a body's mesh, or for one of its wheels, where it meets other surfaces.
+struct SurfacePoint {
+  Vec3 p_B = Vec3::Zero();  // [m]
+  bool wheel = false;
+};
+
 /// Two meshes that collide by Kudlich-Slibar.
 struct ImpactPair {
   int a = 0, b = 0;
@@ -103,6 +109,9 @@ struct World {
   std::vector<MeshPair> mesh_pairs;
   std::vector<BodyPair> body_pairs;
   std::vector<WheelState> wheels;
+  std::vector<std::vector<SurfacePoint>> surface_points;  // per body with a mesh, for meshes against others
+  std::vector<SurfaceContact> point_contacts;             // scratch of those
+  std::vector<int> point_scratch;
   std::vector<double> path_steer;  // [rad] per vehicle that follows a path
   std::vector<ImpactPair> impact_pairs;
   OverlapScratch overlap;

@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
     assets::write_obj(assets::bodywork(), assets::car_paints(), folder + "/sedan");
     assets::write_obj(assets::shell(), {}, folder + "/sedan_collision");
     assets::write_obj(assets::wheel(), assets::wheel_paints(), folder + "/wheel");
+    assets::write_obj(assets::trip_curb(), {{"concrete", {0.42, 0.41, 0.39}}}, folder + "/trip_curb");
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());
     return 3;

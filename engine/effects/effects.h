@@ -17,6 +17,7 @@ extern const Effect kTerrainContactEffect;
 extern const Effect kMeshContactEffect;
 extern const Effect kSelfContactEffect;
 extern const Effect kBodyContactEffect;
+extern const Effect kBodyworkContactEffect;
 extern const Effect kKudlichSlibarEffect;
 
 }  // namespace engine

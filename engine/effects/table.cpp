@@ -7,9 +7,9 @@ namespace engine {
 
 std::span<const Effect* const> effect_table() {
   static constexpr std::array kTable{
-      &kZeroConditionEffect, &kGravityEffect,     &kJointsEffect,        &kJointLimitsEffect,    &kJointResistanceEffect,
-      &kJointLoopsEffect,    &kTyresEffect,       &kGroundContactEffect, &kTerrainContactEffect, &kMeshContactEffect,
-      &kSelfContactEffect,   &kBodyContactEffect, &kKudlichSlibarEffect,
+      &kZeroConditionEffect, &kGravityEffect,     &kJointsEffect,          &kJointLimitsEffect,    &kJointResistanceEffect,
+      &kJointLoopsEffect,    &kTyresEffect,       &kGroundContactEffect,   &kTerrainContactEffect, &kMeshContactEffect,
+      &kSelfContactEffect,   &kBodyContactEffect, &kBodyworkContactEffect, &kKudlichSlibarEffect,
   };
   return kTable;
 }

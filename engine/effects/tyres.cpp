@@ -80,6 +80,12 @@ double spring_force(const Wheel& spec, double static_load, double compression) {
   return static_load + spec.spring * (compression + std::copysign(kStopStiffness * beyond, compression));
 }
 
+/// How far the wheel hangs below static ride [m]: where spring and rebound stop balance. Lower it gives no force.
+double droop_of(const Wheel& spec, double static_load) {
+  const double slack = static_load / spec.spring;
+  return slack <= spec.travel ? slack : (slack + kStopStiffness * spec.travel) / (1 + kStopStiffness);
+}
+
 double spring_energy(const Wheel& spec, double static_load, double compression) {
   const double beyond = std::max(0.0, std::abs(compression) - spec.travel);
   return static_load * compression + 0.5 * spec.spring * (compression * compression + kStopStiffness * beyond * beyond);
@@ -150,7 +156,7 @@ void find(World& world, const State& state, int self) {
     wheel.drive = drive_of(vehicle, wheel.wheel, state.time);
     const Vec3 hub_static = X * spec.hub_B;
     const Vec3 down = -(X.q * Vec3::UnitZ());
-    const double droop = spec.travel + wheel.static_load / spec.spring;
+    const double droop = droop_of(spec, wheel.static_load);
     const Footing footing = footing_of(world.model.ground, hub_static, down, spec.radius + droop);
     wheel.compression = footing.found ? spec.radius - footing.distance : -droop;
     wheel.hub = hub_static - down * std::clamp(wheel.compression, -droop, 2 * spec.travel);

@@ -1,0 +1,165 @@
+// The mesh of a vehicle (or of any body) against ground, terrain and other meshes by Default-Auto, at many points through the one
+// contact solver: rollover, landing on the roof, a kerb, cars that do not both ask for Kudlich-Slibar. Points of each mesh are
+// held against the other's surface. What lies under a wheel is its suspension's business; what it meets sideways, or lies on when
+// the vehicle has turned over, touches its rim and flanks here.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/effects/effects.h"
+#include "engine/geometry/mesh_overlap.h"
+#include "engine/geometry/point_mesh.h"
+
+namespace engine {
+namespace {
+
+constexpr double kSpacing = 0.10;     // [m] between the points that stand for a mesh
+constexpr double kDeepest = 0.15;     // [m] a point farther behind a surface has come from its other side
+constexpr std::size_t kMost = 10;     // contacts of one pair
+constexpr int kRing = 24;             // points round a wheel
+constexpr double kUnderWheel = 0.75;  // [-] cosine to the vehicle's up axis: surfaces nearer to level belong to the suspension
+
+bool is_mesh(const Body& body) {
+  return std::holds_alternative<MeshShape>(body.shape);
+}
+
+bool can_meet(const Model& model, int a, int b) {
+  const Body& A = model.bodies[a];
+  const Body& B = model.bodies[b];
+  if (!is_mesh(A) || !is_mesh(B) || (A.fixed && B.fixed)) return false;
+  if (model_between(A.collision_model, B.collision_model) == CollisionModel::kudlich_slibar) return false;
+  return std::none_of(model.joints.begin(), model.joints.end(),
+                      [&](const Joint& j) { return (j.parent == a && j.child == b) || (j.parent == b && j.child == a); });
+}
+
+std::optional<std::string> called_for(const Model& model) {
+  const auto moving = std::count_if(model.bodies.begin(), model.bodies.end(), [](const Body& b) { return is_mesh(b) && !b.fixed; });
+  if (moving == 0) return std::nullopt;
+  long pairs = 0;
+  for (int a = 0; a < static_cast<int>(model.bodies.size()); ++a)
+    for (int b = a + 1; b < static_cast<int>(model.bodies.size()); ++b) pairs += can_meet(model, a, b);
+  if (pairs == 0 && !model.ground.plane && !model.ground.terrain) return std::nullopt;
+  return std::to_string(moving) + " meshes that can reach the ground, " + std::to_string(pairs) + " pairs of meshes";
+}
+
+void begin(World& world, const State&, int) {
+  const auto& bodies = world.model.bodies;
+  world.surface_points.assign(bodies.size(), {});
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (!is_mesh(bodies[b])) continue;
+    const auto& shape = std::get<MeshShape>(bodies[b].shape);
+    for (const Vec3& p : representative_points(*shape.mesh, kSpacing)) world.surface_points[b].push_back({shape.X_BM * p, false});
+    if (bodies[b].vehicle < 0) continue;
+    for (const Wheel& wheel : world.model.vehicles[bodies[b].vehicle].wheels)
+      for (const double side : {-0.5, 0.5})
+        for (int i = 0; i < kRing; ++i) {
+          const double angle = 2 * std::numbers::pi * i / kRing;
+          const Vec3 spoke(wheel.radius * std::cos(angle), side * wheel.width, wheel.radius * std::sin(angle));
+          world.surface_points[b].push_back({wheel.hub_B + spoke, true});
+        }
+  }
+}
+
+/// Box around a body's points in world axes.
+Aabb box_of(const World& world, const State& state, int body) {
+  const auto& shape = std::get<MeshShape>(world.model.bodies[body].shape);
+  Aabb box = world_bounds(*shape.mesh, state.X_WB[body] * shape.X_BM);
+  if (const int v = world.model.bodies[body].vehicle; v >= 0)
+    for (const Wheel& wheel : world.model.vehicles[v].wheels) {
+      const Vec3 hub = state.X_WB[body] * wheel.hub_B;
+      const double r = std::hypot(wheel.radius, 0.5 * wheel.width);
+      box.lower = box.lower.cwiseMin((hub.array() - r).matrix());
+      box.upper = box.upper.cwiseMax((hub.array() + r).matrix());
+    }
+  return box;
+}
+
+/// Contacts of a body's points with a mesh at a pose, or with the plane z = height where there is none.
+void touch(World& world, const State& state, int body, const TriangleMesh* mesh, const Pose& X_WM, double height, double margin,
+           const Aabb& within) {
+  std::vector<SurfaceContact>& out = world.point_contacts;
+  out.clear();
+  const Pose& X = state.X_WB[body];
+  const Vec3 up = X.q * Vec3::UnitZ();
+  const Pose X_MW = X_WM.inverse();
+  const auto& points = world.surface_points[body];
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 p = X * points[i].p_B;
+    if ((p.array() < within.lower.array() - margin).any() || (p.array() > within.upper.array() + margin).any()) continue;
+    SurfaceContact c;
+    c.p_a = p;
+    c.key = static_cast<std::uint32_t>(i);
+    if (mesh) {
+      const auto surface = nearest_surface(*mesh, X_MW * p, std::max(margin, kDeepest), world.point_scratch);
+      if (!surface || surface->gap >= margin) continue;
+      c.p_b = X_WM * surface->point;
+      c.normal = X_WM.q * surface->normal;
+      c.gap = surface->gap;
+    } else {
+      c.gap = p.z() - height;
+      if (c.gap >= margin) continue;
+      c.p_b = p - c.gap * Vec3::UnitZ();
+    }
+    if (points[i].wheel && c.normal.dot(up) > kUnderWheel) continue;
+    out.push_back(c);
+  }
+  keep_spread(out, kMost);
+}
+
+void find_on_ground(World& world, const State& state, int body, int self) {
+  const Ground& ground = world.model.ground;
+  const Body& B = world.model.bodies[body];
+  const double margin = contact_margin(world, state, body);
+  const Aabb box = box_of(world, state, body);
+  const double t = state.time;
+  const double e = std::max(B.surface.restitution_ground.at(t), ground.surface.restitution_ground.at(t));
+  auto add = [&](ContactKind kind) {
+    for (const SurfaceContact& c : world.point_contacts) {
+      const double mu = std::min(B.surface.friction_ground.at(t), ground.friction_at(c.p_b, t));
+      add_contact(world, state, c, body, -1, self, kind, mu, e);
+    }
+  };
+  if (ground.plane && box.lower.z() < ground.height + margin) {
+    touch(world, state, body, nullptr, {}, ground.height, margin, box);
+    add(ContactKind::ground);
+  }
+  if (ground.terrain) {
+    touch(world, state, body, ground.terrain.get(), {}, 0, margin, ground.terrain->bounds());
+    for (SurfaceContact& c : world.point_contacts) c.key |= 0x400000u;
+    add(ContactKind::terrain);
+  }
+}
+
+void find_between(World& world, const State& state, int a, int b, int self) {
+  const double margin = pair_margin(world, state, a, b);
+  const Aabb box_a = box_of(world, state, a), box_b = box_of(world, state, b);
+  const Vec3 low = box_a.lower.cwiseMax(box_b.lower), high = box_a.upper.cwiseMin(box_b.upper);
+  if ((low.array() > high.array() + margin).any()) return;
+  const SurfaceProperties& A = world.model.bodies[a].surface;
+  const SurfaceProperties& B = world.model.bodies[b].surface;
+  const double mu = std::min(A.friction_body.at(state.time), B.friction_body.at(state.time));
+  const double e = std::max(A.restitution_body.at(state.time), B.restitution_body.at(state.time));
+  for (const bool first : {true, false}) {
+    const int points_of = first ? a : b, surface_of = first ? b : a;
+    const auto& shape = std::get<MeshShape>(world.model.bodies[surface_of].shape);
+    touch(world, state, points_of, shape.mesh.get(), state.X_WB[surface_of] * shape.X_BM, 0, margin, {low, high});
+    for (const SurfaceContact& c : world.point_contacts)
+      add_contact(world, state, c, points_of, surface_of, self, ContactKind::vehicle_pair, mu, e);
+  }
+}
+
+void find(World& world, const State& state, int self) {
+  const int n = static_cast<int>(world.model.bodies.size());
+  for (int a = 0; a < n; ++a) {
+    if (!is_mesh(world.model.bodies[a])) continue;
+    if (world.awake[a]) find_on_ground(world, state, a, self);
+    for (int b = a + 1; b < n; ++b)
+      if ((world.awake[a] || world.awake[b]) && can_meet(world.model, a, b)) find_between(world, state, a, b, self);
+  }
+}
+
+}  // namespace
+
+const Effect kBodyworkContactEffect{.name = "bodywork_contact", .called_for = called_for, .begin = begin, .find_contacts = find};
+
+}  // namespace engine

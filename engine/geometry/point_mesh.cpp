@@ -1,0 +1,89 @@
+#include "engine/geometry/point_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace engine {
+namespace {
+
+/// Nearest point of a triangle (C. Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
+Vec3 nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const Vec3 bp = p - b;
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + d1 / (d1 - d3) * ab;
+  const Vec3 cp = p - c;
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + d2 / (d2 - d6) * ac;
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
+  const double sum = va + vb + vc;
+  return a + vb / sum * ab + vc / sum * ac;
+}
+
+}  // namespace
+
+std::optional<NearestSurface> nearest_surface(const TriangleMesh& mesh, const Vec3& p, double reach, std::vector<int>& scratch) {
+  scratch.clear();
+  mesh.query({p.array() - reach, p.array() + reach}, scratch);
+  std::optional<NearestSurface> best;
+  double least = reach, facing = 0;
+  for (const int t : scratch) {
+    const Triangle& v = mesh.triangles()[t];
+    const Vec3 q = nearest_in_triangle(p, mesh.vertices()[v[0]], mesh.vertices()[v[1]], mesh.vertices()[v[2]]);
+    const double distance = (p - q).norm();
+    const double along = mesh.face_normals()[t].dot(p - q);
+    constexpr double kSame = 1e-9;  // [m]
+    const bool nearer = distance < least - kSame;
+    const bool same_but_facing = best && distance < least + kSame && std::abs(along) > std::abs(facing);
+    if (!nearer && !same_but_facing) continue;
+    least = std::min(least, distance);
+    facing = along;
+    best = NearestSurface{q, mesh.face_normals()[t], along < 0 ? -distance : distance, t};
+    // beside an edge or a corner the normal points from it to the point
+    if (distance > 1e-6 && std::abs(along) < 0.999 * distance) best->normal = (along < 0 ? -1.0 : 1.0) / distance * (p - q);
+  }
+  return best;
+}
+
+std::vector<Vec3> representative_points(const TriangleMesh& mesh, double spacing) {
+  const Vec3 centre = 0.5 * (mesh.bounds().lower + mesh.bounds().upper);
+  std::map<std::array<int, 3>, Vec3> cubes;
+  for (const Vec3& v : mesh.vertices()) {
+    const Eigen::Vector3i cube = ((v - centre) / spacing).array().floor().cast<int>();
+    const auto [at, fresh] = cubes.try_emplace({cube.x(), cube.y(), cube.z()}, v);
+    if (!fresh && (v - centre).squaredNorm() > (at->second - centre).squaredNorm()) at->second = v;
+  }
+  std::vector<Vec3> out;
+  for (const auto& entry : cubes) out.push_back(entry.second);
+  return out;
+}
+
+void keep_spread(std::vector<SurfaceContact>& contacts, std::size_t most) {
+  if (contacts.size() <= most) return;
+  for (std::size_t k = 0; k < most; ++k) {
+    std::size_t next = k;
+    double best = -1e300;
+    for (std::size_t i = k; i < contacts.size(); ++i) {
+      double merit = -contacts[i].gap;
+      if (k > 0) {
+        double nearest = 1e300;
+        for (std::size_t j = 0; j < k; ++j) nearest = std::min(nearest, (contacts[i].p_a - contacts[j].p_a).norm());
+        merit = nearest - 10 * contacts[i].gap;  // a centimetre of depth counts like a decimetre of distance
+      }
+      if (merit > best) best = merit, next = i;
+    }
+    std::swap(contacts[k], contacts[next]);
+  }
+  contacts.resize(most);
+}
+
+}  // namespace engine

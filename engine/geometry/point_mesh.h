@@ -1,0 +1,28 @@
+// A point against a triangle mesh, and the points that stand for a mesh where it meets others.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/geometry/surface_contact.h"
+#include "engine/geometry/triangle_mesh.h"
+
+namespace engine {
+
+/// Nearest surface of the mesh within `reach` [m] of a point (mesh frame): gap negative behind the surface, normal outwards. On the
+/// border of several triangles the one that faces the point most decides the sign.
+struct NearestSurface {
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::UnitZ();
+  double gap = 0;
+  int triangle = -1;
+};
+std::optional<NearestSurface> nearest_surface(const TriangleMesh&, const Vec3& p, double reach, std::vector<int>& scratch);
+
+/// Vertices of a mesh, thinned to the one farthest out in each cube of side `spacing` [m].
+std::vector<Vec3> representative_points(const TriangleMesh&, double spacing);
+
+/// Of many contacts of one pair: the deepest and those farthest from what is chosen already, at most `most`. In place.
+void keep_spread(std::vector<SurfaceContact>&, std::size_t most);
+
+}  // namespace engine
