@@ -5,7 +5,8 @@
 
 namespace render {
 
-GlContext::GlContext(int width, int height) : buffer_(static_cast<std::size_t>(4 * width * height)) {
+GlContext::GlContext(int width, int height)
+    : width_(width), height_(height), buffer_(static_cast<std::size_t>(4 * width * height)) {
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,
@@ -20,7 +21,11 @@ GlContext::GlContext(int width, int height) : buffer_(static_cast<std::size_t>(4
   const OSMesaContext context = OSMesaCreateContextAttribs(attributes, nullptr);
   if (!context) throw RenderError("cannot create an off-screen OpenGL 3.3 context: is libosmesa6 installed?");
   context_ = context;
-  if (!OSMesaMakeCurrent(context, buffer_.data(), GL_UNSIGNED_BYTE, width, height))
+  make_current();
+}
+
+void GlContext::make_current() const {
+  if (!OSMesaMakeCurrent(static_cast<OSMesaContext>(context_), buffer_.data(), GL_UNSIGNED_BYTE, width_, height_))
     throw RenderError("cannot make the off-screen OpenGL context current");
 }
 

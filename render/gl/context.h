@@ -12,11 +12,13 @@ class GlContext {
   ~GlContext();
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
+  void make_current() const;  // throws RenderError
   std::string description() const;
 
  private:
   void* context_ = nullptr;
-  std::vector<unsigned char> buffer_;  // OSMesa wants one to be current; pictures are read from our own framebuffer
+  int width_, height_;
+  mutable std::vector<unsigned char> buffer_;  // OSMesa wants one to be current; pictures are read from our own framebuffer
 };
 
 }  // namespace render

@@ -16,7 +16,7 @@ const Float4 kOutline{0.05f, 0.05f, 0.06f, 0.85f};
 
 }  // namespace
 
-OverlayPass::OverlayPass() : program_(shaders::kOverlayVertex, shaders::kOverlayFragment) {
+OverlayPass::OverlayPass() : program_("", kOverlayVertex, kOverlayFragment) {
   glGenVertexArrays(1, &array_);
   glGenBuffers(1, &buffer_);
   glBindVertexArray(array_);
@@ -147,23 +147,6 @@ void OverlayPass::flush(bool depth_tested) {
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   vertices_.clear();
-}
-
-void OverlayPass::draw_strips(const DrawList& list, int width, int height) {
-  begin(list, width, height);
-  for (const StripItem& strip : list.strips) {
-    for (std::size_t i = 1; i < strip.left.size(); ++i) {
-      Pixel l0{}, l1{}, r0{}, r1{};
-      if (!project(strip.left[i - 1], strip.left[i], l0, l1) || !project(strip.right[i - 1], strip.right[i], r0, r1)) continue;
-      const float dark0 = strip.darkness[i - 1], dark1 = strip.darkness[i];
-      auto vertex = [&](const Pixel& p, float dark) {
-        const float values[kFloats] = {p.x, p.y, 0, 0.03f, 0.03f, 0.03f, dark, 0, 0, 1e6f, 1e6f, 0};
-        vertices_.insert(vertices_.end(), values, values + kFloats);
-      };
-      vertex(l0, dark0), vertex(r0, dark0), vertex(r1, dark1), vertex(l0, dark0), vertex(r1, dark1), vertex(l1, dark1);
-    }
-  }
-  flush(false);
 }
 
 void OverlayPass::draw(const DrawList& list, int width, int height) {

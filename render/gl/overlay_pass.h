@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "render/draw_list.h"
-#include "render/gl/resources.h"
+#include "render/gl/program.h"
 
 namespace render::gl {
 
@@ -15,9 +15,7 @@ class OverlayPass {
   OverlayPass(const OverlayPass&) = delete;
   OverlayPass& operator=(const OverlayPass&) = delete;
 
-  /// Skid marks and the like, before the objects.
-  void draw_strips(const DrawList&, int width, int height);
-  /// Everything else, last.
+  /// Into the bound framebuffer. Lines that pass behind things are tested against its depth.
   void draw(const DrawList&, int width, int height);
 
  private:

@@ -1,361 +1,416 @@
-// The passes of a frame: shadow map, background, skid marks, objects, glass, resolve, overlays, read-back, labels.
+// The passes of a frame: shadow map, background, ground in shade, skid marks, objects in their own rectangle, composition, lines,
+// read-back, labels.
+//
+// Work is done where it can be seen: the background is computed without things and kept while camera and road stay the same; the
+// dear ground shader runs only inside the rectangle where shadows and occlusion can fall, the multisampled target is used only
+// inside the rectangle of the objects. A kept background and a fresh one come out of the same shader over the same pixels, so a
+// frame's bytes do not depend on what was drawn before it.
 #include "render/renderer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
-#include <cstring>
+#include <compare>
+#include <iterator>
 #include <map>
-#include <tuple>
+#include <optional>
+#include <utility>
 
 #include "render/gl/context.h"
-#include "render/gl/gl.h"
+#include "render/gl/noise.h"
 #include "render/gl/overlay_pass.h"
-#include "render/gl/resources.h"
+#include "render/gl/pieces.h"
+#include "render/gl/program.h"
 #include "render/gl/shaders.h"
+#include "render/gl/targets.h"
 #include "render/matrix.h"
-#include "render/surface/tessellate.h"
 #include "render/text/labels.h"
 
 namespace render {
 namespace {
 
-using gl::Program;
-using gl::ShadowMap;
-using gl::Target;
-using gl::VertexBuffer;
+using namespace gl;
 
-struct Settings {
-  int samples, supersample, shadow_size, shadow_taps;
-  float shadow_blur;
-  double tolerance;  // [m] of tessellation
+struct Spend {  // what a quality level costs
+  int scale;    // pictures are drawn so many times larger a side
+  int samples;  // a side to a pixel
+  int shadow_map_size;
+  int shadow_filter;   // SHADOW in the shaders
+  double pixel_share;  // [pixels] of tessellation
 };
 
-Settings settings_of(Quality quality) {
-  switch (quality) {
-    case Quality::draft:
-      return {1, 1, 1024, 4, 1.2f, 2e-3};
-    case Quality::fine:
-      return {4, 2, 4096, 16, 3.5f, 3e-4};
-    default:
-      return {4, 1, 2048, 12, 1.8f, 8e-4};
-  }
+Spend spend(Quality q) {
+  if (q == Quality::draft) return {1, 1, 512, 1, 0.5};
+  if (q == Quality::standard) return {1, 2, 1024, 1, 0.2};
+  return {2, 2, 2048, 2, 0.2};
 }
 
-struct MeshBounds {
-  Vec3 centre = Vec3::Zero(), half = Vec3::Zero();
+/// Shader text with its switches.
+struct Variant {
+  const char* vertex;
+  const char* fragment;
+  int kind = 0, shadow = 0;
+  std::string options{};  // switches that are on
+  auto operator<=>(const Variant&) const = default;
 };
-
-MeshBounds bounds_of(const Mesh& mesh) {
-  Vec3 low = Vec3::Constant(1e30), high = Vec3::Constant(-1e30);
-  for (std::size_t i = 0; i + 2 < mesh.positions.size(); i += 3) {
-    const Vec3 p(mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]);
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return {0.5 * (low + high), 0.5 * (high - low)};
-}
-
-/// Mean of each supersample x supersample block.
-void shrink(const std::vector<std::uint8_t>& from, int width, int height, int factor, Image& out) {
-  out.width = width / factor;
-  out.height = height / factor;
-  out.rgba.resize(static_cast<std::size_t>(4 * out.width * out.height));
-  for (int y = 0; y < out.height; ++y)
-    for (int x = 0; x < out.width; ++x)
-      for (int c = 0; c < 4; ++c) {
-        int sum = 0;
-        for (int j = 0; j < factor; ++j)
-          for (int i = 0; i < factor; ++i)
-            sum += from[static_cast<std::size_t>(4 * ((height - 1 - (y * factor + j)) * width + x * factor + i) + c)];
-        out.rgba[static_cast<std::size_t>(4 * (y * out.width + x) + c)] =
-            static_cast<std::uint8_t>((sum + factor * factor / 2) / (factor * factor));
-      }
-}
 
 }  // namespace
 
 struct Renderer::Impl {
-  Impl(int w, int h, Quality quality)
-      : settings(settings_of(quality)),
-        width(w * settings.supersample),
-        height(h * settings.supersample),
-        context(width, height),
-        objects(std::string(shaders::kObjectVertex), std::string(shaders::kCommon) + shaders::kObjectFragment),
-        background(shaders::kBackgroundVertex, std::string(shaders::kCommon) + shaders::kBackgroundFragment),
-        shadow(shaders::kShadowVertex, shaders::kShadowFragment),
-        shadow_map(settings.shadow_size),
-        multisampled(width, height, settings.samples),
-        resolved(width, height, 1) {
-    glGenVertexArrays(1, &empty_array);
+  Impl(int w, int h, Quality q)
+      : width(w),
+        height(h),
+        cost(spend(q)),
+        context(16, 16),
+        targets(w * cost.scale, h * cost.scale, w, h, cost.samples, cost.shadow_map_size) {
+    const std::vector<std::uint8_t> grain = grain_picture();
+    glBindTexture(GL_TEXTURE_2D, *noise);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, kNoiseSize, kNoiseSize, 0, GL_RED, GL_UNSIGNED_BYTE, grain.data());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glBindBuffer(GL_UNIFORM_BUFFER, *block);
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameBlock), nullptr, GL_DYNAMIC_DRAW);
   }
 
-  const VertexBuffer& ellipsoid(const EllipsoidItem& item) {
-    const auto& a = item.shape.semi_axes;
-    const auto key = std::make_tuple(a.x(), a.y(), a.z(), item.shape.exponent);
-    auto at = ellipsoids.find(key);
-    if (at == ellipsoids.end()) {
-      const Tessellation t = tessellate(item.shape, cells_for(item.shape, settings.tolerance));
-      VertexBuffer buffer;
-      buffer.upload(t.positions, t.normals, t.indices);
-      at = ellipsoids.emplace(key, std::move(buffer)).first;
-    }
-    return at->second;
-  }
+  const Program& program(const Variant&);
+  void mark(const char* pass);
+  void bind_inputs(const FrameSetup&);
+  void draw_shadow_map(const std::vector<Piece>&, const FrameSetup&);
+  void draw_occlusion();
+  void fill(const Rectangle&, const Program&);
+  void draw_bare(const FrameSetup&, const Rectangle& hole);
+  void draw_shade(const FrameSetup&, const Rectangle&);
+  void draw_background(const FrameSetup&);
+  void draw_strips(const DrawList&);
+  void draw_piece(const Piece&);
+  void draw_objects(const DrawList&, const std::vector<Piece>&, const Rectangle&);
+  void light_objects(const DrawList&, const Rectangle&, bool depth);
+  void read(Image&);
 
-  struct CachedMesh {
-    std::shared_ptr<const Mesh> keep;  // its address is the key: it must not be reused
-    VertexBuffer buffer;
-    MeshBounds bounds;
-  };
-  const CachedMesh& mesh(const std::shared_ptr<const Mesh>& m) {
-    auto at = meshes.find(m.get());
-    if (at == meshes.end()) {
-      VertexBuffer buffer;
-      buffer.upload(m->positions, m->normals, m->indices);
-      at = meshes.emplace(m.get(), CachedMesh{m, std::move(buffer), bounds_of(*m)}).first;
-    }
-    return at->second;
-  }
-
-  void upload_skins(const DrawList& list) {
-    while (skins.size() < list.skins.size()) skins.emplace_back();
-    for (std::size_t i = 0; i < list.skins.size(); ++i)
-      skins[i].upload(list.skins[i].positions, list.skins[i].normals, list.skins[i].topology->indices);
-  }
-
-  Mat4 fit_shadow(const DrawList& list, const Vec3& sun);
-  void draw_shadow(const DrawList& list, const Matrix4& world_to_shadow);
-  void set_light(const Program&, const DrawList&, const Vec3& sun, const Matrix4& world_to_shadow);
-  void draw_background(const DrawList&, const Vec3& sun, const Matrix4& world_to_shadow);
-  void set_occluders(const DrawList&);
-  void draw_objects(const DrawList&, const Vec3& sun, const Matrix4& world_to_shadow);
-  void set_material(const Material&);
-
-  Settings settings;
   int width, height;
+  Spend cost;
   GlContext context;
-  Program objects, background, shadow;
-  ShadowMap shadow_map;
-  Target multisampled, resolved;
+  Targets targets;
+  GeometryCache geometry;
+  MaterialTable materials;
   gl::OverlayPass overlays;
-  unsigned empty_array = 0;
-  std::map<std::tuple<double, double, double, double>, VertexBuffer> ellipsoids;
-  std::map<const Mesh*, CachedMesh> meshes;
-  std::vector<VertexBuffer> skins;
-  std::vector<std::uint8_t> pixels;
-  std::string timings;
+  Texture noise;
+  Buffer block, scratch;
+  VertexArray nothing, scratch_array;
+  std::map<Variant, std::unique_ptr<Program>> programs;
+  std::optional<FrameBlock> kept, last;               // whose background lies in targets.bare, and whose was drawn last
+  std::vector<std::pair<const char*, double>> spent;  // [ms]
+  std::chrono::steady_clock::time_point since;
 };
 
-Mat4 Renderer::Impl::fit_shadow(const DrawList& list, const Vec3& sun) {
-  Mat4 view = look_at(sun, Vec3::Zero(), std::abs(sun.z()) > 0.95 ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitZ()));
-  // the sun has a direction and no place: a shift along it would push the casters nearest to it out of the map
-  view.topRightCorner<3, 1>().setZero();
-  Vec3 low = Vec3::Constant(1e30), high = Vec3::Constant(-1e30);
-  const Vec3 eye(list.view.eye[0], list.view.eye[1], list.view.eye[2]);
-  auto add = [&](const Matrix4& model, double radius) {
-    const Vec3 p(model[12], model[13], model[14]);
-    if ((p - eye).norm() > 80) return;
-    // the shadow on the ground belongs to the box too
-    const double above = std::max(0.0, p.z() - list.road.height);
-    for (const Vec3& q : {p, Vec3(p - sun * (above / std::max(sun.z(), 0.15)))}) {
-      const Vec3 s = view.topLeftCorner<3, 3>() * q;
-      low = low.cwiseMin(s - Vec3::Constant(radius));
-      high = high.cwiseMax(s + Vec3::Constant(radius));
-    }
-  };
-  for (const EllipsoidItem& e : list.ellipsoids) add(e.model, e.shape.semi_axes.norm());
-  for (const MeshItem& m : list.meshes) {
-    // the mesh's origin need not be its middle
-    const MeshBounds& b = mesh(m.mesh).bounds;
-    add(m.model, b.centre.norm() + b.half.norm());
+const Program& Renderer::Impl::program(const Variant& v) {
+  std::unique_ptr<Program>& p = programs[v];
+  if (!p) {
+    const std::string defines =
+        fmt::format("#define KIND {}\n#define SHADOW {}\n#define SAMPLES {}\n", v.kind, v.shadow, cost.samples);
+    std::string switches;
+    for (const std::string name : {"SHELL", "CASTERS", "NEAR", "DEPTH"})
+      switches += fmt::format("#define {} {}\n", name, v.options.find(name) != std::string::npos ? 1 : 0);
+    switches += fmt::format("#define TERRAIN {}\n", v.kind == kTerrainKind ? 1 : 0);
+    const bool ground = v.fragment == kGroundFragment || v.fragment == kStripFragment || v.kind == kTerrainKind;
+    p = std::make_unique<Program>(defines + switches, std::string(kFrameBlock) + v.vertex,
+                                  std::string(kFrameBlock) + kCommon + (ground ? kGroundPattern : "") + v.fragment);
   }
-  for (const SkinItem& s : list.skins) {
-    Matrix4 at{};
-    for (std::size_t i = 0; i < 3 && i < s.positions.size(); ++i) at[12 + i] = s.positions[i];
-    add(at, 2.2);
-  }
-  if (low.x() > high.x()) low = Vec3::Constant(-1), high = Vec3::Constant(1);
-  Mat4 m = Mat4::Identity();
-  for (int i = 0; i < 3; ++i) {
-    const double half = 0.5 * (high[i] - low[i]) + 0.05, centre = 0.5 * (high[i] + low[i]);
-    const double sign = i == 2 ? -1 : 1;
-    m(i, i) = sign / half;
-    m(i, 3) = -sign * centre / half;
-  }
-  return m * view;
+  p->use();
+  return *p;
 }
 
-void Renderer::Impl::draw_shadow(const DrawList& list, const Matrix4& world_to_shadow) {
-  shadow_map.bind_for_drawing();
-  glClear(GL_DEPTH_BUFFER_BIT);
-  glEnable(GL_DEPTH_TEST);
+void Renderer::Impl::mark(const char* pass) {
+  glFinish();
+  const auto now = std::chrono::steady_clock::now();
+  spent.emplace_back(pass, std::chrono::duration<double, std::milli>(now - since).count());
+  since = now;
+}
+
+void Renderer::Impl::bind_inputs(const FrameSetup& frame) {
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, *block);
+  glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof(FrameBlock), &frame.block);
+  // in the order of kSamplers
+  const GLuint shadow = *targets.shadow_depth;
+  const GLuint textures[] = {
+      *noise, shadow, shadow, shadow, *targets.occlusion_colour, *targets.seen_colour, *targets.seen_depth, materials.texture()};
+  const GLuint samplers[] = {0, *targets.compare, *targets.probe, *targets.plain, 0, 0, 0, 0};
+  static_assert(std::size(textures) == std::size(kSamplers) && std::size(samplers) == std::size(kSamplers));
+  for (GLuint unit = 0; unit < std::size(textures); ++unit) {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, textures[unit]);
+    glBindSampler(unit, samplers[unit]);
+  }
+}
+
+void Renderer::Impl::draw_shadow_map(const std::vector<Piece>& pieces, const FrameSetup& frame) {
+  glBindFramebuffer(GL_FRAMEBUFFER, *targets.shadow);
+  glViewport(0, 0, targets.shadow_map_size, targets.shadow_map_size);
+  glDisable(GL_SCISSOR_TEST);
   glDepthMask(GL_TRUE);
-  shadow.use();
-  shadow.set("world_to_shadow", world_to_shadow);
-  for (const EllipsoidItem& e : list.ellipsoids) {
-    if (e.raster) continue;
-    shadow.set("model", e.model);
-    const VertexBuffer& buffer = ellipsoid(e);
-    buffer.draw(0, buffer.size());
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.5f, 4.0f);
+  const Program& p = program({kDepthVertex, kDepthFragment});
+  for (const Piece& piece : pieces) {
+    if (!piece.casts) continue;
+    p.set("model_to_clip", to_gl(frame.world_to_shadow_clip * from_gl(piece.model)));
+    if (piece.geometry->shell) {
+      glEnable(GL_CULL_FACE);
+      glCullFace(piece.geometry->closed > 0 ? GL_BACK : GL_FRONT);
+    }
+    glBindVertexArray(*piece.geometry->array);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(piece.count), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(piece.first * sizeof(std::uint32_t)));
+    glDisable(GL_CULL_FACE);
   }
-  for (const MeshItem& m : list.meshes) {
-    shadow.set("model", m.model);
-    const VertexBuffer& buffer = mesh(m.mesh).buffer;
-    buffer.draw(0, buffer.size());
-  }
-  shadow.set("model", to_gl(Mat4::Identity()));
-  for (std::size_t i = 0; i < list.skins.size(); ++i) skins[i].draw(0, skins[i].size());
+  glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
-void Renderer::Impl::set_light(const Program& program, const DrawList& list, const Vec3& sun, const Matrix4& world_to_shadow) {
-  program.use();
-  program.set("sun", to_float(sun));
-  program.set("haze", static_cast<float>(list.sky.haze));
-  program.set("eye", list.view.eye);
-  program.set("world_to_shadow", world_to_shadow);
-  program.set("shadow_map", 0);
-  program.set("shadow_texel", 1.0f / static_cast<float>(shadow_map.size()));
-  program.set("shadow_taps", settings.shadow_taps);
-  program.set("shadow_blur", settings.shadow_blur);
-  program.set("ground_height", static_cast<float>(list.road.height));
-  Float3 direction{0, 0, 0};
-  if (list.view.orthographic) {
-    const Matrix4& v = list.view.world_to_eye;
-    direction = {-v[2], -v[6], -v[10]};
-  }
-  program.set("view_direction", direction);
-}
-
-void Renderer::Impl::set_occluders(const DrawList& list) {
-  // the lowest ellipsoids darken the ground beneath them
-  std::vector<std::array<float, 4>> spheres;
-  for (const EllipsoidItem& e : list.ellipsoids) {
-    const double r = std::cbrt(e.shape.semi_axes.prod());
-    if (e.model[14] - list.road.height > 1.2) continue;
-    spheres.push_back({e.model[12], e.model[13], e.model[14], static_cast<float>(r)});
-  }
-  std::stable_sort(spheres.begin(), spheres.end(), [](auto& a, auto& b) { return a[2] < b[2]; });
-  if (spheres.size() > 32) spheres.resize(32);
-  background.set("occluders", static_cast<int>(spheres.size()));
-  if (!spheres.empty()) glUniform4fv(background.location("occluder"), static_cast<int>(spheres.size()), spheres[0].data());
-  int boxes = 0;
-  for (const MeshItem& m : list.meshes) {
-    const MeshBounds& b = mesh(m.mesh).bounds;
-    if (b.half.norm() < 1 || boxes == 4) continue;
-    Mat4 to_box = from_gl(m.model).inverse();
-    to_box.topRightCorner<3, 1>() -= b.centre;
-    const std::string index = "[" + std::to_string(boxes) + "]";
-    background.set(("box_from_world" + index).c_str(), to_gl(to_box));
-    background.set(("box_half" + index).c_str(), to_float(b.half));
-    ++boxes;
-  }
-  background.set("boxes", boxes);
-}
-
-void Renderer::Impl::draw_background(const DrawList& list, const Vec3& sun, const Matrix4& world_to_shadow) {
-  set_light(background, list, sun, world_to_shadow);
-  const Mat4 to_clip = from_gl(list.view.eye_to_clip) * from_gl(list.view.world_to_eye);
-  background.set("clip_to_world", to_gl(to_clip.inverse()));
-  background.set("pixel_size", 2.0f / static_cast<float>(width), 2.0f / static_cast<float>(height));
-  background.set("road", list.road.road ? 1 : 0);
-  background.set("road_width", static_cast<float>(list.road.width));
-  background.set("road_centre", static_cast<float>(list.road.centre_y));
-  background.set("lanes", list.road.lanes);
-  background.set("metre_grid", list.road.metre_grid ? 1 : 0);
-  background.set("zebra", list.road.zebra ? 1 : 0);
-  background.set("zebra_x", static_cast<float>(list.road.zebra_x));
-  set_occluders(list);
+void Renderer::Impl::draw_occlusion() {
+  glBindFramebuffer(GL_FRAMEBUFFER, *targets.occlusion);
+  glViewport(0, 0, kOcclusionSize, kOcclusionSize);
   glDisable(GL_DEPTH_TEST);
-  glDepthMask(GL_FALSE);
-  glBindVertexArray(empty_array);
+  program({kCopyVertex, kOcclusionFragment});
+  glBindVertexArray(*nothing);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::Impl::set_material(const Material& material) {
-  objects.set("kind", static_cast<int>(material.kind));
-  objects.set("colour", Float3{material.colour[0], material.colour[1], material.colour[2]});
-  objects.set("roughness", material.roughness);
-  objects.set("opacity", material.opacity);
+void Renderer::Impl::fill(const Rectangle& r, const Program& p) {
+  if (r.width <= 0 || r.height <= 0) return;
+  p.use();
+  glScissor(r.x, r.y, r.width, r.height);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::Impl::draw_objects(const DrawList& list, const Vec3& sun, const Matrix4& world_to_shadow) {
-  set_light(objects, list, sun, world_to_shadow);
-  objects.set("view", list.view.world_to_eye);
-  objects.set("projection", list.view.eye_to_clip);
-  glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_TRUE);
-  for (const EllipsoidItem& e : list.ellipsoids) {
-    objects.set("model", e.model);
-    objects.set("raster", e.raster ? 1 : 0);
-    objects.set("axes", to_float(e.shape.semi_axes));
-    set_material(e.material);
-    const VertexBuffer& buffer = ellipsoid(e);
-    buffer.draw(0, buffer.size());
+/// Sky and ground without things, but for a hole, into the bound framebuffer.
+void Renderer::Impl::draw_bare(const FrameSetup& frame, const Rectangle& hole) {
+  const int right = hole.x + hole.width, top = hole.y + hole.height, w = targets.width, h = targets.height;
+  const auto rows = [&](int from, int to, const Program& p) {
+    // below, above, left and right of the hole
+    const int low = std::clamp(hole.y, from, to), high = std::clamp(top, from, to);
+    fill({0, from, w, low - from}, p);
+    fill({0, high, w, to - high}, p);
+    fill({0, low, hole.x, high - low}, p);
+    fill({right, low, w - right, high - low}, p);
+  };
+  rows(0, frame.near_to, program({kScreenVertex, kGroundFragment, 0, 0, "NEAR"}));
+  rows(frame.near_to, frame.sky_from, program({kScreenVertex, kGroundFragment}));
+  rows(frame.sky_from, h, program({kScreenVertex, kSkyFragment}));
+}
+
+/// Ground where shadows and occlusion may fall.
+void Renderer::Impl::draw_shade(const FrameSetup& frame, const Rectangle& r) {
+  const auto rows = [&](int from, int to, const Program& p) {
+    const int low = std::max(r.y, from), high = std::min(r.y + r.height, to);
+    fill({r.x, low, r.width, high - low}, p);
+  };
+  rows(0, frame.near_to, program({kScreenVertex, kGroundFragment, 0, cost.shadow_filter, "NEAR CASTERS"}));
+  rows(frame.near_to, frame.sky_from, program({kScreenVertex, kGroundFragment, 0, cost.shadow_filter, "CASTERS"}));
+}
+
+void Renderer::Impl::draw_background(const FrameSetup& frame) {
+  glViewport(0, 0, targets.width, targets.height);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
+  glEnable(GL_SCISSOR_TEST);
+  glBindVertexArray(*nothing);
+  Rectangle shade = frame.shade;
+  shade.height = std::max(0, std::min(shade.height, frame.sky_from - shade.y));
+  // kept from the second equal frame on: a moving camera pays for no copy
+  if (last && same_background(*last, frame.block) && !(kept && same_background(*kept, frame.block))) {
+    glBindFramebuffer(GL_FRAMEBUFFER, *targets.bare);
+    draw_bare(frame, {});
+    kept = frame.block;
   }
-  objects.set("raster", 0);
-  for (const bool glass : {false, true}) {
-    if (glass) {
-      glEnable(GL_BLEND);
-      glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    }
-    for (const MeshItem& m : list.meshes) {
-      objects.set("model", m.model);
-      const VertexBuffer& buffer = mesh(m.mesh).buffer;
-      for (const Mesh::Part& part : m.mesh->parts) {
-        const Material& material = m.materials[static_cast<std::size_t>(part.material)];
-        if ((material.opacity < 1) != glass) continue;
-        set_material(material);
-        buffer.draw(part.first, part.count);
-      }
-    }
-    if (!glass) {
-      objects.set("model", to_gl(Mat4::Identity()));
-      for (std::size_t i = 0; i < list.skins.size(); ++i)
-        for (const Mesh::Part& part : list.skins[i].topology->parts) {
-          set_material(list.skins[i].topology->materials[static_cast<std::size_t>(part.material)]);
-          skins[i].draw(part.first, part.count);
-        }
+  last = frame.block;
+  glBindFramebuffer(GL_FRAMEBUFFER, *targets.picture);
+  if (kept && same_background(*kept, frame.block)) {
+    glDisable(GL_SCISSOR_TEST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, *targets.bare);
+    glBlitFramebuffer(0, 0, targets.width, targets.height, 0, 0, targets.width, targets.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glEnable(GL_SCISSOR_TEST);
+  } else {
+    draw_bare(frame, shade);
+  }
+  draw_shade(frame, shade);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void Renderer::Impl::draw_strips(const DrawList& list) {
+  std::vector<float> data;
+  for (const StripItem& strip : list.strips) {
+    const std::size_t n = std::min(strip.left.size(), strip.right.size());
+    const auto put = [&](std::size_t i, bool left) {
+      const Float3& p = left ? strip.left[i] : strip.right[i];
+      data.insert(data.end(), {p[0], p[1], p[2], left ? -1.0f : 1.0f, i < strip.darkness.size() ? strip.darkness[i] : 0.7f, 0.0f});
+    };
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      put(i, true), put(i, false), put(i + 1, false);
+      put(i, true), put(i + 1, false), put(i + 1, true);
     }
   }
+  if (data.empty()) return;
+  program({kStripVertex, kStripFragment});
+  glBindVertexArray(*scratch_array);
+  glBindBuffer(GL_ARRAY_BUFFER, *scratch);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data.size() * sizeof(float)), data.data(), GL_STREAM_DRAW);
+  for (GLuint i = 0; i < 2; ++i) {
+    glEnableVertexAttribArray(i);
+    glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, 6 * sizeof(float),
+                          reinterpret_cast<const void*>(std::size_t{i} * 3 * sizeof(float)));
+  }
+  glEnable(GL_BLEND);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(data.size() / 6));
   glDisable(GL_BLEND);
 }
 
+void Renderer::Impl::draw_piece(const Piece& piece) {
+  const Geometry& g = *piece.geometry;
+  const Program& p = program({kObjectVertex, kObjectFragment, piece.kind, 0, g.shell && piece.kind != kWireKind ? "SHELL" : ""});
+  p.set("model", piece.model);
+  p.set("material", static_cast<float>(piece.row));
+  p.set("opacity", piece.opacity);
+  p.set("closed", static_cast<float>(g.closed));
+  p.set("axes", piece.axes);
+  if (g.shell) {
+    glEnable(GL_CULL_FACE);
+    glCullFace(g.closed > 0 ? GL_BACK : GL_FRONT);
+  }
+  glBindVertexArray(*g.array);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(piece.count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(piece.first * sizeof(std::uint32_t)));
+  glDisable(GL_CULL_FACE);
+}
+
+/// What each sample in the band r of the picture sees.
+void Renderer::Impl::draw_objects(const DrawList& list, const std::vector<Piece>& pieces, const Rectangle& r) {
+  const int s = targets.samples;
+  glBindFramebuffer(GL_FRAMEBUFFER, *targets.seen);
+  glViewport(-r.x * s, -r.y * s, targets.width * s, targets.height * s);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(0, 0, r.width * s, r.height * s);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  // seen from above, the ground hides what has sunk into it; a terrain does so by its own depth
+  const bool above = list.view.eye[2] > static_cast<float>(list.road.height) && !list.road.terrain;
+  if (above) glEnable(GL_CLIP_DISTANCE0);
+  for (const Piece& piece : pieces) draw_piece(piece);
+  glDisable(GL_CLIP_DISTANCE0);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+/// Their light, onto the picture; with their depth if a line may pass behind them.
+void Renderer::Impl::light_objects(const DrawList& list, const Rectangle& r, bool depth) {
+  glBindFramebuffer(GL_FRAMEBUFFER, *targets.picture);
+  glViewport(0, 0, targets.width, targets.height);
+  glEnable(GL_SCISSOR_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  if (depth) {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    glDepthMask(GL_TRUE);
+  } else {
+    glDisable(GL_DEPTH_TEST);
+  }
+  const Program& p =
+      program({kScreenVertex, kShadeFragment, list.road.terrain ? kTerrainKind : 0, cost.shadow_filter, depth ? "DEPTH" : ""});
+  p.set("origin", static_cast<float>(r.x), static_cast<float>(r.y));
+  glBindVertexArray(*nothing);
+  fill(r, p);
+  glDepthFunc(GL_LEQUAL);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void Renderer::Impl::read(Image& out) {
+  out.width = width;
+  out.height = height;
+  const std::size_t row = 4 * static_cast<std::size_t>(width);
+  out.rgba.resize(row * static_cast<std::size_t>(height));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, *targets.picture);
+  if (cost.scale > 1) {
+    // half the size with linear filter: the mean of two by two
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, *targets.out);
+    glBlitFramebuffer(0, 0, targets.width, targets.height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, *targets.out);
+  }
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, out.rgba.data());
+  for (int y = 0; y < height / 2; ++y) {
+    std::uint8_t* a = out.rgba.data() + row * static_cast<std::size_t>(y);
+    std::swap_ranges(a, a + row, out.rgba.data() + row * static_cast<std::size_t>(height - 1 - y));
+  }
+  for (std::size_t i = 3; i < out.rgba.size(); i += 4) out.rgba[i] = 255;
+}
+
 Renderer::Renderer(int width, int height, Quality quality) : impl_(std::make_unique<Impl>(width, height, quality)) {}
-Renderer::~Renderer() = default;
-std::string Renderer::timings() const {
-  return impl_->timings;
+Renderer::~Renderer() {
+  impl_->context.make_current();
 }
 
 void Renderer::draw(const DrawList& list, Image& out) {
-  using Clock = std::chrono::steady_clock;
   Impl& r = *impl_;
-  const auto start = Clock::now();
-  const Vec3 sun(std::cos(list.sky.sun_elevation) * std::cos(list.sky.sun_azimuth),
-                 std::cos(list.sky.sun_elevation) * std::sin(list.sky.sun_azimuth), std::sin(list.sky.sun_elevation));
-  const Matrix4 world_to_shadow = to_gl(r.fit_shadow(list, sun));
-  r.upload_skins(list);
-  r.draw_shadow(list, world_to_shadow);
-  const auto shadowed = Clock::now();
-  r.multisampled.bind();
-  glClear(GL_DEPTH_BUFFER_BIT);
-  r.shadow_map.bind_texture();
-  r.draw_background(list, sun, world_to_shadow);
-  if (!list.strips.empty()) r.overlays.draw_strips(list, r.width, r.height);
-  r.draw_objects(list, sun, world_to_shadow);
-  r.multisampled.resolve_into(r.resolved);
-  r.resolved.bind();
-  r.overlays.draw(list, r.width, r.height);
-  r.pixels.resize(static_cast<std::size_t>(4 * r.width * r.height));
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, r.width, r.height, GL_RGBA, GL_UNSIGNED_BYTE, r.pixels.data());
-  const auto drawn = Clock::now();
-  shrink(r.pixels, r.width, r.height, r.settings.supersample, out);
-  for (std::size_t i = 3; i < out.rgba.size(); i += 4) out.rgba[i] = 255;
+  r.context.make_current();
+  r.spent.clear();
+  r.since = std::chrono::steady_clock::now();
+  std::vector<CasterBox> boxes;
+  const std::vector<Piece> pieces = collect(list, r.geometry, r.materials, r.cost.pixel_share, r.targets.height, boxes);
+  r.materials.upload();
+  const FrameSetup frame = set_up_frame(list, boxes, r.targets.width, r.targets.height, r.cost.shadow_map_size);
+  r.bind_inputs(frame);
+  r.mark("set-up");
+  r.draw_shadow_map(pieces, frame);
+  if (frame.casts) r.draw_occlusion();
+  r.mark("shadow");
+  r.draw_background(frame);
+  r.draw_strips(list);
+  r.mark("background");
+  const bool depth = std::any_of(list.lines.begin(), list.lines.end(), [](const LineItem& l) { return l.hidden_behind; });
+  if (depth) {
+    glDepthMask(GL_TRUE);
+    glClear(GL_DEPTH_BUFFER_BIT);
+  }
+  const Rectangle whole{0, 0, r.targets.width, r.targets.height};
+  const Rectangle objects = list.road.terrain ? whole : frame.objects;
+  for (int y = objects.y; y < objects.y + objects.height; y += r.targets.band_height) {
+    const Rectangle band{objects.x, y, objects.width, std::min(r.targets.band_height, objects.y + objects.height - y)};
+    r.draw_objects(list, pieces, band);
+    r.mark("objects");
+    r.light_objects(list, band, depth);
+    r.mark("light");
+  }
+  r.overlays.draw(list, r.targets.width, r.targets.height);
+  r.mark("lines");
+  r.read(out);
+  r.mark("read-back");
   draw_labels(list, out);
-  const auto done = Clock::now();
-  auto ms = [](auto from, auto to) { return std::to_string(std::chrono::duration<double, std::milli>(to - from).count()); };
-  r.timings = "shadow " + ms(start, shadowed) + " ms, picture " + ms(shadowed, drawn) + " ms, labels " + ms(drawn, done) + " ms";
+  r.mark("labels");
+}
+
+std::string Renderer::timings() const {
+  std::string out;
+  double sum = 0;
+  for (const auto& [pass, ms] : impl_->spent) {
+    out += fmt::format("{} {:.1f} ms, ", pass, ms);
+    sum += ms;
+  }
+  return out + fmt::format("together {:.1f} ms", sum);
 }
 
 std::string gl_description() {

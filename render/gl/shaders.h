@@ -1,16 +1,25 @@
-// GLSL sources. Plain strings, so that the program needs no files at run time.
+// GLSL text. One file of text a purpose; `kCommon` (frame block, light, sky, shadow, tone curve) stands before each fragment
+// shader.
 #pragma once
 
-namespace render::shaders {
+namespace render::gl {
 
-extern const char* const kCommon;  // light, sky, shadow, tone mapping: prefixed to the two below
+extern const char* const kFrameBlock;
+extern const char* const kCommon;
+extern const char* const kScreenVertex;
+extern const char* const kSkyFragment;
+extern const char* const kOcclusionFragment;
+extern const char* const kGroundFragment;
+extern const char* const kGroundPattern;
 extern const char* const kObjectVertex;
 extern const char* const kObjectFragment;
-extern const char* const kShadowVertex;
-extern const char* const kShadowFragment;
-extern const char* const kBackgroundVertex;
-extern const char* const kBackgroundFragment;
+extern const char* const kShadeFragment;
+extern const char* const kDepthVertex;
+extern const char* const kDepthFragment;
+extern const char* const kStripVertex;
+extern const char* const kStripFragment;
+extern const char* const kCopyVertex;
 extern const char* const kOverlayVertex;
 extern const char* const kOverlayFragment;
 
-}  // namespace render::shaders
+}  // namespace render::gl

@@ -133,5 +133,50 @@ TEST(Frame, DependsOnItsListAlone) {
   EXPECT_FALSE(first.rgba == traced.rgba) << "the line must be seen, else the comparison proves little";
 }
 
+TEST(Frame, OfAStandingCameraDoesNotDependOnTheOnesBefore) {
+  // the background is kept from the second frame on, and what moves is drawn over it
+  DrawList list = plain(look_along_y({0, 0, 2}, 0.4f, kAspect));
+  auto with_ball_at = [&](float x) {
+    DrawList out = list;
+    out.ellipsoids.push_back(ball({x, 6, 0.5f}, 0.5));
+    return out;
+  };
+  Renderer renderer(kWidth, kHeight, Quality::standard);
+  for (const float x : {-1.0f, 0.0f, 1.0f}) {
+    const Image in_a_row = draw_with(renderer, with_ball_at(x));
+    Renderer fresh(kWidth, kHeight, Quality::standard);
+    EXPECT_TRUE(in_a_row.rgba == draw_with(fresh, with_ball_at(x)).rgba) << "ball at " << x;
+  }
+  // and without anything to draw again
+  Renderer fresh(kWidth, kHeight, Quality::standard);
+  EXPECT_TRUE(draw_with(renderer, list).rgba == draw_with(fresh, list).rgba);
+}
+
+TEST(Mesh, OfWhateverWindingIsLitOnTheSideThatIsSeen) {
+  // a plate facing the camera and the sun, wound one way and the other
+  auto plate = [](bool turned) {
+    auto mesh = std::make_shared<Mesh>();
+    mesh->positions = {-1, 5, 1, 1, 5, 1, 1, 5, 3, -1, 5, 3};
+    mesh->indices = turned ? std::vector<std::uint32_t>{0, 2, 1, 0, 3, 2} : std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3};
+    for (int i = 0; i < 4; ++i) mesh->normals.insert(mesh->normals.end(), {0.0f, turned ? 1.0f : -1.0f, 0.0f});
+    mesh->parts = {{0, 6, 0}};
+    mesh->materials = {Material{}};
+    MeshItem item;
+    item.mesh = mesh;
+    item.model = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    item.materials = mesh->materials;
+    return item;
+  };
+  DrawList list = plain(look_along_y({0, 0, 2}, 0.4f, kAspect));
+  list.sky.sun_azimuth = -1.4;
+  Renderer renderer(kWidth, kHeight, Quality::standard);
+  DrawList turned = list;
+  list.meshes.push_back(plate(false));
+  turned.meshes.push_back(plate(true));
+  const Image one = draw_with(renderer, list), other = draw_with(renderer, turned);
+  EXPECT_NEAR(brightness(one, kWidth / 2, kHeight / 2), brightness(other, kWidth / 2, kHeight / 2), 3);
+  EXPECT_GT(brightness(one, kWidth / 2, kHeight / 2), 3 * 120) << "the sun shines on it";
+}
+
 }  // namespace
 }  // namespace render

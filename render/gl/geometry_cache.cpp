@@ -1,0 +1,157 @@
+#include "render/gl/geometry_cache.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <span>
+
+#include "render/surface/tessellate.h"
+
+namespace render::gl {
+namespace {
+
+// position and normal interleaved
+constexpr GLsizei kStride = 6 * sizeof(float);
+
+void fill(Geometry& g, const std::vector<float>& positions, const std::vector<float>& normals,
+          const std::vector<std::uint32_t>& indices) {
+  std::vector<float> data;
+  data.reserve(positions.size() * 2);
+  g.lower = {1e30f, 1e30f, 1e30f};
+  g.upper = {-1e30f, -1e30f, -1e30f};
+  for (std::size_t v = 0; v + 2 < positions.size(); v += 3) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      g.lower[i] = std::min(g.lower[i], positions[v + i]);
+      g.upper[i] = std::max(g.upper[i], positions[v + i]);
+    }
+    for (const auto* part : {&positions, &normals}) data.insert(data.end(), {(*part)[v], (*part)[v + 1], (*part)[v + 2]});
+  }
+  g.index_count = indices.size();
+  glBindVertexArray(*g.array);
+  glBindBuffer(GL_ARRAY_BUFFER, *g.vertices);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data.size() * sizeof(float)), data.data(), GL_STATIC_DRAW);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, *g.indices);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
+               GL_STATIC_DRAW);
+  for (GLuint i = 0; i < 2; ++i) {
+    glEnableVertexAttribArray(i);
+    glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, kStride, reinterpret_cast<const void*>(std::size_t{i} * 3 * sizeof(float)));
+  }
+}
+
+// area-weighted sums of face normals; the shader turns them to the side that is seen
+std::vector<float> face_sums(const std::vector<float>& p, const std::vector<std::uint32_t>& indices) {
+  std::vector<float> n(p.size(), 0.0f);
+  for (std::size_t t = 0; t + 2 < indices.size(); t += 3) {
+    const std::size_t a = 3 * std::size_t{indices[t]}, b = 3 * std::size_t{indices[t + 1]}, c = 3 * std::size_t{indices[t + 2]};
+    const Eigen::Vector3f pa(p[a], p[a + 1], p[a + 2]), pb(p[b], p[b + 1], p[b + 2]), pc(p[c], p[c + 1], p[c + 2]);
+    const Eigen::Vector3f area = (pb - pa).cross(pc - pa);
+    for (const std::size_t v : {a, b, c})
+      for (std::size_t i = 0; i < 3; ++i) n[v + i] += area[static_cast<Eigen::Index>(i)];
+  }
+  for (std::size_t v = 0; v + 2 < n.size(); v += 3) {
+    const float length = std::sqrt(n[v] * n[v] + n[v + 1] * n[v + 1] + n[v + 2] * n[v + 2]);
+    if (length > 0)
+      for (std::size_t i = 0; i < 3; ++i) n[v + i] /= length;
+    else
+      n[v + 2] = 1;
+  }
+  return n;
+}
+
+// A body encloses volume; a sheet or a soup of mixed winding encloses little of its box. A tenth lies well between the two: a car
+// fills half.
+int winding(const Mesh& mesh, const Geometry& g) {
+  double volume = 0;
+  const Eigen::Vector3d middle((g.lower[0] + g.upper[0]) / 2, (g.lower[1] + g.upper[1]) / 2, (g.lower[2] + g.upper[2]) / 2);
+  for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+    std::array<Eigen::Vector3d, 3> c;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t v = 3 * std::size_t{mesh.indices[t + k]};
+      c[k] = Eigen::Vector3d(mesh.positions[v], mesh.positions[v + 1], mesh.positions[v + 2]) - middle;
+    }
+    volume += c[0].dot(c[1].cross(c[2])) / 6;
+  }
+  const double box = static_cast<double>(g.upper[0] - g.lower[0]) * (g.upper[1] - g.lower[1]) * (g.upper[2] - g.lower[2]);
+  if (std::abs(volume) < 0.1 * box) return 0;
+  return volume > 0 ? 1 : -1;
+}
+
+// Corners at the same place are one vertex, whatever their normals.
+std::vector<std::uint32_t> welded(const Mesh& mesh) {
+  const std::size_t n = mesh.positions.size() / 3;
+  std::vector<std::uint32_t> order(n), same(n);
+  std::iota(order.begin(), order.end(), 0u);
+  const auto place = [&](std::uint32_t v) { return std::span(mesh.positions).subspan(3 * std::size_t{v}, 3); };
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return std::ranges::lexicographical_compare(place(a), place(b)); });
+  for (std::size_t i = 0; i < n; ++i)
+    same[order[i]] = i > 0 && std::ranges::equal(place(order[i]), place(order[i - 1])) ? same[order[i - 1]] : order[i];
+  return same;
+}
+
+// Every edge is run along once each way, but for a few borders: what is laid on the body as a sheet, a missing underside.
+bool of_one_winding(const Mesh& mesh) {
+  constexpr double kBorders = 0.05, kWrong = 0.002;  // of the edges
+  const std::vector<std::uint32_t> vertex = welded(mesh);
+  std::vector<std::uint64_t> edges, turned;
+  for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint64_t a = vertex[mesh.indices[t + k]], b = vertex[mesh.indices[t + (k + 1) % 3]];
+      edges.push_back(a << 32 | b);
+      turned.push_back(b << 32 | a);
+    }
+  std::sort(edges.begin(), edges.end());
+  std::sort(turned.begin(), turned.end());
+  std::size_t wrong = 0;
+  for (std::size_t i = 1; i < edges.size(); ++i) wrong += edges[i] == edges[i - 1] ? 1 : 0;
+  std::vector<std::uint64_t> open;
+  std::set_difference(edges.begin(), edges.end(), turned.begin(), turned.end(), std::back_inserter(open));
+  const double all = static_cast<double>(edges.size());
+  return static_cast<double>(open.size()) < kBorders * all && static_cast<double>(wrong) < kWrong * all;
+}
+
+}  // namespace
+
+const Geometry& GeometryCache::ellipsoid(const engine::HyperEllipsoid& e, double tolerance) {
+  constexpr std::array<int, 6> kLevels{4, 8, 12, 18, 28, 44};
+  std::vector<Level>& levels = ellipsoids_[{e.semi_axes[0], e.semi_axes[1], e.semi_axes[2], e.exponent}];
+  for (std::size_t i = 0; i < kLevels.size(); ++i) {
+    if (levels.size() <= i) {
+      const Tessellation t = tessellate(e, kLevels[i]);
+      Level level{kLevels[i], largest_gap(e, t), std::make_unique<Geometry>()};
+      fill(*level.geometry, t.positions, t.normals, t.indices);
+      level.geometry->closed = 1;
+      level.geometry->shell = true;
+      levels.push_back(std::move(level));
+    }
+    if (levels[i].gap <= tolerance) return *levels[i].geometry;
+  }
+  return *levels.back().geometry;
+}
+
+const Geometry& GeometryCache::mesh(const std::shared_ptr<const Mesh>& mesh) {
+  KnownMesh& known = meshes_[mesh.get()];
+  if (!known.geometry) {
+    known.mesh = mesh;
+    known.geometry = std::make_unique<Geometry>();
+    const bool has_normals = mesh->normals.size() == mesh->positions.size();
+    const std::vector<float> normals = has_normals ? mesh->normals : face_sums(mesh->positions, mesh->indices);
+    fill(*known.geometry, mesh->positions, normals, mesh->indices);
+    known.geometry->closed = winding(*mesh, *known.geometry);
+    known.geometry->shell = known.geometry->closed != 0 && of_one_winding(*mesh);
+  }
+  return *known.geometry;
+}
+
+const Geometry& GeometryCache::skin(const SkinItem& item, std::size_t i) {
+  while (skins_.size() <= i) skins_.push_back(std::make_unique<Geometry>());
+  Geometry& g = *skins_[i];
+  const bool has_normals = item.normals.size() == item.positions.size();
+  const std::vector<float> normals = has_normals ? item.normals : face_sums(item.positions, item.topology->indices);
+  fill(g, item.positions, normals, item.topology->indices);
+  return g;
+}
+
+}  // namespace render::gl

@@ -1,0 +1,51 @@
+// Triangles on the GL side: meshes uploaded once, ellipsoids once per shape and level of detail, skins every frame.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "render/draw_list.h"
+#include "render/gl/names.h"
+
+namespace render::gl {
+
+struct Geometry {
+  VertexArray array;
+  Buffer vertices;
+  Buffer indices;
+  std::size_t index_count = 0;
+  std::array<float, 3> lower{};  // box in its own frame [m]
+  std::array<float, 3> upper{};
+  int closed = 0;      // 1 counter-clockwise outside, -1 clockwise, 0 a sheet or a soup
+  bool shell = false;  // nearly watertight and of one winding: back faces need no drawing
+};
+
+class GeometryCache {
+ public:
+  /// Level of detail whose triangles stay within `tolerance` [m]; the choice depends on shape and tolerance alone.
+  const Geometry& ellipsoid(const engine::HyperEllipsoid&, double tolerance);
+  /// Uploaded at first sight and kept while the mesh lives.
+  const Geometry& mesh(const std::shared_ptr<const Mesh>&);
+  /// Uploaded anew at each call; the i-th skin of the frame reuses the i-th buffer.
+  const Geometry& skin(const SkinItem&, std::size_t i);
+
+ private:
+  using Shape = std::array<double, 4>;
+  struct Level {
+    int cells = 0;
+    double gap = 0;
+    std::unique_ptr<Geometry> geometry;
+  };
+  struct KnownMesh {
+    std::shared_ptr<const Mesh> mesh;  // held, so that its address is never another mesh's
+    std::unique_ptr<Geometry> geometry;
+  };
+  std::map<Shape, std::vector<Level>> ellipsoids_;
+  std::map<const Mesh*, KnownMesh> meshes_;
+  std::vector<std::unique_ptr<Geometry>> skins_;
+};
+
+}  // namespace render::gl

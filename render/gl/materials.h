@@ -1,0 +1,32 @@
+// What a material is to the light: a row of numbers, so that one shader without branches lights them all.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "render/draw_list.h"
+#include "render/gl/names.h"
+
+namespace render::gl {
+
+/// Base colour and diffuse share; reflection straight on, at grazing, tinted mirror, glow; strength and exponent of a broad tinted
+/// and a sharp white highlight; wrap, sheen, grain, terrain.
+using MaterialRow = std::array<Float4, 4>;
+
+MaterialRow row_of(const Material&, bool terrain);
+
+/// The rows of one frame, as a texture.
+class MaterialTable {
+ public:
+  void clear() { rows_.clear(); }
+  /// Number of the row, the same for equal rows.
+  int add(const Material&, bool terrain);
+  void upload();
+  GLuint texture() const { return *texture_; }
+
+ private:
+  std::vector<MaterialRow> rows_;
+  Texture texture_;
+};
+
+}  // namespace render::gl

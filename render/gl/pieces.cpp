@@ -1,0 +1,115 @@
+#include "render/gl/pieces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/matrix.h"
+
+namespace render::gl {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kSmallMesh = 1.5;  // [m] across: a wheel, a crate; occludes as something round
+constexpr Matrix4 kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+CasterBox box_of(const Geometry& g, const Matrix4& model) {
+  const Eigen::Matrix4d X = from_gl(model);
+  const Vector3d lower(g.lower[0], g.lower[1], g.lower[2]), upper(g.upper[0], g.upper[1], g.upper[2]);
+  CasterBox b;
+  b.centre = (X * ((lower + upper) / 2).homogeneous()).head<3>();
+  const Vector3d half = ((upper - lower) / 2).cwiseMax(1e-3);
+  b.half_edges = X.topLeftCorner<3, 3>() * half.asDiagonal();
+  b.round = 2 * half.norm() < kSmallMesh;
+  return b;
+}
+
+// what stands on the ground of a moving surface: its lowest part, in two halves (two feet)
+void add_feet(const SkinItem& skin, double ground, std::vector<CasterBox>& boxes) {
+  constexpr double kFoot = 0.25;  // [m]
+  std::vector<Vector3d> low;
+  Vector3d lower = Vector3d::Constant(1e9), upper = Vector3d::Constant(-1e9);
+  for (std::size_t v = 0; v + 2 < skin.positions.size(); v += 3) {
+    const Vector3d p(skin.positions[v], skin.positions[v + 1], skin.positions[v + 2]);
+    if (p.z() > ground + kFoot) continue;
+    low.push_back(p);
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
+  }
+  if (low.empty()) return;
+  const int axis = upper.x() - lower.x() > upper.y() - lower.y() ? 0 : 1;
+  const double middle = (upper[axis] + lower[axis]) / 2;
+  for (const int side : {-1, 1}) {
+    Vector3d a = Vector3d::Constant(1e9), b = Vector3d::Constant(-1e9);
+    for (const Vector3d& p : low) {
+      if (side * (p[axis] - middle) < 0) continue;
+      a = a.cwiseMin(p);
+      b = b.cwiseMax(p);
+    }
+    if (a.x() > b.x()) continue;
+    CasterBox box;
+    box.centre = (a + b) / 2;
+    box.half_edges = ((b - a) / 2).cwiseMax(0.02).asDiagonal();
+    box.round = true;
+    boxes.push_back(box);
+  }
+}
+
+}  // namespace
+
+std::vector<Piece> collect(const DrawList& list, GeometryCache& geometry, MaterialTable& table, double pixel_share, int height,
+                           std::vector<CasterBox>& boxes) {
+  std::vector<Piece> out;
+  table.clear();
+  const Vector3d eye(list.view.eye[0], list.view.eye[1], list.view.eye[2]);
+  const double focal = std::abs(static_cast<double>(list.view.eye_to_clip[5]));
+  for (const EllipsoidItem& e : list.ellipsoids) {
+    const Vector3d centre(e.model[12], e.model[13], e.model[14]);
+    const double away = std::max((centre - eye).norm() - e.shape.semi_axes.maxCoeff(), 0.1);
+    const double pixel = 2 / (focal * height) * (list.view.orthographic ? 1.0 : away);
+    const Geometry& g = geometry.ellipsoid(e.shape, pixel_share * pixel);
+    const int kind = e.raster ? kWireKind : static_cast<int>(e.material.kind);
+    out.push_back({&g, 0, g.index_count, table.add(e.material, false), e.material.opacity, kind, e.model,
+                   to_float(e.shape.semi_axes), !e.raster});
+    boxes.push_back(box_of(g, e.model));
+    boxes.back().round = true;
+    boxes.back().casts = !e.raster;
+  }
+  const auto add = [&](const Geometry& g, std::size_t first, std::size_t count, const Material& m, const Matrix4& model,
+                       bool terrain) {
+    const int kind = terrain ? kTerrainKind : static_cast<int>(m.kind);
+    out.push_back({&g, first, count, table.add(m, terrain), m.opacity, kind, model, {}, !terrain});
+  };
+  const auto add_parts = [&](const Mesh& mesh, const Geometry& g, const Matrix4& model, const std::vector<Material>& paint,
+                             bool terrain) {
+    for (const Mesh::Part& part : mesh.parts) {
+      const std::size_t m = static_cast<std::size_t>(std::max(part.material, 0));
+      add(g, part.first, part.count,
+          m < paint.size()            ? paint[m]
+          : m < mesh.materials.size() ? mesh.materials[m]
+                                      : Material{},
+          model, terrain);
+    }
+    if (mesh.parts.empty()) add(g, 0, g.index_count, paint.empty() ? Material{} : paint[0], model, terrain);
+  };
+  for (const MeshItem& item : list.meshes) {
+    const Geometry& g = geometry.mesh(item.mesh);
+    if (g.index_count == 0) continue;
+    const bool terrain = item.mesh == list.road.terrain;
+    add_parts(*item.mesh, g, item.model, item.materials, terrain && list.road.road);
+    if (!terrain) boxes.push_back(box_of(g, item.model));
+  }
+  for (std::size_t i = 0; i < list.skins.size(); ++i) {
+    const Geometry& g = geometry.skin(list.skins[i], i);
+    if (g.index_count == 0) continue;
+    add_parts(*list.skins[i].topology, g, kIdentity, {}, false);
+    CasterBox box = box_of(g, kIdentity);
+    box.round = true;
+    box.occludes = false;  // its feet do
+    boxes.push_back(box);
+    add_feet(list.skins[i], list.road.height, boxes);
+  }
+  return out;
+}
+
+}  // namespace render::gl

@@ -1,0 +1,30 @@
+// A DrawList as runs of triangles with one material each, and the boxes of what throws shadows.
+#pragma once
+
+#include <vector>
+
+#include "render/gl/frame_block.h"
+#include "render/gl/geometry_cache.h"
+#include "render/gl/materials.h"
+
+namespace render::gl {
+
+// KIND of the object shader: enum MaterialKind, then these
+constexpr int kTerrainKind = 8, kWireKind = 9;
+
+struct Piece {
+  const Geometry* geometry;
+  std::size_t first, count;
+  int row;  // of the material table
+  float opacity;
+  int kind;
+  Matrix4 model;
+  Float3 axes;  // [m] of an ellipsoid
+  bool casts;
+};
+
+/// What the frame shows. `pixel_share`: tessellations stay within this part of a pixel at their distance, `height` pixels high.
+std::vector<Piece> collect(const DrawList&, GeometryCache&, MaterialTable&, double pixel_share, int height,
+                           std::vector<CasterBox>& boxes);
+
+}  // namespace render::gl

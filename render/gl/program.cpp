@@ -1,0 +1,75 @@
+#include "render/gl/program.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "render/error.h"
+
+namespace render::gl {
+namespace {
+
+GLuint compile(GLenum kind, const std::string& source) {
+  const GLuint id = glCreateShader(kind);
+  const char* text = source.c_str();
+  glShaderSource(id, 1, &text, nullptr);
+  glCompileShader(id);
+  GLint good = 0;
+  glGetShaderiv(id, GL_COMPILE_STATUS, &good);
+  if (!good) {
+    std::array<char, 2000> log{};
+    glGetShaderInfoLog(id, static_cast<GLsizei>(log.size()), nullptr, log.data());
+    throw RenderError(fmt::format("compiling a {} shader: {}", kind == GL_VERTEX_SHADER ? "vertex" : "fragment", log.data()));
+  }
+  return id;
+}
+
+}  // namespace
+
+Program::Program(const std::string& defines, const std::string& vertex, const std::string& fragment) {
+  const std::string head = "#version 330 core\n" + defines;
+  const GLuint v = compile(GL_VERTEX_SHADER, head + vertex);
+  const GLuint f = compile(GL_FRAGMENT_SHADER, head + fragment);
+  id_ = glCreateProgram();
+  glAttachShader(id_, v);
+  glAttachShader(id_, f);
+  glLinkProgram(id_);
+  glDeleteShader(v);
+  glDeleteShader(f);
+  GLint good = 0;
+  glGetProgramiv(id_, GL_LINK_STATUS, &good);
+  if (!good) {
+    std::array<char, 2000> log{};
+    glGetProgramInfoLog(id_, static_cast<GLsizei>(log.size()), nullptr, log.data());
+    throw RenderError(fmt::format("linking shaders: {}", log.data()));
+  }
+  const GLuint block = glGetUniformBlockIndex(id_, "Frame");
+  if (block != GL_INVALID_INDEX) glUniformBlockBinding(id_, block, 0);
+  glUseProgram(id_);
+  int unit = 0;
+  for (const char* sampler : kSamplers) glUniform1i(at(sampler), unit++);
+}
+
+GLint Program::at(const char* uniform) const {
+  const auto known = places_.find(uniform);
+  if (known != places_.end()) return known->second;
+  return places_.emplace(uniform, glGetUniformLocation(id_, uniform)).first->second;
+}
+
+void Program::set(const char* uniform, float value) const {
+  glUniform1f(at(uniform), value);
+}
+void Program::set(const char* uniform, float x, float y) const {
+  glUniform2f(at(uniform), x, y);
+}
+void Program::set(const char* uniform, const Float3& v) const {
+  glUniform3f(at(uniform), v[0], v[1], v[2]);
+}
+void Program::set(const char* uniform, const Float4& v) const {
+  glUniform4f(at(uniform), v[0], v[1], v[2], v[3]);
+}
+void Program::set(const char* uniform, const Matrix4& m) const {
+  glUniformMatrix4fv(at(uniform), 1, GL_FALSE, m.data());
+}
+
+}  // namespace render::gl
