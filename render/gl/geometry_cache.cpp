@@ -74,7 +74,7 @@ int winding(const Mesh& mesh, const Geometry& g) {
     volume += c[0].dot(c[1].cross(c[2])) / 6;
   }
   const double box = static_cast<double>(g.upper[0] - g.lower[0]) * (g.upper[1] - g.lower[1]) * (g.upper[2] - g.lower[2]);
-  if (std::abs(volume) < 0.1 * box) return 0;
+  if (std::abs(volume) <= 0.1 * box) return 0;
   return volume > 0 ? 1 : -1;
 }
 

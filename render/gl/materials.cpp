@@ -40,7 +40,7 @@ MaterialRow row_of(const Material& m, bool terrain) {
       break;
     case MaterialKind::cloth:
       lobes = {0, 1, 0, 1};
-      soft = {0, 0.25f, 0.35f, 0};
+      soft = {0, 0.25f, 0.12f, 0};
       break;
     default:
       coat = {0.005f * smooth, 0.035f * smooth, 0, 0};
