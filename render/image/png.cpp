@@ -30,9 +30,15 @@ using FilePtr = std::unique_ptr<std::FILE, FileCloser>;
 }
 void ignore(png_structp, png_const_charp) {}
 
+bool is_opaque(const Image& image) {
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+    if (image.rgba[i] != 255) return false;
+  return true;
+}
+
 }  // namespace
 
-void write_png(const std::filesystem::path& path, const Image& image, const TextChunks& text) {
+void write_png(const std::filesystem::path& path, const Image& image, const TextChunks& text, PngEffort effort) {
   const std::string part = path.string() + ".part";
   const std::string what = "cannot write " + path.string();
   FilePtr file(std::fopen(part.c_str(), "wb"));
@@ -41,11 +47,14 @@ void write_png(const std::filesystem::path& path, const Image& image, const Text
   png_infop info = png_create_info_struct(png);
   try {
     png_init_io(png, file.get());
-    png_set_compression_level(png, 1);
-    png_set_compression_strategy(png, Z_RLE);
-    png_set_filter(png, 0, PNG_FILTER_SUB);
+    const bool small = effort == PngEffort::small;
+    const bool drop_alpha = small && is_opaque(image);
+    png_set_compression_level(png, small ? 9 : 1);
+    png_set_compression_strategy(png, small ? Z_DEFAULT_STRATEGY : Z_RLE);
+    png_set_filter(png, 0, small ? PNG_ALL_FILTERS : PNG_FILTER_SUB);
     png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
-                 PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+                 drop_alpha ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     std::vector<png_text> chunks;
     for (const auto& [key, value] : text) {
@@ -58,6 +67,7 @@ void write_png(const std::filesystem::path& path, const Image& image, const Text
     }
     if (!chunks.empty()) png_set_text(png, info, chunks.data(), static_cast<int>(chunks.size()));
     png_write_info(png, info);
+    if (drop_alpha) png_set_filler(png, 0, PNG_FILLER_AFTER);
     for (int y = 0; y < image.height; ++y)
       png_write_row(
           png, const_cast<png_bytep>(image.rgba.data() + static_cast<std::size_t>(4 * image.width) * static_cast<std::size_t>(y)));
@@ -113,6 +123,31 @@ Image read_png(const std::filesystem::path& path, TextChunks* text) {
   }
   png_destroy_read_struct(&png, &info, nullptr);
   return image;
+}
+
+PngFormat png_format(const std::filesystem::path& path) {
+  const std::string what = "cannot read " + path.string();
+  FilePtr file(std::fopen(path.c_str(), "rb"));
+  if (!file) throw RenderError(what + ": " + std::strerror(errno));
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, const_cast<char*>(what.c_str()), fail, ignore);
+  png_infop info = png_create_info_struct(png);
+  PngFormat format;
+  try {
+    png_init_io(png, file.get());
+    png_set_user_limits(png, kLargest, kLargest);
+    png_set_chunk_malloc_max(png, 8u << 20);
+    png_read_info(png, info);
+    const int colours = png_get_color_type(png, info);
+    format.bit_depth = png_get_bit_depth(png, info);
+    format.palette = colours == PNG_COLOR_TYPE_PALETTE;
+    format.grey = (colours & PNG_COLOR_MASK_COLOR) == 0;
+    format.alpha = (colours & PNG_COLOR_MASK_ALPHA) != 0 || png_get_valid(png, info, PNG_INFO_tRNS) != 0;
+  } catch (...) {
+    png_destroy_read_struct(&png, &info, nullptr);
+    throw;
+  }
+  png_destroy_read_struct(&png, &info, nullptr);
+  return format;
 }
 
 }  // namespace render

@@ -11,10 +11,24 @@ namespace render {
 
 using TextChunks = std::map<std::string, std::string>;
 
-/// Writes PATH.part and renames it when whole. Throws RenderError with the path and the reason.
-void write_png(const std::filesystem::path&, const Image&, const TextChunks& = {});
+/// Frames are written fast; pictures that are kept in a repository, small (the same pixels, a few times the effort; without alpha
+/// where all is opaque).
+enum class PngEffort { fast, small };
 
-/// Any PNG as RGBA, 8 bits (16 bits are rounded, palettes expanded). Refuses more than 16384 pixels a side. Throws RenderError.
+/// Writes PATH.part and renames it when whole. Throws RenderError with the path and the reason.
+void write_png(const std::filesystem::path&, const Image&, const TextChunks& = {}, PngEffort = PngEffort::fast);
+
+/// Any PNG as RGBA, 8 bits (16 bits are rounded, palettes and greys expanded, missing alpha is opaque). Refuses more than 16384
+/// pixels a side. Throws RenderError.
 Image read_png(const std::filesystem::path&, TextChunks* text = nullptr);
+
+/// How a file keeps its pixels.
+struct PngFormat {
+  int bit_depth = 8;  // of a channel, or of a palette's index
+  bool palette = false;
+  bool grey = false;
+  bool alpha = false;  // as a channel or as transparent colours
+};
+PngFormat png_format(const std::filesystem::path&);
 
 }  // namespace render

@@ -6,6 +6,7 @@
 
 #include "render/image/png.h"
 #include "tests/cli/program.h"
+#include "tests/render/odd_png.h"
 
 using namespace cli_tests;
 using testing::HasSubstr;
@@ -27,7 +28,7 @@ TEST(Compare, APictureIsTheSameAsItself) {
   render::write_png((folder / "a.png").string(), grey(100, 100, 80));
   const Result result = run(folder, {"compare", "a.png", "a.png"});
   EXPECT_EQ(result.code, 0);
-  EXPECT_THAT(result.out, StartsWith("same: 0.0000 % of pixels"));
+  EXPECT_THAT(result.out, StartsWith("same: 0 pixels differ, 0.0000 % by more than 2"));
 }
 
 TEST(Compare, ManyPixelsOffByALittleAreDifferent) {
@@ -70,4 +71,32 @@ TEST(Compare, DifferentSizesAreDifferentAndAMissingFileIsTheMachine) {
   const Result missing = run(folder, {"compare", "a.png", "none.png"});
   EXPECT_EQ(missing.code, 3);
   EXPECT_THAT(missing.err, HasSubstr("none.png"));
+}
+
+TEST(Compare, LimitsAndMasksAreSetByName) {
+  const Folder folder;
+  render::Image b = grey(100, 100, 80);
+  for (std::size_t i = 0; i < 60; ++i) b.rgba[4 * i] = 83;
+  render::write_png((folder / "a.png").string(), grey(100, 100, 80));
+  render::write_png((folder / "b.png").string(), b);
+  EXPECT_EQ(run(folder, {"compare", "a.png", "b.png", "--mask", "60x1+0+0"}).code, 0);
+  EXPECT_EQ(run(folder, {"compare", "a.png", "b.png", "--mask", "59x1+0+0", "--limit", "share_above_2=0"}).code, 1);
+  EXPECT_EQ(run(folder, {"compare", "a.png", "b.png", "--limit", "share_above_2=0.006", "--limit", "perceptual_worst=1"}).code, 0);
+  const Result unknown = run(folder, {"compare", "a.png", "b.png", "--limit", "perceptual_wurst=1"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean perceptual_worst?"));
+  EXPECT_EQ(run(folder, {"compare", "a.png", "b.png", "--mask", "60x1"}).code, 2);
+}
+
+TEST(Compare, SaysWhatItCannotSee) {
+  const Folder folder;
+  // two pictures that differ in the lower eight bits only, one of them with alpha
+  render::test::write_odd_png(folder / "a.png", 1, PNG_COLOR_TYPE_GRAY, 16, {{0x80, 0x10}});
+  render::test::write_odd_png(folder / "b.png", 1, PNG_COLOR_TYPE_GRAY_ALPHA, 16, {{0x80, 0x11, 0xff, 0xff}});
+  const Result result = run(folder, {"compare", "a.png", "b.png"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.err,
+            "crashreel: a.png has 16 bits a channel; compared rounded to 8\n"
+            "crashreel: b.png has 16 bits a channel; compared rounded to 8\n"
+            "crashreel: a.png has no alpha; taken as opaque\n");
 }

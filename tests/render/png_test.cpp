@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "odd_png.h"
 #include "render/error.h"
 #include "render/image/png.h"
 
@@ -59,6 +60,43 @@ TEST(Png, OfAbsurdSizeIsRefused) {
 
 TEST(Png, ThatIsNotThereIsAnError) {
   EXPECT_THROW(read_png(scratch("none.png")), RenderError);
+}
+
+TEST(Png, Of16BitsIsRoundedAndSaysSo) {
+  const fs::path path = scratch("deep.png");
+  // 0x80ff is 33023 of 65535: 128.5 of 255, and 0x0100 is 0.996
+  test::write_odd_png(path, 2, PNG_COLOR_TYPE_RGB, 16, {{0x80, 0xff, 0, 0, 0xff, 0xff, 0x01, 0x00, 0x80, 0x00, 0x7f, 0x00}});
+  const Image image = read_png(path);
+  EXPECT_THAT(image.rgba, testing::ElementsAre(128, 0, 255, 255, 1, 128, 127, 255));
+  EXPECT_EQ(png_format(path).bit_depth, 16);
+  EXPECT_FALSE(png_format(path).alpha);
+}
+
+TEST(Png, OfAPaletteShowsItsColours) {
+  const fs::path path = scratch("palette.png");
+  test::write_odd_png(path, 3, PNG_COLOR_TYPE_PALETTE, 2, {{0b00011000}}, {{10, 20, 30}, {40, 50, 60}, {70, 80, 90}}, {255, 128});
+  const Image image = read_png(path);
+  EXPECT_THAT(image.rgba, testing::ElementsAre(10, 20, 30, 255, 40, 50, 60, 128, 70, 80, 90, 255));
+  EXPECT_TRUE(png_format(path).palette);
+  EXPECT_TRUE(png_format(path).alpha);
+}
+
+TEST(Png, OfGreysWithFewBitsBecomesColours) {
+  const fs::path path = scratch("grey.png");
+  test::write_odd_png(path, 4, PNG_COLOR_TYPE_GRAY, 1, {{0b01100000}});
+  EXPECT_THAT(read_png(path).rgba, testing::ElementsAre(0, 0, 0, 255, 255, 255, 255, 255, 255, 255, 255, 255, 0, 0, 0, 255));
+  EXPECT_TRUE(png_format(path).grey);
+}
+
+TEST(Png, KeptSmallIsTheSamePicture) {
+  Image opaque = pattern();
+  for (std::size_t i = 3; i < opaque.rgba.size(); i += 4) opaque.rgba[i] = 255;
+  for (const Image& image : {pattern(), opaque}) {
+    const fs::path path = scratch("small.png");
+    write_png(path, image, {}, PngEffort::small);
+    EXPECT_EQ(read_png(path).rgba, image.rgba);
+  }
+  EXPECT_FALSE(png_format(scratch("small.png")).alpha) << "alpha that is opaque everywhere is left out";
 }
 
 }  // namespace
