@@ -4,6 +4,7 @@
 #include <string>
 
 #include "assets/generate/car.h"
+#include "assets/generate/trailers.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) {
@@ -16,6 +17,9 @@ int main(int argc, char** argv) {
     assets::write_obj(assets::shell(), {}, folder + "/sedan_collision");
     assets::write_obj(assets::wheel(), assets::wheel_paints(), folder + "/wheel");
     assets::write_obj(assets::trip_curb(), {{"concrete", {0.42, 0.41, 0.39}}}, folder + "/trip_curb");
+    assets::write_obj(assets::car_trailer(), assets::trailer_paints(), folder + "/car_trailer");
+    assets::write_obj(assets::dolly(), assets::trailer_paints(), folder + "/dolly");
+    assets::write_obj(assets::drawbar_trailer(), assets::trailer_paints(), folder + "/drawbar_trailer");
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());
     return 3;

@@ -1,11 +1,11 @@
 // Wheels: a suspension spring and damper under each hub, and a tyre that holds what the friction circle allows. Both are rows of
 // the one impulse solve, the spring soft (implicit), so a braked car stands on a slope without creeping.
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "engine/effects/driver.h"
 #include "engine/effects/effects.h"
+#include "engine/effects/static_loads.h"
 #include "engine/laws/tyre.h"
 
 namespace engine {
@@ -20,31 +20,17 @@ std::optional<std::string> called_for(const Model& model) {
   return std::to_string(count) + " wheels stand on the ground";
 }
 
-/// Loads that carry the weight about the centre of mass with the least sum of squares.
-Eigen::VectorXd static_loads(const Model& model, const Vehicle& vehicle) {
-  const auto n = static_cast<Eigen::Index>(vehicle.wheels.size());
-  Eigen::MatrixXd A(3, n);
-  for (Eigen::Index i = 0; i < n; ++i) A.col(i) << 1, vehicle.wheels[i].hub_B.x(), vehicle.wheels[i].hub_B.y();
-  const double weight = model.bodies[vehicle.body].mass * model.settings.gravity.norm();
-  const Mat3 AA = A * A.transpose() + 1e-9 * Mat3::Identity();  // a two-wheeler has no track: keep it solvable
-  const Vec3 multipliers = AA.ldlt().solve(Vec3(weight, 0, 0));
-  return A.transpose() * multipliers;
-}
-
 void begin(World& world, const State&, int) {
   world.path_steer.assign(world.model.vehicles.size(), 0);
-  for (int v = 0; v < static_cast<int>(world.model.vehicles.size()); ++v) {
-    const Vehicle& vehicle = world.model.vehicles[v];
-    if (vehicle.wheels.empty()) continue;
-    const Eigen::VectorXd loads = static_loads(world.model, vehicle);
-    for (int w = 0; w < static_cast<int>(vehicle.wheels.size()); ++w) {
+  const std::vector<double> loads = static_wheel_loads(world.model, world.topology);
+  for (int v = 0; v < static_cast<int>(world.model.vehicles.size()); ++v)
+    for (int w = 0; w < static_cast<int>(world.model.vehicles[v].wheels.size()); ++w) {
       WheelState wheel;
       wheel.vehicle = v;
       wheel.wheel = w;
-      wheel.static_load = loads[w];
+      wheel.static_load = loads[world.wheels.size()];
       world.wheels.push_back(wheel);
     }
-  }
 }
 
 struct Footing {

@@ -87,6 +87,13 @@ const Key kKeys[] = {
     {"lift", Type::number, Dimension::length, "'0 m'", "Height above its place on the wheels, for a vehicle in the air."},
     {"attitude", Type::vector3, Dimension::angle, "'0 0 0 deg'", "Roll, pitch, yaw on top of the heading."},
     {"quaternion", Type::numbers, Dimension::none, "", "The same as [w, x, y, z]."},
+    {"hitch", Type::vector3, Dimension::length, "", "Where it tows a trailer, in the mesh frame."},
+    {"coupling", Type::vector3, Dimension::length, "", "Where it is towed, in the mesh frame."},
+    {"coupling_kind", Type::choice, Dimension::none, "'ball'",
+     "A ball leaves all turns, a turntable only the turn about the vertical (the trailer on its steered front axle).", kAny,
+     "ball|turntable"},
+    {"towed_by", Type::text, Dimension::none, "''",
+     "A vehicle above in the file: coupling is put on its hitch; place and speed are left out, heading is its own unless given."},
     {"brake", Type::table, Dimension::none, "", "Braking.", kAny, {}, &kBrakeSection},
     {"driver", Type::tables, Dimension::none, "", "What the driver does, act by act.", kAny, {}, &kDriverSection},
     {"path", Type::table, Dimension::none, "", "A line to steer along.", kAny, {}, &kPathSection},
@@ -215,7 +222,6 @@ Meshes read_meshes(Builder& builder, Reader& r) {
   out.bodywork = import_mesh(builder, r, "mesh");
   out.collision = r.has("collision_mesh") ? import_mesh(builder, r, "collision_mesh") : out.bodywork;
   if (r.has("wheel_mesh")) out.wheel = import_mesh(builder, r, "wheel_mesh");
-  if (out.bodywork) check_scale(r, out.bodywork->solid->bounds());
   return out;
 }
 
@@ -248,6 +254,48 @@ engine::Pose mesh_pose(Builder& builder, Reader& r, const Meshes& meshes, double
   return {at, engine::Quat(Eigen::AngleAxisd(heading, engine::Vec3::UnitZ())) * read_attitude(r)};
 }
 
+/// The vehicle that tows this one, -1: none; all that is wrong with it is told.
+int find_tower(Builder& builder, Reader& r) {
+  const std::string name = r.text("towed_by");
+  if (name.empty()) return -1;
+  const int tower = builder.body_index(name);
+  if (tower < 0 || !builder.hitches.contains(name)) {
+    r.fail("towed_by", tower < 0 ? "is no vehicle above in the file" : "is no vehicle with a hitch");
+    return -1;
+  }
+  if (!r.has("coupling")) r.fail("towed_by", "needs a coupling, the place where this vehicle is towed");
+  for (const char* key : {"position", "front", "speed", "velocity"})
+    if (r.has(key)) r.fail(key, "must not be given for a towed vehicle; it goes with the vehicle that tows it");
+  return tower;
+}
+
+/// Puts a towed vehicle on its hitch and joins the two.
+void couple(Builder& builder, Reader& r, int tower, const engine::Vec3& coupling_B, engine::Body& body) {
+  engine::Model& model = builder.scene.model;
+  const engine::Body& front = model.bodies[static_cast<std::size_t>(tower)];
+  const engine::Vec3 hitch_B = builder.hitches.at(front.name);
+  const engine::Vec3 at = front.X_WB * hitch_B;
+  if (!r.has("heading")) body.X_WB.q = front.X_WB.q;
+  const double height = (body.X_WB * coupling_B).z();
+  body.X_WB.p += at - body.X_WB * coupling_B;
+  if (std::abs(height - at.z()) > 0.02)
+    r.warn("coupling",
+           fmt::format("is {:.3g} m above the ground and the hitch {:.3g} m; the trailer is lifted to it", height, at.z()));
+  body.V_WB.w = front.V_WB.w;
+  body.V_WB.v = front.V_WB.v + front.V_WB.w.cross(body.X_WB.p - front.X_WB.p);
+  engine::Joint joint;
+  joint.name = front.name + "-" + body.name;
+  joint.parent = tower;
+  joint.child = static_cast<int>(model.bodies.size());
+  // a turntable turns about the joint frame's y, which is put upright
+  const bool turntable = r.choice("coupling_kind") == 1;
+  joint.kind = turntable ? engine::JointKind::revolute : engine::JointKind::spherical;
+  const engine::Quat upright(Eigen::AngleAxisd(0.5 * 3.14159265358979323846, engine::Vec3::UnitX()));
+  joint.X_PF = {hitch_B, upright};
+  joint.X_CF = {coupling_B, (body.X_WB.q.conjugate() * front.X_WB.q * upright).normalized()};
+  model.joints.push_back(joint);
+}
+
 }  // namespace
 
 const Section kVehicleSection{"vehicle", "[[vehicle]]", "A vehicle: a rigid body on wheels.", kKeys};
@@ -268,6 +316,8 @@ void read_vehicle(Builder& builder, Reader scene) {
   need(r, "inertia", "\"550 2500 2700 kg m^2\"");
   if (builder.errors.count() != errors_before) return;
   const Meshes meshes = read_meshes(builder, r);
+  // the library has its trailers, buses and bicycles; a mesh of the user's is most likely a car
+  if (meshes.bodywork && (scene.has("mesh") || !scene.has("model"))) check_scale(r, meshes.bodywork->solid->bounds());
 
   engine::Body body;
   body.name = vehicle.name;
@@ -293,6 +343,9 @@ void read_vehicle(Builder& builder, Reader scene) {
   if (r.has("velocity") && r.has("speed")) r.fail("velocity", "must not be given together with speed");
   body.V_WB.v = r.vector_if("velocity").value_or(r.number("speed") * engine::Vec3(std::cos(heading), std::sin(heading), 0));
   body.V_WB.w = r.vector("angular_velocity");
+  if (const int tower = find_tower(builder, r); tower >= 0 && r.has("coupling"))
+    couple(builder, r, tower, r.vector("coupling") - cg, body);
+  if (r.has("hitch")) builder.hitches[vehicle.name] = r.vector("hitch") - cg;
   vehicle.body = static_cast<int>(model.bodies.size());
   add_actors(builder, r, vehicle, meshes, X_BM);
   model.bodies.push_back(std::move(body));

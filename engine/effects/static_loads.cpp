@@ -1,0 +1,74 @@
+#include "engine/effects/static_loads.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <map>
+
+namespace engine {
+namespace {
+
+constexpr double kFree = 1e3;  // [-] weight of what a stiff joint carries against a wheel's load: it costs nothing
+
+struct Unknown {
+  int body_up = -1, body_down = -1;  // pushed up, pushed down
+  Eigen::Vector3d wrench;            // Fz, Mx, My about the world's origin for one unit
+  double weight = 1;
+};
+
+/// One unit of vertical force at a point.
+Eigen::Vector3d push_at(const Vec3& p) {
+  return {1, p.y(), -p.x()};
+}
+
+}  // namespace
+
+std::vector<double> static_wheel_loads(const Model& model, const Topology& topology) {
+  std::size_t wheels = 0;
+  for (const Vehicle& vehicle : model.vehicles) wheels += vehicle.wheels.size();
+  std::vector<double> loads(wheels, 0);
+  const double g = model.settings.gravity.norm();
+  for (int tree = 0; tree < static_cast<int>(topology.trees.size()); ++tree) {
+    std::vector<Unknown> unknowns;
+    std::vector<std::size_t> wheel_of;
+    std::size_t number = 0;
+    for (const Vehicle& vehicle : model.vehicles)
+      for (const Wheel& wheel : vehicle.wheels) {
+        const std::size_t w = number++;
+        if (topology.tree_of_body[vehicle.body] != tree) continue;
+        unknowns.push_back({vehicle.body, -1, push_at(model.bodies[vehicle.body].X_WB * wheel.hub_B), 1});
+        wheel_of.push_back(w);
+      }
+    if (unknowns.empty()) continue;
+    for (const Joint& joint : model.joints) {
+      if (topology.tree_of_body[joint.child] != tree || joint.parent < 0 || topology.tree_of_body[joint.parent] != tree) continue;
+      const bool ball =
+          joint.kind == JointKind::spherical && model.bodies[joint.child].vehicle >= 0 && model.bodies[joint.parent].vehicle >= 0;
+      unknowns.push_back({joint.child, joint.parent, push_at(model.bodies[joint.child].X_WB * joint.X_CF.p), ball ? 1 : kFree});
+      if (ball) continue;
+      unknowns.push_back({joint.child, joint.parent, {0, 1, 0}, kFree});
+      unknowns.push_back({joint.child, joint.parent, {0, 0, 1}, kFree});
+    }
+    std::map<int, int> row;
+    const auto& range = topology.trees[tree];
+    for (int l = range.begin; l < range.end; ++l) row.emplace(topology.links[l].body, 3 * (l - range.begin));
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(3 * (range.end - range.begin), static_cast<Eigen::Index>(unknowns.size()));
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(A.rows());
+    for (const auto& [body, first] : row) b.segment<3>(first) = model.bodies[body].mass * g * push_at(model.bodies[body].X_WB.p);
+    for (Eigen::Index k = 0; k < A.cols(); ++k) {
+      const Unknown& u = unknowns[static_cast<std::size_t>(k)];
+      A.block<3, 1>(row.at(u.body_up), k) += u.weight * u.wrench;
+      if (u.body_down >= 0) A.block<3, 1>(row.at(u.body_down), k) -= u.weight * u.wrench;
+    }
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+    solver.setThreshold(1e-9);
+    solver.compute(A);
+    const Eigen::VectorXd x = solver.solve(b);
+    double total = 0;
+    for (std::size_t k = 0; k < wheel_of.size(); ++k) total += x[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < wheel_of.size(); ++k)
+      loads[wheel_of[k]] = std::max(x[static_cast<Eigen::Index>(k)], 0.01 * total / static_cast<double>(wheel_of.size()));
+  }
+  return loads;
+}
+
+}  // namespace engine
