@@ -16,6 +16,7 @@ namespace cli {
 std::function<int()> declare_render(Arguments&);
 std::function<int()> declare_simulate(Arguments&);
 std::function<int()> declare_plan(Arguments&);
+std::function<int()> declare_study(Arguments&);
 std::function<int()> declare_check(Arguments&);
 std::function<int()> declare_compare(Arguments&);
 std::function<int()> declare_library(Arguments&);
@@ -28,6 +29,7 @@ constexpr Command kCommands[] = {
     {"render", "simulate a scene, then draw it: an MP4, a folder of PNGs, or single PNGs with --at", declare_render},
     {"simulate", "write trajectory.csv, contacts.csv and summary.json", declare_simulate},
     {"plan", "which physical effects a scene calls for, and why", declare_plan},
+    {"study", "what accuracy costs in time: errors, bands and sensitivity against computing time", declare_study},
     {"check", "read scenes and report every error", declare_check},
     {"compare", "compare two pictures", declare_compare},
     {"library", "list the persons, poses, vehicles and other entries a scene can name", declare_library},

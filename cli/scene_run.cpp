@@ -36,14 +36,18 @@ void tell_costs(const engine::Recording& recording) {
 
 }  // namespace
 
-void declare_scene(Arguments& arguments, SceneArguments& scene) {
+void declare_scene_file(Arguments& arguments, SceneArguments& scene) {
   arguments.positional("SCENE", scene.scene, "scene file (TOML)");
   arguments.repeatable("--set", scene.set, "PATH=VALUE", "change a value of the scene: --set vehicle.sedan.speed=\"50 km/h\"");
-  arguments.repeatable("--effects", scene.effects, "NAME=on|off|auto",
-                       "force a physical effect on or off, or leave it to the plan");
   arguments.flag("--json", scene.json, "print the result as JSON");
   arguments.flag("-q,--quiet", scene.quiet, "no progress, no warnings");
   arguments.flag("-v,--verbose", scene.verbose, "tell the effects of the run and what each cost");
+}
+
+void declare_scene(Arguments& arguments, SceneArguments& scene) {
+  declare_scene_file(arguments, scene);
+  arguments.repeatable("--effects", scene.effects, "NAME=on|off|auto",
+                       "force a physical effect on or off, or leave it to the plan");
 }
 
 void declare_progress(Arguments& arguments, SceneArguments& scene) {

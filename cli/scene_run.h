@@ -22,7 +22,9 @@ struct SceneArguments {
   bool json = false;
 };
 
-/// SCENE, --set, --effects, --json, --quiet, --verbose.
+/// SCENE, --set, --json, --quiet, --verbose.
+void declare_scene_file(Arguments&, SceneArguments&);
+/// The same, and --effects NAME=on|off|auto.
 void declare_scene(Arguments&, SceneArguments&);
 /// --progress, for commands that take their time.
 void declare_progress(Arguments&, SceneArguments&);

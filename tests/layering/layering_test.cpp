@@ -50,13 +50,13 @@ const std::vector<Library> kLibraries = {
     {"GL/.*|EGL/.*", {"render/gl/"}},
     {"lib(av|sw).*", {"render/video/"}},
     {"png\\.h|zlib\\.h", {"render/image/"}},
-    {"cairo.*|pango.*|ft2build\\.h|freetype.*|fontconfig.*", {"render/text/"}},
+    {"cairo.*|pango.*|ft2build\\.h|freetype.*|fontconfig.*", {"render/text/", "render/charts/"}},
     {"toml\\+\\+.*|toml\\.hpp", {"scenes/loader/toml.cpp"}},
     {"assimp/.*", {"scenes/loader/"}},
     {"CLI/.*", {"cli/command.cpp"}},
     {"nlohmann/.*", {"scenes/", "cli/"}},
     {"fmt/.*", {"render/", "scenes/", "cli/"}},
-    {"linux/.*|sys/.*|unistd\\.h|fcntl\\.h|poll\\.h|signal\\.h", {"render/", "scenes/", "cli/"}},
+    {"linux/.*|sys/.*|unistd\\.h|fcntl\\.h|poll\\.h|signal\\.h|sched\\.h", {"render/", "scenes/", "cli/"}},
     // the engine knows no files, no text output, no clock, no threads, no order that depends on addresses, no chance
     {"(iostream|ostream|istream|fstream|cstdio|filesystem|chrono|ctime|thread|mutex|future|atomic|condition_variable|random"
      "|unordered_map|unordered_set)",

@@ -1,0 +1,211 @@
+#include "cli/study/analysis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/study/statistics.h"
+
+namespace cli::study {
+namespace {
+
+/// The ensemble is changed by a millionth: an outcome that answers with more than this share has amplified it a thousandfold.
+constexpr double kCloud = 1e-3;
+
+const Quantity* find_quantity(const Outcome& outcome, const std::string& name) {
+  for (const Quantity& q : outcome.quantities)
+    if (q.name == name) return &q;
+  return nullptr;
+}
+
+const Answer* answer_of(const SettingResult& result, const std::string& quantity) {
+  const auto found = result.answers.find(quantity);
+  return found != result.answers.end() && result.failure.empty() ? &found->second : nullptr;
+}
+
+/// Spread of the ensembles of the ladder, against the size of the answer.
+bool is_cloud(const SeriesResult& ladder, const std::string& quantity) {
+  std::vector<double> shares;
+  for (const SettingResult& result : ladder.settings)
+    if (const Answer* a = answer_of(result, quantity); a && result.setting.members > 0)
+      shares.push_back((a->high - a->low) / std::max(std::abs(a->middle), 1e-9));
+  return !shares.empty() && median(shares) > kCloud;
+}
+
+/// The levels of a ladder that have the quantity; `at` gets their places in it.
+std::vector<Level> levels_of(const SeriesResult& ladder, const std::string& quantity, bool cloud, std::vector<std::size_t>& at) {
+  std::vector<Level> out;
+  const std::vector<std::string>& finest = ladder.settings.back().contacts;
+  for (std::size_t i = 0; i < ladder.settings.size(); ++i) {
+    const SettingResult& result = ladder.settings[i];
+    const Answer* a = answer_of(result, quantity);
+    if (!a || !std::isfinite(a->value)) continue;
+    out.push_back({result.setting.fineness, cloud ? a->middle : a->value, !cloud && result.contacts == finest});
+    at.push_back(i);
+  }
+  return out;
+}
+
+/// Where the spread swamps what the step does, the middle of all answers of the three finest levels is the reference.
+double median_of_finest(const std::vector<Level>& levels) {
+  std::vector<double> finest;
+  for (std::size_t i = levels.size() > 3 ? levels.size() - 3 : 0; i < levels.size(); ++i) finest.push_back(levels[i].value);
+  return median(finest);
+}
+
+/// Limit of the finest run of a second scheme; the first of them that has one.
+void ask_second_scheme(const Study& study, Judgement& judgement) {
+  for (std::size_t s = 1; s < study.series.size(); ++s) {
+    const SeriesResult& other = study.series[s];
+    if (!other.series.steps) continue;
+    std::vector<std::size_t> at;
+    const std::vector<Level> levels = levels_of(other, judgement.quantity, judgement.cloud, at);
+    if (levels.size() < 2) continue;
+    const Convergence second = converge(levels);
+    const Convergence first = judgement.convergence;
+    judgement.second_scheme = other.series.name;
+    const double apart = std::abs(first.limit - second.limit);
+    judgement.schemes_agree = apart <= first.band.back() + second.band.back();
+    if (judgement.schemes_agree) return;
+    // they tend to different answers: no band may be narrower than what lies between them
+    judgement.convergence.trust = Trust::range;
+    for (double& band : judgement.convergence.band) band = std::max(band, apart + second.band.back());
+    return;
+  }
+}
+
+void settle_reference(Judgement& judgement, const std::vector<Level>& levels, const std::map<std::string, double>& closed_form) {
+  const Convergence& c = judgement.convergence;
+  judgement.reference = c.limit;
+  judgement.error_kind = c.trust == Trust::steady ? "richardson" : "finest";
+  if (judgement.cloud) {
+    judgement.reference = median_of_finest(levels);
+    judgement.error_kind = "median";
+  }
+  if (is_defect(judgement.quantity)) {
+    judgement.reference = 0;
+    judgement.error_kind = "exact_zero";
+  }
+  if (const auto known = closed_form.find(judgement.quantity); known != closed_form.end()) {
+    judgement.reference = known->second;
+    judgement.error_kind = "closed_form";
+  }
+}
+
+/// Errors of every series against the reference. Off the ladder the uncertainty is the error itself and what the reference lacks.
+/// What reading a measure off recorded instants leaves open at the scene's own settings: its change when more are recorded; and a
+/// moment that is one of them may be another.
+double reading_of(const Study& study, const std::string& quantity) {
+  for (const SeriesResult& series : study.series) {
+    if (series.series.varies != "interval") continue;
+    const Answer* finest = answer_of(series.settings.back(), quantity);
+    if (!finest) continue;
+    double most = 0;
+    const double interval = study.interval;
+    for (const SettingResult& result : series.settings)
+      if (const Answer* a = answer_of(result, quantity); a && result.setting.fineness <= 1.0001 * interval)
+        most = std::max(most, std::abs(a->value - finest->value));
+    return quantity.starts_with("rest_s") || quantity.starts_with("head_impact_s") || quantity.starts_with("first_")
+               ? std::max(most, interval)
+               : most;
+  }
+  return 0;
+}
+
+void fill_errors(Study& study, const Judgement& judgement, const std::vector<std::size_t>& at) {
+  const double reference_band = judgement.convergence.band.back();
+  for (std::size_t s = 0; s < study.series.size(); ++s)
+    for (SettingResult& result : study.series[s].settings) {
+      const auto found = result.answers.find(judgement.quantity);
+      if (found == result.answers.end()) continue;
+      Answer& a = found->second;
+      a.error = (judgement.cloud && result.setting.members > 0 ? a.middle : a.value) - judgement.reference;
+      a.uncertainty = std::abs(a.error) + judgement.reading +
+                      (judgement.error_kind == "closed_form" || judgement.error_kind == "exact_zero" ? 0 : reference_band);
+    }
+  for (std::size_t i = 0; i < at.size(); ++i)
+    study.series[0].settings[at[i]].answers[judgement.quantity].uncertainty =
+        is_defect(judgement.quantity) ? std::abs(study.series[0].settings[at[i]].answers[judgement.quantity].value)
+                                      : judgement.convergence.band[i] + judgement.reading;
+}
+
+}  // namespace
+
+const Judgement* Study::find(const std::string& quantity) const {
+  for (const Judgement& j : judgements)
+    if (j.quantity == quantity) return &j;
+  return nullptr;
+}
+
+const SettingResult* Study::own() const {
+  for (const SeriesResult& s : series)
+    for (const SettingResult& result : s.settings)
+      if (result.setting.own) return &result;
+  return nullptr;
+}
+
+double Study::input_uncertainty(const std::string& quantity) const {
+  double sum = 0;
+  for (const InputRange& input : inputs)
+    if (const auto found = input.half_width.find(quantity); found != input.half_width.end()) sum += found->second * found->second;
+  return std::sqrt(sum);
+}
+
+SettingResult summarise(const Setting& setting, const std::vector<Outcome>& outcomes) {
+  SettingResult out;
+  out.setting = setting;
+  const Outcome& plain = outcomes.front();
+  std::vector<double> walls;
+  for (const Outcome& outcome : outcomes) walls.insert(walls.end(), outcome.wall_s.begin(), outcome.wall_s.end());
+  out.wall_s = median(walls);
+  out.wall_low = percentile(walls, 0.25);
+  out.wall_high = percentile(walls, 0.75);
+  out.repetitions = static_cast<int>(walls.size());
+  out.instructions = plain.instructions;
+  out.steps = plain.steps;
+  out.end_s = plain.end_s;
+  out.contacts = plain.contacts;
+  out.failure = plain.failure;
+  for (const Quantity& q : plain.quantities) {
+    std::vector<double> sample;
+    for (const Outcome& outcome : outcomes)
+      if (const Quantity* found = find_quantity(outcome, q.name); found && outcome.failure.empty()) sample.push_back(found->value);
+    if (sample.empty()) sample.push_back(q.value);
+    out.answers[q.name] = {true, q.value, percentile(sample, 0.05), percentile(sample, 0.95), median(sample), 0, 0};
+  }
+  return out;
+}
+
+void judge(Study& study, const std::map<std::string, double>& closed_form) {
+  const SeriesResult& ladder = study.series.front();
+  std::vector<std::string> names;
+  for (auto result = ladder.settings.rbegin(); result != ladder.settings.rend(); ++result)
+    for (const auto& [name, answer] : result->answers)
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  std::stable_partition(names.begin(), names.end(), [](const std::string& name) { return !is_defect(name); });
+  for (const std::string& name : names) {
+    Judgement judgement;
+    judgement.quantity = name;
+    judgement.cloud = !is_defect(name) && is_cloud(ladder, name);
+    std::vector<std::size_t> at;
+    const std::vector<Level> levels = levels_of(ladder, name, judgement.cloud, at);
+    if (levels.size() < 2) continue;
+    judgement.convergence = converge(levels);
+    ask_second_scheme(study, judgement);
+    judgement.reading = judgement.cloud || is_defect(name) ? 0 : reading_of(study, name);
+    settle_reference(judgement, levels, closed_form);
+    fill_errors(study, judgement, at);
+    study.judgements.push_back(std::move(judgement));
+  }
+}
+
+std::string main_quantity(const Study& study) {
+  for (const Judgement& j : study.judgements)
+    if (j.error_kind == "closed_form" && j.reference != 0) return j.quantity;
+  for (const char* wish :
+       {"throw_distance_m", "delta_v_mps", "head_impact_speed_mps", "travel_m", "turned_deg", "rebound_height_m"})
+    for (const Judgement& j : study.judgements)
+      if (j.quantity.starts_with(wish)) return j.quantity;
+  return study.judgements.empty() ? "" : study.judgements.front().quantity;
+}
+
+}  // namespace cli::study

@@ -1,0 +1,79 @@
+// Outcomes -> what they say: errors against a reference, orders and bands, spread of the ensemble, cost.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cli/study/convergence.h"
+#include "cli/study/series.h"
+#include "cli/study/trial.h"
+
+namespace cli::study {
+
+/// One quantity at one setting.
+struct Answer {
+  bool present = false;      // the run defines it
+  double value = 0;          // of the plain run
+  double low = 0, high = 0;  // 5th and 95th percentile of the ensemble, the plain run included
+  double middle = 0;         // its median
+  double error = 0;          // value (in a cloud: median) - reference
+  double uncertainty = 0;    // numerical: half width around the answer that covers the reference
+};
+
+struct SettingResult {
+  Setting setting;
+  double wall_s = 0, wall_low = 0, wall_high = 0;  // median, quartiles
+  int repetitions = 0;
+  double instructions = 0;
+  long steps = 0;
+  double end_s = 0;
+  std::vector<std::string> contacts;
+  std::string failure;
+  std::map<std::string, Answer> answers;
+};
+
+struct SeriesResult {
+  Series series;
+  std::vector<SettingResult> settings;
+};
+
+/// How one quantity is judged.
+struct Judgement {
+  std::string quantity;
+  std::string error_kind;  // closed_form, exact_zero, richardson, finest, median
+  double reference = 0;
+  Convergence convergence;  // of the scene's own ladder
+  bool cloud = false;       // minute changes are amplified so far that only percentiles mean anything
+  double reading = 0;       // half width that reading it off recorded instants leaves open
+  bool schemes_agree = true;
+  std::string second_scheme;  // that was asked, empty: there is none
+};
+
+/// One end of an input's range, and what it does.
+struct InputRange {
+  std::string key, low, high;                // "vehicle.car.speed", "39 km/h", "41 km/h"
+  std::map<std::string, double> half_width;  // per quantity
+};
+
+struct Study {
+  std::vector<SeriesResult> series;   // the scene's own ladder first
+  std::vector<Judgement> judgements;  // per quantity, measures first
+  std::vector<InputRange> inputs;
+  double interval = 0;  // [s] between recorded instants in all runs but those that vary it
+  const Judgement* find(const std::string& quantity) const;
+  const SettingResult* own() const;
+  /// Half width of what all inputs together do, as independent errors add.
+  double input_uncertainty(const std::string& quantity) const;
+};
+
+/// Puts the outcomes of one setting (plain run first, then members) together.
+SettingResult summarise(const Setting&, const std::vector<Outcome>&);
+
+/// Judges every quantity of the finest or any own-ladder run, and fills errors and uncertainties of all settings.
+void judge(Study&, const std::map<std::string, double>& closed_form);
+
+/// The quantity a page is about: one with a closed form, else throw, head impact, delta-v, travel, whichever comes first.
+std::string main_quantity(const Study&);
+
+}  // namespace cli::study

@@ -1,0 +1,133 @@
+// With y_i = y0 + C h_i^p the differences of neighbours fall as h^p too: p is the slope of their logarithms over log h. Three
+// levels always give a slope, whatever they mean: that is how a single triple understates errors a hundredfold. Hence four levels,
+// and orders of neighbouring triples that agree.
+#include "cli/study/convergence.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace cli::study {
+namespace {
+
+constexpr double kRounding = 1e-13;    // of the value: what a thousand rounded steps may add up to
+constexpr double kLowestOrder = 0.4;   // below it the limit is farther away than any level has come
+constexpr double kHighestOrder = 6.0;  // above it two answers agree by chance
+constexpr double kOrderSpread = 0.30;  // between neighbouring triples: observed orders within it count as one
+constexpr double kSafety = 1.25;       // Roache's factor where the order is known from more than two levels
+constexpr std::size_t kFewestLevels = 4;
+
+struct Fit {
+  double order = 0, limit = 0;
+  double slope = 0;  // part of the finest level that still falls: C h^p there
+};
+
+/// Least squares on the logarithms: log|y_i - y_i+1| = const + p log h_i.
+Fit fit_order(const std::vector<Level>& levels, std::size_t first, std::size_t last) {
+  double x_mean = 0, y_mean = 0, xx = 0, xy = 0;
+  const auto n = static_cast<double>(last - first);
+  const auto x_of = [&](std::size_t i) { return std::log(levels[i].step); };
+  const auto y_of = [&](std::size_t i) { return std::log(std::abs(levels[i].value - levels[i + 1].value)); };
+  for (std::size_t i = first; i < last; ++i) {
+    x_mean += x_of(i) / n;
+    y_mean += y_of(i) / n;
+  }
+  for (std::size_t i = first; i < last; ++i) {
+    xx += (x_of(i) - x_mean) * (x_of(i) - x_mean);
+    xy += (x_of(i) - x_mean) * (y_of(i) - y_mean);
+  }
+  const double order = xy / xx;
+  // the finest two levels are nearest to the limit: they say how far it is
+  const double ratio = std::pow(levels[last - 1].step / levels[last].step, order);
+  const double slope = (levels[last - 1].value - levels[last].value) / (ratio - 1);
+  return {order, levels[last].value - slope, slope};
+}
+
+/// Orders of the neighbouring triples of a window agree and lie where an order can lie.
+bool steady(const std::vector<Level>& levels, std::size_t first, std::size_t last) {
+  double lowest = kHighestOrder, highest = kLowestOrder;
+  for (std::size_t i = first; i + 2 <= last; ++i) {
+    const double coarse = levels[i].value - levels[i + 1].value;
+    const double fine = levels[i + 1].value - levels[i + 2].value;
+    if (!(coarse * fine > 0)) return false;
+    const double order = std::log(coarse / fine) / std::log(levels[i].step / levels[i + 1].step);
+    lowest = std::min(lowest, order);
+    highest = std::max(highest, order);
+    if (order < kLowestOrder || order > kHighestOrder) return false;
+  }
+  return highest - lowest < kOrderSpread;
+}
+
+double range_of(const std::vector<Level>& levels, std::size_t first) {
+  double low = levels[first].value, high = low;
+  for (std::size_t i = first; i < levels.size(); ++i) {
+    low = std::min(low, levels[i].value);
+    high = std::max(high, levels[i].value);
+  }
+  return high - low;
+}
+
+double rounding_of(const std::vector<Level>& levels) {
+  double largest = 0;
+  for (const Level& level : levels) largest = std::max(largest, std::abs(level.value));
+  return kRounding * std::max(largest, 1e-3);
+}
+
+Convergence by_range(const std::vector<Level>& levels, double rounding) {
+  Convergence out;
+  out.order = std::numeric_limits<double>::quiet_NaN();
+  out.limit = levels.back().value;
+  const std::size_t n = levels.size();
+  out.trust = range_of(levels, 0) <= 10 * rounding ? Trust::exact : Trust::range;
+  for (std::size_t i = 0; i < n; ++i) {
+    out.error.push_back(levels[i].value - out.limit);
+    // the limit may lie on the far side of the finest answers: they get the range of the three finest twice
+    const std::size_t from = std::min(i, n > 3 ? n - 3 : 0);
+    const double finest = range_of(levels, n > 3 ? n - 3 : 0);
+    out.band.push_back(std::max({range_of(levels, from), 2 * finest, rounding}));
+  }
+  return out;
+}
+
+Convergence by_order(const std::vector<Level>& levels, std::size_t first, std::size_t last, double rounding) {
+  Convergence out;
+  const Fit fit = fit_order(levels, first, last);
+  out.trust = Trust::steady;
+  out.order = fit.order;
+  // levels finer than the window differ by rounding only: they are the limit
+  out.limit = last + 1 < levels.size() ? levels.back().value : fit.limit;
+  out.first = static_cast<int>(first);
+  out.last = static_cast<int>(last);
+  for (const Level& level : levels) {
+    const double error = level.value - out.limit;
+    const double expected = std::abs(fit.slope) * std::pow(level.step / levels[last].step, fit.order);
+    out.error.push_back(error);
+    const double misfit = std::abs(std::abs(error) - expected);
+    out.band.push_back(kSafety * std::max(std::abs(error), expected) + misfit + 10 * rounding);
+  }
+  return out;
+}
+
+}  // namespace
+
+const char* name_of(Trust trust) {
+  constexpr const char* kNames[] = {"steady", "range", "exact"};
+  return kNames[static_cast<int>(trust)];
+}
+
+Convergence converge(const std::vector<Level>& levels) {
+  assert(levels.size() >= 2 && "a ladder has two rungs at least");
+  const double rounding = rounding_of(levels);
+  // the finest window that differs by more than rounding and has one sequence of contacts
+  std::size_t last = levels.size() - 1;
+  while (last > 0 && std::abs(levels[last].value - levels[last - 1].value) <= 30 * rounding) --last;
+  std::size_t earliest = last;
+  while (earliest > 0 && levels[earliest - 1].comparable && levels[earliest].comparable) --earliest;
+  // the longest window speaks for most levels, so it is asked first
+  for (std::size_t first = earliest; first + kFewestLevels <= last + 1; ++first)
+    if (steady(levels, first, last)) return by_order(levels, first, last, rounding);
+  return by_range(levels, rounding);
+}
+
+}  // namespace cli::study

@@ -1,0 +1,16 @@
+// Minute perturbations: changes far below anything that can be measured at the scene of an accident. What they do to the answer is
+// its sensitivity, which no smaller step removes.
+#pragma once
+
+#include "engine/model/model.h"
+
+namespace cli::study {
+
+constexpr double kPerturbedPosition = 1e-6;  // [m] each horizontal direction
+constexpr double kPerturbedSpeed = 1e-6;     // of every velocity and of gravity
+
+/// Member 0 is the model itself. Bodies tied together by joints are moved as one, so that no joint opens; what is tied to the world
+/// keeps its place. The same member is the same perturbation at every setting.
+void perturb(engine::Model&, int member);
+
+}  // namespace cli::study

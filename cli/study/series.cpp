@@ -1,0 +1,197 @@
+#include "cli/study/series.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cli::study {
+namespace {
+
+constexpr int kCoarser = 4;  // the ladder begins at this many times the scene's own step
+
+std::string in_ms(double seconds) {
+  return fmt::format("{:.7g} ms", 1e3 * seconds);
+}
+
+/// Steps from four times the scene's own, halved; the finest two with fewer members, for they cost most of the study.
+std::vector<Setting> steps_of(const scenes::Scene& scene, const StudyOptions& options, const std::vector<std::string>& also,
+                              bool own) {
+  std::vector<Setting> out;
+  const double step = scene.model.settings.step;
+  for (int k = 0; k <= options.halvings; ++k) {
+    const double h = kCoarser * step / std::pow(2.0, k);
+    Setting setting{"step " + in_ms(h), {"simulation.step=" + in_ms(h)}, h, 0, false};
+    setting.overrides.insert(setting.overrides.end(), also.begin(), also.end());
+    setting.members = k + 2 > options.halvings ? std::min(3, options.members) : options.members;
+    setting.own = own && std::abs(h - step) < 1e-9 * step;
+    out.push_back(setting);
+  }
+  return out;
+}
+
+const char* word(engine::Scheme scheme) {
+  constexpr const char* kWords[] = {"stepping", "rk4", "adaptive"};
+  return kWords[static_cast<int>(scheme)];
+}
+
+const char* word(engine::ContactLaw law) {
+  return law == engine::ContactLaw::compliant ? "compliant" : "default_auto";
+}
+
+using Make = Series (*)(const scenes::Scene&, const StudyOptions&);
+
+/// What every series but the scene's own asks of a scene: that it means something for it.
+bool has_contacts(const scenes::Scene& scene) {
+  return scene.model.ground.plane || scene.model.ground.terrain || scene.model.bodies.size() > 1;
+}
+
+Series own_steps(const scenes::Scene& scene, const StudyOptions& options) {
+  const engine::Settings& s = scene.model.settings;
+  if (s.scheme == engine::Scheme::adaptive) {
+    // the step of this scheme is its tolerance
+    Series series{word(s.scheme), "tolerance", "tolerance of a step", true, false, {}};
+    for (int k = 0; k <= options.halvings; ++k) {
+      const double tolerance = 16 * s.adaptive_tolerance / std::pow(4.0, k);
+      series.settings.push_back({fmt::format("tolerance {:.3g} m", tolerance),
+                                 {fmt::format("simulation.adaptive_tolerance={:.9g} m", tolerance)},
+                                 tolerance,
+                                 options.members,
+                                 k == 2});
+    }
+    return series;
+  }
+  return {word(s.scheme), "step", "the scene's own scheme, step halved", true, false, steps_of(scene, options, {}, true)};
+}
+
+Series other_events(const scenes::Scene& scene, const StudyOptions& options) {
+  if (!has_contacts(scene)) return {};
+  const bool located = scene.model.settings.locate_events;
+  StudyOptions few = options;
+  few.members = 0;
+  few.halvings = options.halvings - 1;
+  return {std::string(word(scene.model.settings.scheme)) + (located ? ", events not located" : ", events located"),
+          "step",
+          "impacts at the end of the step instead of inside it",
+          false,
+          false,
+          steps_of(scene, few, {fmt::format("simulation.locate_events={}", !located)}, false)};
+}
+
+Series scheme_steps(const scenes::Scene& scene, const StudyOptions& options, engine::Scheme scheme, bool located) {
+  if (scene.model.settings.scheme == scheme || (!located && !has_contacts(scene))) return {};
+  StudyOptions few = options;
+  few.members = 0;
+  return {
+      std::string(word(scheme)) + (located ? "" : ", events not located"),
+      "step",
+      "another scheme, step halved",
+      located,
+      false,
+      steps_of(scene, few, {fmt::format("simulation.scheme={}", word(scheme)), fmt::format("simulation.locate_events={}", located)},
+               false)};
+}
+
+Series stepping_steps(const scenes::Scene& scene, const StudyOptions& options) {
+  return scheme_steps(scene, options, engine::Scheme::stepping, true);
+}
+Series rk4_steps(const scenes::Scene& scene, const StudyOptions& options) {
+  return scheme_steps(scene, options, engine::Scheme::rk4, true);
+}
+Series rk4_plain_steps(const scenes::Scene& scene, const StudyOptions& options) {
+  return scheme_steps(scene, options, engine::Scheme::rk4, false);
+}
+
+Series adaptive_tolerances(const scenes::Scene& scene, const StudyOptions&) {
+  if (scene.model.settings.scheme == engine::Scheme::adaptive) return {};
+  Series series{"adaptive", "tolerance", "steps chosen by the program, tolerance tightened", true, false, {}};
+  for (int k = 3; k <= 9; ++k)
+    series.settings.push_back({fmt::format("tolerance 1e-{} m", k),
+                               {"simulation.scheme=adaptive", fmt::format("simulation.adaptive_tolerance=1e-{} m", k)},
+                               std::pow(10.0, -k),
+                               0,
+                               false});
+  return series;
+}
+
+Series solver_tolerances(const scenes::Scene& scene, const StudyOptions&) {
+  if (!has_contacts(scene)) return {};
+  Series series{
+      "solver tolerance", "tolerance", "residual at which the contact solver stops, step as in the scene", false, false, {}};
+  for (int k = 2; k <= 7; ++k)
+    series.settings.push_back({fmt::format("solver tolerance 1e-{} m/s", k),
+                               {fmt::format("simulation.solver_tolerance=1e-{} m/s", k)},
+                               std::pow(10.0, -k),
+                               0,
+                               false});
+  return series;
+}
+
+Series mesh_details(const scenes::Scene& scene, const StudyOptions&) {
+  if (scene.model.vehicles.empty()) return {};
+  Series series{"mesh detail", "bound", "collision mesh decimated within a bound, step as in the scene", false, false, {}};
+  for (const double bound : {0.04, 0.02, 0.01, 0.005, 0.0025}) {
+    Setting setting{fmt::format("mesh within {:g} mm", 1e3 * bound), {}, bound, 0, false};
+    for (const engine::Vehicle& vehicle : scene.model.vehicles)
+      setting.overrides.push_back(fmt::format("vehicle.{}.mesh_tolerance={:g} mm", vehicle.name, 1e3 * bound));
+    series.settings.push_back(setting);
+  }
+  return series;
+}
+
+Series recorded_instants(const scenes::Scene& scene, const StudyOptions&) {
+  const engine::Settings& s = scene.model.settings;
+  Series series{
+      "recorded instants", "interval", "how often the motion is recorded, from which the measures are read", false, false, {}};
+  for (const int k : {16, 8, 4, 2, 1})
+    series.settings.push_back(
+        {"recorded every " + in_ms(k * s.step), {"simulation.record_interval=" + in_ms(k * s.step)}, k * s.step, 0, false});
+  return series;
+}
+
+Series other_contact_law(const scenes::Scene& scene, const StudyOptions&) {
+  if (!has_contacts(scene)) return {};
+  const auto other = scene.model.settings.contact_law == engine::ContactLaw::compliant ? engine::ContactLaw::default_auto
+                                                                                       : engine::ContactLaw::compliant;
+  Series series{fmt::format("{} law", word(other)),
+                "step",
+                "another law of contact: its difference is modelling, not numerics",
+                false,
+                true,
+                {}};
+  for (const int k : {2, 1}) {
+    const double h = scene.model.settings.step / (3 - k);
+    series.settings.push_back({fmt::format("{} law, step {}", word(other), in_ms(h)),
+                               {fmt::format("simulation.contact_law={}", word(other)), "simulation.step=" + in_ms(h)},
+                               h,
+                               0,
+                               false});
+  }
+  return series;
+}
+
+/// The table of series. One that does not mean anything for a scene comes back empty; one whose keys the scene refuses is left out.
+constexpr Make kSeries[] = {own_steps,           other_events,      stepping_steps, rk4_steps,         rk4_plain_steps,
+                            adaptive_tolerances, solver_tolerances, mesh_details,   recorded_instants, other_contact_law};
+
+}  // namespace
+
+double study_interval(const engine::Settings& s) {
+  const double coarsest = kCoarser * s.step;
+  return coarsest * std::max(1.0, std::round(s.record_interval / coarsest));
+}
+
+std::vector<Series> series_for(const scenes::Scene& scene, const StudyOptions& options, const Accepts& accepts) {
+  std::vector<Series> out;
+  const std::string interval = "simulation.record_interval=" + in_ms(study_interval(scene.model.settings));
+  for (const Make make : kSeries) {
+    Series series = make(scene, options);
+    if (series.settings.empty()) continue;
+    for (Setting& setting : series.settings)
+      if (series.varies != "interval") setting.overrides.push_back(interval);
+    if (accepts(series.settings.front().overrides)) out.push_back(std::move(series));
+  }
+  return out;
+}
+
+}  // namespace cli::study

@@ -1,0 +1,105 @@
+#include "cli/study/trial.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/output/whole_file.h"
+#include "cli/progress.h"
+#include "cli/study/instructions.h"
+#include "cli/study/perturb.h"
+#include "engine/plan.h"
+#include "engine/simulate.h"
+#include "scenes/loader/sha256.h"
+
+namespace cli::study {
+namespace {
+
+constexpr double kEnough = 0.4;      // [s] of measuring one trial; a long run is repeated by its ensemble
+constexpr int kMostRepetitions = 7;  // more do not move a median
+constexpr double kLong = 0.25;       // [s] a run this long has warmed up within itself
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+std::string program_hash() {
+  return scenes::sha256(bytes_of("/proc/self/exe"));
+}
+
+std::string fingerprint_of(const Trial& trial, const std::string& program) {
+  const scenes::Scene scene = scenes::load(trial.scene, trial.overrides);
+  return scenes::sha256(fmt::format("{} {} {}", scene.sha256, program, trial.member));
+}
+
+Outcome run(const Trial& trial) {
+  scenes::Scene scene = scenes::load(trial.scene, trial.overrides);
+  perturb(scene.model, trial.member);
+  const engine::Plan plan = engine::compile(scene.model);
+  InstructionCounter counter;
+  Outcome out;
+  engine::Recording recording;
+  double spent = 0;
+  for (int i = 0; i <= kMostRepetitions; ++i) {
+    counter.start();
+    const double begin = clock_seconds();
+    recording = engine::simulate(scene.model, plan);
+    const double wall = clock_seconds() - begin;
+    out.instructions = counter.stop();
+    spent += wall;
+    // the first run of a short trial warms the caches
+    if (i > 0 || wall > kLong) out.wall_s.push_back(wall);
+    if (out.wall_s.size() >= 3 && spent > kEnough) break;
+    if (wall > kLong) break;
+  }
+  out.steps = recording.steps + recording.diagnostics.substeps;
+  out.end_s = recording.end_time();
+  if (recording.failure)
+    out.failure = fmt::format("diverged at {:.4f} s, body {}", recording.failure->time, recording.failure->body);
+  out.quantities = quantities_of(scene.model, recording);
+  out.contacts = contact_sequence(recording);
+  return out;
+}
+
+void store(const Outcome& outcome, const std::filesystem::path& file) {
+  nlohmann::ordered_json json;
+  json["schema"] = 1;
+  for (const Quantity& q : outcome.quantities) json["quantities"].push_back({q.name, q.value});
+  json["contacts"] = outcome.contacts;
+  json["wall_s"] = outcome.wall_s;
+  json["instructions"] = outcome.instructions;
+  json["steps"] = outcome.steps;
+  json["end_s"] = outcome.end_s;
+  json["failure"] = outcome.failure;
+  WholeFile whole(file);
+  whole.write(json.dump() + "\n");
+  whole.close();
+  whole.publish();
+}
+
+bool recall(const std::filesystem::path& file, Outcome& outcome) {
+  std::ifstream in(file);
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  if (json.is_discarded() || !json.contains("end_s") || !json.contains("quantities")) return false;
+  Outcome read;
+  for (const auto& q : json["quantities"])
+    read.quantities.push_back(
+        {q.at(0).get<std::string>(), q.at(1).is_number() ? q.at(1).get<double>() : std::numeric_limits<double>::quiet_NaN()});
+  read.contacts = json["contacts"].get<std::vector<std::string>>();
+  read.wall_s = json["wall_s"].get<std::vector<double>>();
+  read.instructions = json["instructions"].get<double>();
+  read.steps = json["steps"].get<long>();
+  read.end_s = json["end_s"].get<double>();
+  read.failure = json["failure"].get<std::string>();
+  outcome = std::move(read);
+  return true;
+}
+
+}  // namespace cli::study

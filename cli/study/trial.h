@@ -1,0 +1,44 @@
+// One run of a study: which, and what came of it. A finished trial lies in a small file named by its fingerprint, so that a study
+// broken off goes on where it stood.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/study/quantities.h"
+#include "scenes/scene.h"
+
+namespace cli::study {
+
+struct Trial {
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;
+  int member = 0;           // of the ensemble; 0: as it is
+  double cost = 1;          // expected, in any unit: long trials go first
+  std::string fingerprint;  // of scene, overrides, member and program
+};
+
+struct Outcome {
+  std::vector<Quantity> quantities;
+  std::vector<std::string> contacts;  // first touches in order
+  std::vector<double> wall_s;         // repetitions, warm
+  double instructions = 0;            // 0: cannot be counted here
+  long steps = 0;                     // with those divided to place impacts
+  double end_s = 0;                   // simulated
+  std::string failure;                // empty: none
+};
+
+/// What the trial's answer depends on. Throws SceneErrors if the scene does not load with its overrides.
+std::string fingerprint_of(const Trial&, const std::string& program_hash);
+/// SHA-256 of the running program: a new build may give new answers.
+std::string program_hash();
+
+/// Runs the trial on the calling process' core until its time is known: at least three repetitions if it is short.
+Outcome run(const Trial&);
+
+void store(const Outcome&, const std::filesystem::path& file);
+/// Nothing if the file is missing or not whole.
+bool recall(const std::filesystem::path& file, Outcome&);
+
+}  // namespace cli::study

@@ -1,0 +1,108 @@
+// Orders, limits and bands on ladders made by hand, whose limit is known.
+#include "cli/study/convergence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "cli/study/statistics.h"
+
+namespace cli::study {
+namespace {
+
+constexpr double kLimit = 17.3;
+
+/// Seven levels from 4 ms, halved, of an answer with the given error.
+template <typename Error>
+std::vector<Level> ladder(const Error& error) {
+  std::vector<Level> out;
+  for (int k = 0; k < 7; ++k) {
+    const double h = 4e-3 / std::pow(2.0, k);
+    out.push_back({h, kLimit + error(h), true});
+  }
+  return out;
+}
+
+TEST(Convergence, FindsOrderAndLimitOfASmoothLadder) {
+  for (const double order : {1.0, 2.0, 4.0}) {
+    // a next-order term as every real scheme has one: 5 % of the error at the coarsest step
+    const auto levels = ladder([&](double h) { return 0.1 * std::pow(h / 4e-3, order) * (1 + 0.05 * h / 4e-3); });
+    const Convergence c = converge(levels);
+    ASSERT_EQ(c.trust, Trust::steady) << order;
+    EXPECT_NEAR(c.order, order, 0.05);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      const double true_error = levels[i].value - kLimit;
+      if (std::abs(true_error) < 1e-9) continue;  // below it the seventeen digits of the values decide
+      EXPECT_NEAR(c.error[i], true_error, 0.2 * std::abs(true_error)) << order << " level " << i;
+      EXPECT_GE(c.band[i], std::abs(true_error)) << order << " level " << i;
+    }
+  }
+}
+
+TEST(Convergence, CallsEqualAnswersExact) {
+  const Convergence c = converge(ladder([](double) { return 0.0; }));
+  EXPECT_EQ(c.trust, Trust::exact);
+  EXPECT_EQ(c.limit, kLimit);
+}
+
+TEST(Convergence, PrintsARangeWhereTheErrorHasNoOrder) {
+  // the last step that stops a body may be any part of a step late: an error of random phase under an envelope of first order
+  std::mt19937 chance(7);
+  const auto levels = ladder([&](double h) { return h * (std::uniform_real_distribution<>(-1, 1)(chance)); });
+  const Convergence c = converge(levels);
+  EXPECT_EQ(c.trust, Trust::range);
+  EXPECT_TRUE(std::isnan(c.order));
+}
+
+TEST(Convergence, PrintsARangeWhereTheContactsChange) {
+  auto levels = ladder([](double h) { return h; });
+  ASSERT_EQ(converge(levels).trust, Trust::steady);
+  levels[4].comparable = false;
+  EXPECT_EQ(converge(levels).trust, Trust::range);
+}
+
+TEST(Convergence, NeedsFourLevelsForAnOrder) {
+  auto levels = ladder([](double h) { return h; });
+  levels.resize(3);
+  EXPECT_EQ(converge(levels).trust, Trust::range);
+}
+
+/// Two thirds smooth with a next-order term of either sign, one third of random phase.
+std::vector<Level> random_ladder(std::mt19937& chance) {
+  const auto draw = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(chance); };
+  const bool smooth = draw(0, 1) < 0.67;
+  const double order = std::vector<double>{1, 2, 4}[static_cast<std::size_t>(draw(0, 2.999))];
+  const double size = std::pow(10, draw(-3, 0)), bend = draw(-0.8, 0.8);
+  return ladder([&](double h) {
+    const double x = h / 4e-3;
+    return smooth ? size * std::pow(x, order) * (1 + bend * x) : size * x * draw(-1, 1);
+  });
+}
+
+TEST(Convergence, BandCoversTheTrueErrorOfNineteenInTwentyRandomLadders) {
+  std::mt19937 chance(2024);
+  int levels_in_all = 0, covered = 0, own_covered = 0;
+  constexpr int kLadders = 200;
+  for (int k = 0; k < kLadders; ++k) {
+    const auto levels = random_ladder(chance);
+    const Convergence c = converge(levels);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      ++levels_in_all;
+      covered += c.band[i] >= std::abs(levels[i].value - kLimit);
+    }
+    own_covered += c.band[2] >= std::abs(levels[2].value - kLimit);  // the scene's own step is the third
+  }
+  EXPECT_GE(covered, 0.95 * levels_in_all) << covered << " of " << levels_in_all;
+  EXPECT_GE(own_covered, 0.95 * kLadders) << own_covered << " of " << kLadders;
+}
+
+TEST(Statistics, PercentilesAreLinearBetweenMembers) {
+  EXPECT_DOUBLE_EQ(median({3, 1, 2}), 2);
+  EXPECT_DOUBLE_EQ(median({4, 1, 2, 3}), 2.5);
+  EXPECT_DOUBLE_EQ(percentile({0, 10}, 0.05), 0.5);
+  EXPECT_TRUE(std::isnan(median({})));
+}
+
+}  // namespace
+}  // namespace cli::study

@@ -1,0 +1,57 @@
+// `crashreel study` from outside: files, columns, errors against closed forms, and that finished runs are not run again.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "../program.h"
+
+namespace cli_tests {
+namespace {
+
+const std::string kScenes = std::string(CRASHREEL_SOURCE_DIR) + "/scenes/";
+
+/// A short run: the slide of the puck, few members.
+Result study_puck(const Folder& folder, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {"study", kScenes + "gallery/puck_slide.toml", "-o", "out", "--ensemble", "1", "--quiet"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run(folder, arguments);
+}
+
+TEST(Study, WritesColumnsAndErrorsAgainstTheClosedForm) {
+  const Folder folder;
+  const Result result = study_puck(folder);
+  ASSERT_EQ(result.code, 0) << result.err;
+  const std::string csv = contents(folder / "out/study.csv");
+  EXPECT_TRUE(csv.starts_with("series,setting,step_s,quantity,value,error,error_kind,wall_s,steps_per_s,order,uncertainty"));
+  const auto json = nlohmann::json::parse(contents(folder / "out/study.json"));
+  EXPECT_EQ(json["schema"], 1);
+  EXPECT_EQ(json["main_quantity"], "travel_m");
+  const auto& ladder = json["series"][0]["settings"];
+  ASSERT_EQ(ladder.size(), 7u);  // six halvings
+  for (const auto& setting : ladder) {
+    // Coulomb friction stops the puck within the step: the last step at mu g h takes the distance to within v h
+    const double step = setting["step_s"];
+    EXPECT_LT(std::abs(setting["answers"]["travel_m"]["error"].get<double>()), 0.6 * 9.81 * step);
+    EXPECT_GT(setting["wall_s"].get<double>(), 0);
+  }
+}
+
+TEST(Study, UsesFinishedRunsAgain) {
+  const Folder folder;
+  ASSERT_EQ(study_puck(folder).code, 0);
+  const std::string before = contents(folder / "out/study.csv");
+  EXPECT_EQ(study_puck(folder).code, 2);  // results exist
+  ASSERT_EQ(study_puck(folder, {"--overwrite"}).code, 0);
+  // wall times are measured: equal ones mean that nothing ran again
+  EXPECT_EQ(contents(folder / "out/study.csv"), before);
+}
+
+TEST(Study, RefusesAnInputThatIsNoRange) {
+  const Folder folder;
+  const Result result = study_puck(folder, {"--input", "body.puck.friction=0.5"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("PATH=LOW..HIGH"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace cli_tests
