@@ -199,12 +199,11 @@ void judge(Study& study, const std::map<std::string, double>& closed_form) {
 }
 
 std::string main_quantity(const Study& study) {
-  for (const Judgement& j : study.judgements)
-    if (j.error_kind == "closed_form" && j.reference != 0) return j.quantity;
-  for (const char* wish :
-       {"throw_distance_m", "delta_v_mps", "head_impact_speed_mps", "travel_m", "turned_deg", "rebound_height_m"})
-    for (const Judgement& j : study.judgements)
-      if (j.quantity.starts_with(wish)) return j.quantity;
+  constexpr const char* kWishes[] = {"throw_distance_m", "delta_v_mps", "rebound_height_m", "head_impact_speed_mps", "travel_m"};
+  for (const bool closed_form : {true, false})
+    for (const char* wish : kWishes)
+      for (const Judgement& j : study.judgements)
+        if (j.quantity.starts_with(wish) && (!closed_form || j.error_kind == "closed_form")) return j.quantity;
   return study.judgements.empty() ? "" : study.judgements.front().quantity;
 }
 

@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"no_command",
                    {},
                    kAuthor,
-                   ": no command given; take one of render, simulate, plan, check, compare, library, schema, version"},
+                   ": no command given; take one of render, simulate, plan, study, check, compare, library, schema, version"},
         BadCommand{"unknown_command", {"rendr"}, kAuthor, ": unknown command rendr; did you mean render?"},
         BadCommand{"unknown_option",
                    {"render", "ball.toml", "--siz", "64x64"},
