@@ -8,6 +8,7 @@
 #include "render/cameras.h"
 #include "render/matrix.h"
 #include "render/overlays/overlay.h"
+#include "render/surface/skin.h"
 
 namespace render {
 namespace {
@@ -36,19 +37,18 @@ void add_ellipsoid(DrawList& list, const engine::HyperEllipsoid& shape, const Po
   list.ellipsoids.push_back({shape, to_gl(rigid(X)), material, raster, static_cast<std::uint32_t>(list.ellipsoids.size())});
 }
 
-/// Segments, and a ball at each joint that closes the gap between them: a figure, not a string of beads.
 void add_person(DrawList& list, const PersonActor& person, const engine::Snapshot& now) {
-  const bool raster = person.look == PersonLook::raster;
-  for (const PersonActor::Segment& s : person.segments) {
-    const Pose& X = now.bodies[static_cast<std::size_t>(s.body)].X_WB;
-    add_ellipsoid(list, s.shape, X, s.material, raster);
-    if (raster || s.parent < 0 || person.look == PersonLook::segments) continue;
-    const PersonActor::Segment& parent = person.segments[static_cast<std::size_t>(s.parent)];
-    auto girth = [](const engine::HyperEllipsoid& e) { return std::min(e.semi_axes.x(), e.semi_axes.y()); };
-    const double radius = 0.98 * std::min(girth(s.shape), girth(parent.shape));
-    const Pose& X_P = now.bodies[static_cast<std::size_t>(parent.body)].X_WB;
-    add_ellipsoid(list, {Vec3::Constant(radius), 2}, {X_P * s.joint_P, X.q}, s.material, false);
+  if (person.look == PersonLook::skin && person.skin) {
+    std::vector<Pose> X_WS;
+    for (const PersonActor::Segment& s : person.segments) X_WS.push_back(now.bodies[static_cast<std::size_t>(s.body)].X_WB);
+    SkinItem item;
+    item.topology = person.skin->mesh;
+    bend_skin(*person.skin, X_WS, item.positions, item.normals);
+    list.skins.push_back(std::move(item));
+    return;
   }
+  for (const PersonActor::Segment& s : person.segments)
+    add_ellipsoid(list, s.shape, now.bodies[static_cast<std::size_t>(s.body)].X_WB, s.material, person.look == PersonLook::raster);
 }
 
 }  // namespace

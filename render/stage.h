@@ -67,6 +67,8 @@ struct WheelActor {
   std::shared_ptr<const Mesh> mesh;  // axle along y, outside towards +y, centred at the hub
 };
 
+struct Skin;  // render/surface/skin.h
+
 enum class PersonLook { segments, skin, raster };
 
 /// The segments of one person, for the skin and for picking its look. X_WB is the pose the skin is built in.
@@ -83,7 +85,11 @@ struct PersonActor {
   std::string name;
   PersonLook look = PersonLook::segments;
   std::vector<Segment> segments;
+  std::shared_ptr<const Skin> skin;  // of look `skin`; null draws the segments
 };
+
+/// One closed surface over the segments that bends at the joints: built once, for look `skin`.
+std::shared_ptr<const Skin> build_skin(const PersonActor&);
 
 struct RoadLook {
   bool road = true;  // asphalt with lane markings along x; false: plain ground with a metre grid
