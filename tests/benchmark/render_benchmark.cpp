@@ -1,0 +1,185 @@
+// Frames a second, end to end, of a shipped scene; what workers, a standing camera and quality are worth; memory of a heavy mesh.
+//   benchmark_render SCENE.toml [FRAMES]
+// The first row's rate is one process that draws with llvmpipe's own threads; the others are told as multiples of their own
+// one-worker row, so that they hold whatever the machine.
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <thread>
+
+#include "engine/simulate.h"
+#include "render/error.h"
+#include "render/film.h"
+#include "render/surface/tessellate.h"
+#include "scenes/scene.h"
+
+namespace {
+
+using namespace render;
+using Clock = std::chrono::steady_clock;
+
+struct Bench {
+  scenes::Scene scene;
+  engine::Recording run;
+  int frames;
+};
+
+double seconds(const std::function<void()>& work) {
+  const auto start = Clock::now();
+  work();
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Frames a second from the camera, worker start and encoder's end included.
+double film_rate(const Bench& b, const std::string& camera, int width, int height, Quality quality, int workers,
+                 Container container) {
+  std::vector<Moment> moments;
+  for (int i = 0; i < b.frames; ++i) moments.push_back({0.05 + i / 60.0, camera, 1});
+  FilmJob job;
+  const auto folder = std::filesystem::temp_directory_path() / fmt::format("benchmark_render_{}", getpid());
+  std::filesystem::create_directories(folder);
+  job.output = folder / (container == Container::mp4 ? "film.mp4" : "frame_%05d.png");
+  job.container = container;
+  job.width = width;
+  job.height = height;
+  job.quality = quality;
+  job.workers = workers;
+  job.overwrite = true;
+  const double t = seconds([&] { make_film(b.scene.stage, b.run, moments, job); });
+  std::filesystem::remove_all(folder);
+  return b.frames / t;
+}
+
+/// One process that draws one after the other, llvmpipe with a thread a core: the plain way. In a child, so that GL stays out of
+/// here.
+double plain_rate(const Bench& b, const std::string& camera, int width, int height) {
+  int ends[2];
+  if (pipe(ends) != 0) return 0;
+  const pid_t child = fork();
+  if (child == 0) {
+    Renderer renderer(width, height, Quality::standard);
+    Image image;
+    const int frames = std::max(8, b.frames / 4);
+    const double t = seconds([&] {
+      for (int i = 0; i < frames; ++i)
+        renderer.draw(arrange(b.scene.stage, b.run, {0.05 + i / 60.0, camera, 1}, static_cast<double>(width) / height), image);
+    });
+    const double rate = frames / t;
+    _exit(write(ends[1], &rate, sizeof rate) == sizeof rate ? 0 : 1);
+  }
+  double rate = 0;
+  if (read(ends[0], &rate, sizeof rate) != sizeof rate) rate = 0;
+  close(ends[0]);
+  close(ends[1]);
+  waitpid(child, nullptr, 0);
+  return rate;
+}
+
+/// Peak memory [MiB] of a process that draws a closed mesh of about a million triangles at 1080p, and milliseconds of its second
+/// frame.
+void heavy_mesh() {
+  int ends[2];
+  if (pipe(ends) != 0) return;
+  const pid_t child = fork();
+  if (child == 0) {
+    setenv("LP_NUM_THREADS", "0", 1);
+    constexpr int kCells = 289;  // 12 * 289^2 = 1,002,252 triangles
+    auto mesh = std::make_shared<Mesh>();
+    Tessellation t = tessellate({{2.2, 0.9, 0.7}, 3.5}, kCells);
+    mesh->positions = std::move(t.positions);
+    mesh->normals = std::move(t.normals);
+    mesh->indices = std::move(t.indices);
+    mesh->parts = {{0, static_cast<std::uint32_t>(mesh->indices.size()), 0}};
+    Material paint;
+    paint.kind = MaterialKind::paint;
+    paint.colour = {0.5f, 0.03f, 0.03f};
+    mesh->materials = {paint};
+    Stage stage;
+    MeshActor actor;
+    actor.body = -1;
+    actor.X_BM.p = {0, 0, 0.9};
+    actor.mesh = mesh;
+    stage.meshes.push_back(actor);
+    Camera camera;
+    camera.name = "camera";
+    stage.cameras.push_back(camera);
+    engine::Recording still;
+    still.snapshots.resize(1);
+    Renderer renderer(1920, 1080, Quality::standard);
+    Image image;
+    const DrawList list = arrange(stage, still, {0, "camera", 1}, 16.0 / 9);
+    renderer.draw(list, image);
+    const double ms = 1e3 * seconds([&] { renderer.draw(list, image); });
+    _exit(write(ends[1], &ms, sizeof ms) == sizeof ms ? 0 : 1);
+  }
+  double ms = 0;
+  const bool told = read(ends[0], &ms, sizeof ms) == sizeof ms;
+  close(ends[0]);
+  close(ends[1]);
+  rusage use{};
+  int status = 0;
+  wait4(child, &status, 0, &use);
+  if (told)
+    fmt::print("1,002,252 triangles at 1080p: {:.0f} ms a frame, peak {:.0f} MiB (limit 1536)\n", ms,
+               static_cast<double>(use.ru_maxrss) / 1024);
+}
+
+void table(const Bench& b, const std::string& fixed, const std::string& moving) {
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  fmt::print("{:28} {:>10} {:>10} {:>8}\n", "frames/s, end to end", "1 worker", fmt::format("{} workers", cores), "ratio");
+  struct Row {
+    const char* name;
+    const std::string& camera;
+    int width, height;
+    Quality quality;
+    Container container;
+  };
+  const Row rows[] = {{"720p moving", moving, 1280, 720, Quality::standard, Container::mp4},
+                      {"720p moving, draft", moving, 1280, 720, Quality::draft, Container::mp4},
+                      {"720p fixed", fixed, 1280, 720, Quality::standard, Container::mp4},
+                      {"1080p moving", moving, 1920, 1080, Quality::standard, Container::mp4},
+                      {"1080p fixed", fixed, 1920, 1080, Quality::standard, Container::mp4},
+                      {"1080p moving, PNG", moving, 1920, 1080, Quality::standard, Container::png_sequence},
+                      {"2160p moving", moving, 3840, 2160, Quality::standard, Container::mp4}};
+  for (const Row& r : rows) {
+    const double one = film_rate(b, r.camera, r.width, r.height, r.quality, 1, r.container);
+    const double all = film_rate(b, r.camera, r.width, r.height, r.quality, cores, r.container);
+    fmt::print("{:28} {:10.1f} {:10.1f} {:8.2f}\n", r.name, one, all, all / one);
+    std::fflush(stdout);
+  }
+  const double plain = plain_rate(b, moving, 1280, 720),
+               forked = film_rate(b, moving, 1280, 720, Quality::standard, cores, Container::mp4);
+  fmt::print(
+      "one process with llvmpipe's threads, drawing only, 720p moving: {:.1f} frames/s; workers with encoding {:.2f} times that\n",
+      plain, forked / plain);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    fmt::print(stderr, "usage: benchmark_render SCENE.toml [FRAMES]\n");
+    return 2;
+  }
+  try {
+    Bench b{scenes::load(argv[1]), {}, argc > 2 ? std::atoi(argv[2]) : 60};
+    b.run = engine::simulate(b.scene.model);
+    std::string fixed = b.scene.stage.cameras.front().name, moving = fixed;
+    for (const Camera& c : b.scene.stage.cameras) {
+      if (c.kind == CameraKind::follow || c.kind == CameraKind::orbit) moving = c.name;
+    }
+    fmt::print("{}: fixed camera {}, moving camera {}, {} frames each\n", argv[1], fixed, moving, b.frames);
+    table(b, fixed, moving);
+    heavy_mesh();
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "{}\n", e.what());
+    return 1;
+  }
+  return 0;
+}
