@@ -44,14 +44,16 @@ vec3 ground_colour(vec2 p, vec2 w) {
     float clear_of_zebra = 1.0 - road.z * bar(p.x, road.w, 2.4, w.x);
     paint = max(paint * clear_of_zebra, road.z * inside * bar(p.x, road.w, 1.75, w.x) * bars(y, 1.0, 0.25, w.y));
     c = mix(c, white, paint * worn);
-    // verge: a strip of gravel, then dry grass
+    // kerb stone, pavement of slabs, grass
     float off = abs(y) - half_width;
-    float edge_w = max(w.y, 0.05);
-    vec3 gravel = vec3(0.21, 0.195, 0.17) * (1.0 + 1.3 * fine + 0.6 * middle);
-    vec3 grass = mix(vec3(0.105, 0.125, 0.052), vec3(0.165, 0.158, 0.078), clamp(0.5 + 1.8 * wide + 1.0 * middle, 0.0, 1.0)) * (1.0 + 1.5 * fine + 0.5 * middle);
-    float ragged = off + 0.5 * middle + 0.25 * fine;
-    c = mix(c, gravel, smoothstep(-0.5, 0.5, (off - 0.10) / edge_w));
-    c = mix(c, grass, smoothstep(0.45, 0.75, ragged) * clamp(0.3 / w.y + 0.7, 0.0, 1.0));
+    vec3 kerb = vec3(0.25, 0.245, 0.235) * (1.0 + 0.4 * middle + 0.3 * fine);
+    vec3 pavement = vec3(0.215, 0.21, 0.2) * (1.0 + 0.45 * fine + 0.15 * middle + 0.25 * wide);
+    pavement *= 1.0 - 0.4 * max(bars(p.x, 0.6, 0.005, w.x), bars(y, 0.6, 0.005, w.y));
+    vec3 grass = mix(vec3(0.085, 0.110, 0.045), vec3(0.135, 0.145, 0.065), clamp(0.5 + 1.8 * wide + 1.0 * middle, 0.0, 1.0)) *
+                 (1.0 + 1.5 * fine + 0.5 * middle);
+    c = mix(c, kerb, clamp(off / w.y + 0.5, 0.0, 1.0));
+    c = mix(c, pavement, clamp((off - 0.15) / w.y + 0.5, 0.0, 1.0));
+    c = mix(c, grass, clamp((off - 2.15 - 0.1 * (middle + fine)) / max(w.y, 0.02) + 0.5, 0.0, 1.0));
   } else {
     c = vec3(0.165, 0.165, 0.168) * (1.0 + 0.7 * fine + 0.45 * middle + 0.30 * wide);
   }
