@@ -42,10 +42,12 @@ struct Spend {  // what a quality level costs
   double pixel_share;  // [pixels] of tessellation
 };
 
-Spend spend(Quality q) {
+constexpr int kWidestFine = 4096;  // [pixels] four times that is the largest texture
+
+Spend spend(Quality q, int width, int height) {
   if (q == Quality::draft) return {1, 1, 512, 1, 0.5};
   if (q == Quality::standard) return {1, 2, 1024, 1, 0.2};
-  return {2, 2, 2048, 2, 0.2};
+  return {std::max(width, height) > kWidestFine ? 1 : 2, 2, 2048, 2, 0.2};
 }
 
 /// Shader text with its switches.
@@ -63,7 +65,7 @@ struct Renderer::Impl {
   Impl(int w, int h, Quality q)
       : width(w),
         height(h),
-        cost(spend(q)),
+        cost(spend(q, w, h)),
         context(16, 16),
         targets(w * cost.scale, h * cost.scale, w, h, cost.samples, cost.shadow_map_size) {
     const std::vector<std::uint8_t> grain = grain_picture();
