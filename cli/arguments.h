@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CLI {
@@ -24,6 +25,9 @@ class Arguments {
                   const std::string& help);
   void choice(const std::string& names, std::string& target, const std::vector<std::string>& choices, const std::string& help);
   void flag(const std::string& names, bool& target, const std::string& help);
+
+  /// Every option of the command that was given, by its long name, with its values: to be asked once the command runs.
+  std::vector<std::pair<std::string, std::string>> given() const;
 
  private:
   CLI::App& app_;

@@ -114,6 +114,16 @@ void Arguments::flag(const std::string& names, bool& target, const std::string& 
   app_.add_flag(names, target, help);
 }
 
+std::vector<std::pair<std::string, std::string>> Arguments::given() const {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const CLI::Option* option : app_.get_options()) {
+    // positionals have no long name; what they name is read and hashed itself
+    if (option->count() == 0 || option->get_lnames().empty()) continue;
+    out.emplace_back("--" + option->get_lnames().front(), fmt::format("{}", fmt::join(option->results(), "\n")));
+  }
+  return out;
+}
+
 int run_command_line(int argc, const char* const* argv) {
   CLI::App app{"Reconstructs traffic accidents: a scene file becomes a simulation, and the simulation a film."};
   app.name("crashreel");

@@ -143,6 +143,7 @@ void declare_film(Arguments& arguments, FilmArguments& film) {
   arguments.choice("--quality", film.quality, {"draft", "standard", "fine"}, "looks against time");
   arguments.option("-j,--jobs", film.jobs, "N", "processes that draw; default: one a core");
   arguments.flag("--overwrite", film.overwrite, "replace files that exist");
+  arguments.flag("--resume", film.resume, "begin, or go on where the same command was stopped; keeps every finished frame");
 }
 
 FilmPlan plan_film(const FilmArguments& wish, scenes::Scene& scene) {
@@ -159,9 +160,13 @@ FilmPlan plan_film(const FilmArguments& wish, scenes::Scene& scene) {
                        {"version", fmt::format("crashreel {}", CRASHREEL_VERSION)},
                        {"scene", scene.path.filename().string()},
                        {"scene_sha256", scene.sha256}};
-  if (plan.job.container == Container::png_sequence) refuse_existing_frames(plan);
-  if (plan.job.container == Container::mp4) refuse_existing(plan.job.output, wish.overwrite);
-  for (const double time : plan.stills) refuse_existing(still_file(plan, time), wish.overwrite);
+  plan.resume = wish.resume;
+  if (wish.resume && wish.overwrite) throw UsageError("--resume keeps what --overwrite replaces; give one of them");
+  // what is there may be a part of this very run: looked at when its fingerprint is known
+  const bool replace = wish.overwrite || wish.resume;
+  if (plan.job.container == Container::png_sequence && !replace) refuse_existing_frames(plan);
+  if (plan.job.container == Container::mp4) refuse_existing(plan.job.output, replace);
+  for (const double time : plan.stills) refuse_existing(still_file(plan, time), replace);
   return plan;
 }
 

@@ -26,6 +26,7 @@ struct FilmArguments {
   std::string jobs;
   std::vector<std::string> at;
   bool overwrite = false;
+  bool resume = false;
 };
 
 void declare_film(Arguments&, FilmArguments&);
@@ -38,6 +39,7 @@ struct FilmPlan {
   double to = 0;
   int first_frame = -1;  // --frames; -1: open
   int last_frame = -1;
+  bool resume = false;  // keep what is finished
 };
 
 /// Throws UsageError; refuses what exists. With --camera the scene's shots give way to the whole run from that camera.

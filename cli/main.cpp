@@ -3,9 +3,11 @@
 
 #include <cstdio>
 #include <exception>
+#include <new>
 
 #include "cli/command.h"
 #include "cli/exit.h"
+#include "cli/process.h"
 #include "render/error.h"
 #include "scenes/error.h"
 
@@ -19,6 +21,7 @@ int report(const char* message, cli::ExitCode code) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cli::prepare_process();
   try {
     const int code = cli::run_command_line(argc, argv);
     // a full disk or a closed pipe shows only when the buffer is written
@@ -33,6 +36,11 @@ int main(int argc, char** argv) {
     return report(error.what(), cli::kMachineFailed);
   } catch (const render::RenderError& error) {
     return report(error.what(), cli::kMachineFailed);
+  } catch (const cli::Interrupted& stop) {
+    report(stop.what(), cli::kDone);
+    return 128 + stop.signal;
+  } catch (const std::bad_alloc&) {
+    return report("not enough memory; a smaller size, fewer jobs or a longer recording interval need less", cli::kMachineFailed);
   } catch (const std::exception& error) {
     // out of memory, a file system that fails: nothing a scene or a command line could do
     return report(error.what(), cli::kMachineFailed);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/exit.h"
+#include "cli/process.h"
 #include "engine/simulate.h"
 #include "scenes/loader/value.h"
 
@@ -94,12 +95,13 @@ engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan
   options.clock = clock_seconds;
   options.progress = [&progress](double time) {
     progress.at(time);
-    return true;
+    return !interrupted();
   };
   const double start = clock_seconds();
   engine::Recording recording = engine::simulate(scene.model, plan, options);
   recording.wall_s = clock_seconds() - start;
   progress.finish(recording.end_time());
+  check_interrupted();
   if (wish.verbose) tell_costs(recording);
 
   // a run that left something out says so wherever its results go

@@ -51,19 +51,6 @@ class SharedMemory {
   std::size_t size_ = 0;
 };
 
-std::string frame_path(const FilmJob& job, int index) {
-  if (job.container == Container::single_png) return job.output.string();
-  // the pattern has one %0Nd: replaced by hand, user text never reaches printf
-  const std::string pattern = job.output.string();
-  const std::size_t percent = pattern.rfind('%'), d = pattern.find('d', percent == std::string::npos ? 0 : percent);
-  if (percent == std::string::npos || d == std::string::npos)
-    throw RenderError("a PNG sequence needs a pattern like frame_%05d.png, not " + pattern);
-  const std::string digits = pattern.substr(percent + 1, d - percent - 1);
-  const int width = digits.empty() ? 1 : std::atoi(digits.c_str());
-  return pattern.substr(0, percent) + fmt::format("{:0{}}", job.first_frame + index, std::clamp(width, 1, 12)) +
-         pattern.substr(d + 1);
-}
-
 struct Job {
   const Stage& stage;
   const engine::Recording& recording;
@@ -82,10 +69,7 @@ void draw_frame(const Job& j, Renderer& renderer, Image& image, int i) {
     rgba_to_i420(image, j.pictures + j.frame_bytes * static_cast<std::size_t>(i % j.slots));
     return;
   }
-  TextChunks text(j.job.metadata.begin(), j.job.metadata.end());
-  text["time_s"] = fmt::format("{:.6f}", moment.time);
-  text["camera"] = moment.camera;
-  write_png(frame_path(j.job, i), image, text);
+  write_png(frame_path(j.job, j.job.first_frame + i), image, frame_metadata(j.job, moment));
 }
 
 /// A worker's life: its frames from `first` on, in steps of the number of workers.
@@ -144,6 +128,7 @@ class Workers {
                                         WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "its process ended"));
         start(w, i);
       }
+      if (job_.job.look_around) job_.job.look_around();
       usleep(300);
     }
   }
@@ -166,12 +151,31 @@ void refuse_existing(const FilmJob& job, const std::vector<Moment>& moments) {
   if (job.container == Container::mp4)
     paths.push_back(job.output.string());
   else
-    for (int i = 0; i < static_cast<int>(moments.size()); ++i) paths.push_back(frame_path(job, i));
+    for (int i = 0; i < static_cast<int>(moments.size()); ++i) paths.push_back(frame_path(job, job.first_frame + i).string());
   for (const std::string& path : paths)
     if (std::filesystem::exists(path)) throw RenderError(path + " exists already: remove it or add --overwrite");
 }
 
 }  // namespace
+
+std::filesystem::path frame_path(const FilmJob& job, int number) {
+  if (job.container == Container::single_png) return job.output;
+  // the pattern has one %0Nd: replaced by hand, user text never reaches printf
+  const std::string pattern = job.output.string();
+  const std::size_t percent = pattern.rfind('%'), d = pattern.find('d', percent == std::string::npos ? 0 : percent);
+  if (percent == std::string::npos || d == std::string::npos)
+    throw RenderError("a PNG sequence needs a pattern like frame_%05d.png, not " + pattern);
+  const std::string digits = pattern.substr(percent + 1, d - percent - 1);
+  const int width = digits.empty() ? 1 : std::atoi(digits.c_str());
+  return pattern.substr(0, percent) + fmt::format("{:0{}}", number, std::clamp(width, 1, 12)) + pattern.substr(d + 1);
+}
+
+std::map<std::string, std::string> frame_metadata(const FilmJob& job, const Moment& moment) {
+  std::map<std::string, std::string> out = job.metadata;
+  out["time_s"] = fmt::format("{:.6f}", moment.time);
+  out["camera"] = moment.camera;
+  return out;
+}
 
 void make_film(const Stage& stage, const engine::Recording& recording, const std::vector<Moment>& moments, const FilmJob& job,
                const std::function<void(const FilmProgress&)>& progress) {
@@ -200,6 +204,21 @@ void make_film(const Stage& stage, const engine::Recording& recording, const std
     if (progress) progress({i + 1, frames});
   }
   if (encoder) encoder->finish();
+}
+
+void join_film(const std::vector<std::filesystem::path>& pictures, const FilmJob& job) {
+  VideoEncoder encoder(job.output, job.width, job.height, job.fps, job.metadata);
+  std::vector<std::uint8_t> i420(static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height) * 3 / 2);
+  for (const std::filesystem::path& picture : pictures) {
+    if (job.look_around) job.look_around();
+    const Image image = read_png(picture);
+    if (image.width != job.width || image.height != job.height)
+      throw RenderError(
+          fmt::format("{} is {}x{}, not a frame of {}", picture.string(), image.width, image.height, job.output.string()));
+    rgba_to_i420(image, i420.data());
+    encoder.append(i420.data());
+  }
+  encoder.finish();
 }
 
 }  // namespace render

@@ -28,6 +28,7 @@ struct FilmJob {
   int workers = 0;  // 0: one a core
   bool overwrite = false;
   std::map<std::string, std::string> metadata;  // provenance: title, version, scene_sha256 ...
+  std::function<void()> look_around;            // called while waiting for a frame; ends the film by throwing
 };
 
 struct FilmProgress {
@@ -35,8 +36,16 @@ struct FilmProgress {
   int frames = 0;
 };
 
+/// The file of frame `number` of the whole film, where the job makes pictures. Throws RenderError for a pattern without %0Nd.
+std::filesystem::path frame_path(const FilmJob&, int number);
+/// What a picture of this job says of itself.
+std::map<std::string, std::string> frame_metadata(const FilmJob&, const Moment&);
+
 /// Draws every moment and writes the files under temporary names, renamed when whole. Throws RenderError.
 void make_film(const Stage&, const engine::Recording&, const std::vector<Moment>&, const FilmJob&,
                const std::function<void(const FilmProgress&)>& progress = {});
+
+/// The film of pictures drawn before, the same to the byte as if it had been drawn at once. Throws RenderError.
+void join_film(const std::vector<std::filesystem::path>& pictures, const FilmJob&);
 
 }  // namespace render

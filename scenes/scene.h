@@ -25,6 +25,7 @@ struct Scene {
   std::string title;
   std::filesystem::path path;
   std::string sha256;                  // of the file's bytes and the overrides
+  std::string assets_sha256;           // of the library files and meshes it read
   std::vector<std::string> overrides;  // "path.to.key=value" as given
   engine::Model model;
   render::Stage stage;

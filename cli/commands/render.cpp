@@ -8,6 +8,11 @@
 #include "cli/command.h"
 #include "cli/exit.h"
 #include "cli/film_plan.h"
+#include "cli/output/fingerprint.h"
+#include "cli/output/lock.h"
+#include "cli/output/whole_file.h"
+#include "cli/process.h"
+#include "cli/resume.h"
 #include "cli/scene_run.h"
 
 namespace cli {
@@ -69,11 +74,45 @@ Drawn draw_stills(const FilmPlan& plan, const render::Stage& stage, const engine
   for (const double time : plan.stills) {
     render::FilmJob job = plan.job;
     job.output = still_file(plan, time);
-    render::make_film(stage, recording, {still_of(plan, stage, time)}, job);
+    const render::Moment moment = still_of(plan, stage, time);
+    if (!plan.resume || !is_finished(job.output, moment, job)) render::make_film(stage, recording, {moment}, job);
     drawn.files.push_back(job.output.string());
     ++drawn.frames;
   }
   return drawn;
+}
+
+/// Draws stretches of one job under one progress.
+void draw_stretches(const std::vector<Stretch>& stretches, const render::FilmJob& whole, const render::Stage& stage,
+                    const engine::Recording& recording, ShowProgress show) {
+  Progress progress("draw", "frames", count(stretches), show);
+  int done = 0;
+  for (const Stretch& stretch : stretches) {
+    render::FilmJob job = whole;
+    job.first_frame = stretch.first_frame;
+    render::make_film(stage, recording, stretch.moments, job,
+                      [&](const render::FilmProgress& now) { progress.at(done + now.frames_done); });
+    done += static_cast<int>(stretch.moments.size());
+  }
+  progress.finish(done);
+}
+
+/// --resume: every frame goes to the disk first and stays there until the film of them is whole.
+void draw_film_by_frames(const std::vector<Stretch>& stretches, const FilmPlan& plan, const render::Stage& stage,
+                         const engine::Recording& recording, ShowProgress show) {
+  const render::FilmJob frames = frames_job(plan.job);
+  if (!film_is_finished(plan.job)) {
+    make_writable_folder(frames.output.parent_path());
+    draw_stretches(unfinished(stretches, frames), frames, stage, recording, show);
+    std::vector<std::filesystem::path> pictures;
+    for (const Stretch& stretch : stretches) {
+      for (int i = 0; i < static_cast<int>(stretch.moments.size()); ++i)
+        pictures.push_back(render::frame_path(frames, stretch.first_frame + i));
+    }
+    render::join_film(pictures, plan.job);
+  }
+  std::error_code kept;
+  std::filesystem::remove_all(frames.output.parent_path(), kept);
 }
 
 Drawn draw_film(const FilmPlan& plan, const render::Stage& stage, const engine::Recording& recording, ShowProgress show) {
@@ -82,27 +121,24 @@ Drawn draw_film(const FilmPlan& plan, const render::Stage& stage, const engine::
     throw UsageError(fmt::format("no frame lies in the part asked for; the run ends at {:.3f} s and its film has {} frames",
                                  recording.end_time(), render::film(stage, recording, plan.job.fps).size()));
   }
+  const Drawn drawn{{plan.job.output.string()}, count(stretches)};
+  const bool video = plan.job.container == render::Container::mp4;
+  if (video && plan.resume) {
+    draw_film_by_frames(stretches, plan, stage, recording, show);
+    return drawn;
+  }
   // a video is one file whatever was cut out of it; a sequence keeps the numbers of the whole film
-  if (plan.job.container == render::Container::mp4) {
+  if (video) {
     for (std::size_t i = 1; i < stretches.size(); ++i) {
       stretches[0].moments.insert(stretches[0].moments.end(), stretches[i].moments.begin(), stretches[i].moments.end());
     }
     stretches.resize(1);
   }
-  Drawn drawn{{plan.job.output.string()}, 0};
-  Progress progress("draw", "frames", count(stretches), show);
-  for (const Stretch& stretch : stretches) {
-    render::FilmJob job = plan.job;
-    job.first_frame = stretch.first_frame;
-    render::make_film(stage, recording, stretch.moments, job,
-                      [&](const render::FilmProgress& now) { progress.at(drawn.frames + now.frames_done); });
-    drawn.frames += static_cast<int>(stretch.moments.size());
-  }
-  progress.finish(drawn.frames);
+  draw_stretches(plan.resume ? unfinished(stretches, plan.job) : stretches, plan.job, stage, recording, show);
   return drawn;
 }
 
-int render_scene(const RenderWish& wish) {
+int render_scene(const RenderWish& wish, const Arguments& arguments) {
   const double start = clock_seconds();
   scenes::Scene scene = load_scene(wish.scene);
   if (wish.list_cameras) {
@@ -110,12 +146,16 @@ int render_scene(const RenderWish& wish) {
     return kDone;
   }
   // what cannot be drawn or written is told before the work, not after it
-  const FilmPlan plan = plan_film(wish.film, scene);
+  FilmPlan plan = plan_film(wish.film, scene);
+  const bool video = plan.job.container == render::Container::mp4 && plan.stills.empty();
+  plan.job.metadata["fingerprint"] = fingerprint(video ? ResultKind::whole : ResultKind::frame, scene, arguments);
+  plan.job.look_around = check_interrupted;
   if (wish.dry_run) {
     dry_run(scene, plan, wish.scene.json);
     return kDone;
   }
   prepare_output(plan);
+  const OutputLock lock(plan.job.output);
 
   const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
   if (recording.failure) scene.stage.warnings.push_back(fmt::format("the model diverged at {:.3f} s", recording.failure->time));
@@ -149,7 +189,7 @@ std::function<int()> declare_render(Arguments& arguments) {
   declare_film(arguments, wish->film);
   arguments.flag("--list-cameras", wish->list_cameras, "name the scene's cameras and stop");
   arguments.flag("--dry-run", wish->dry_run, "print steps and frames at most, and stop");
-  return [wish] { return render_scene(*wish); };
+  return [wish, arguments] { return render_scene(*wish, arguments); };
 }
 
 }  // namespace cli

@@ -1,11 +1,16 @@
 // crashreel simulate SCENE -o DIR: trajectory.csv, contacts.csv, summary.json.
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/exit.h"
 #include "cli/output/csv.h"
+#include "cli/output/fingerprint.h"
+#include "cli/output/lock.h"
 #include "cli/output/summary.h"
 #include "cli/output/whole_file.h"
 #include "cli/scene_run.h"
@@ -17,18 +22,41 @@ struct SimulateWish {
   SceneArguments scene;
   std::string folder;
   bool overwrite = false;
+  bool resume = false;
 };
 
-int simulate(const SimulateWish& wish) {
+constexpr const char* kFiles[] = {"trajectory.csv", "contacts.csv", "summary.json"};
+
+/// Whether the folder holds the whole result of this run: the summary gets its name last.
+bool is_finished(const std::filesystem::path& folder, const std::string& mark) {
+  std::ifstream file(folder / "summary.json");
+  if (!file) return false;
+  const auto found = nlohmann::json::parse(file, nullptr, false);
+  if (found.is_object() && found.value("fingerprint", nlohmann::json()) == mark) return true;
+  throw UsageError(
+      fmt::format("{} was not made by this scene with these assets, options and version; give --overwrite in place of "
+                  "--resume, or another -o",
+                  (folder / "summary.json").string()));
+}
+
+int simulate(const SimulateWish& wish, const Arguments& arguments) {
   // what cannot be written is told before the work, not after it
   const scenes::Scene scene = load_scene(wish.scene);
   const std::filesystem::path folder = wish.folder;
   make_writable_folder(folder);
-  for (const char* name : {"trajectory.csv", "contacts.csv", "summary.json"}) refuse_existing(folder / name, wish.overwrite);
+  if (wish.resume && wish.overwrite) throw UsageError("--resume keeps what --overwrite replaces; give one of them");
+  for (const char* name : kFiles) refuse_existing(folder / name, wish.overwrite || wish.resume);
+  const OutputLock lock(folder / kFiles[2]);
+  const std::string mark = fingerprint(ResultKind::whole, scene, arguments);
+  if (wish.resume && is_finished(folder, mark)) {
+    fmt::print("{}: finished before\n", folder.string());
+    return kDone;
+  }
 
   const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
   const std::vector<engine::Metric> metrics = engine::measure(scene.model, recording);
-  const nlohmann::ordered_json summary = summary_json(scene, recording, metrics);
+  nlohmann::ordered_json summary = summary_json(scene, recording, metrics);
+  summary["fingerprint"] = mark;
 
   WholeFile trajectory(folder / "trajectory.csv");
   WholeFile contacts(folder / "contacts.csv");
@@ -37,6 +65,9 @@ int simulate(const SimulateWish& wish) {
   write_contacts(recording, contacts);
   summary_file.write(summary.dump(2) + "\n");
   for (WholeFile* file : {&trajectory, &contacts, &summary_file}) file->close();
+  // an old summary must not stand beside a new trajectory, whenever the power fails
+  std::error_code none;
+  std::filesystem::remove(folder / kFiles[2], none);
   for (WholeFile* file : {&trajectory, &contacts, &summary_file}) file->publish();
 
   if (wish.scene.json) {
@@ -56,7 +87,8 @@ std::function<int()> declare_simulate(Arguments& arguments) {
   declare_progress(arguments, wish->scene);
   arguments.required_option("-o,--output", wish->folder, "DIR", "folder for the three files; made if missing");
   arguments.flag("--overwrite", wish->overwrite, "replace files that exist");
-  return [wish] { return simulate(*wish); };
+  arguments.flag("--resume", wish->resume, "begin, or go on where the same command was stopped; keeps a finished result");
+  return [wish, arguments] { return simulate(*wish, arguments); };
 }
 
 }  // namespace cli

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "cli/exit.h"
+#include "render/publish.h"
 
 namespace cli {
 
@@ -53,7 +54,7 @@ void WholeFile::close() {
 }
 
 void WholeFile::publish() {
-  if (std::rename(part_.c_str(), file_.c_str()) != 0) fail("renaming");
+  render::publish(part_, file_);
   published_ = true;
 }
 

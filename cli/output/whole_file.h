@@ -23,7 +23,7 @@ class WholeFile {
   void write(std::string_view text);
   /// Writes out what is buffered; throws MachineError with the reason (disk full).
   void close();
-  /// Gives the file its name. After close.
+  /// Gives the file its name. After close. Throws RenderError.
   void publish();
 
  private:

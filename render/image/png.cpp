@@ -1,8 +1,6 @@
 #include "render/image/png.h"
 
-#include <fcntl.h>
 #include <png.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <cerrno>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "render/error.h"
+#include "render/publish.h"
 
 namespace render {
 namespace {
@@ -73,9 +72,8 @@ void write_png(const std::filesystem::path& path, const Image& image, const Text
           png, const_cast<png_bytep>(image.rgba.data() + static_cast<std::size_t>(4 * image.width) * static_cast<std::size_t>(y)));
     png_write_end(png, info);
     png_destroy_write_struct(&png, &info);
-    if (std::fflush(file.get()) != 0 || fsync(fileno(file.get())) != 0) throw RenderError(what + ": " + std::strerror(errno));
-    file.reset();
-    std::filesystem::rename(part, path);
+    if (std::fclose(file.release()) != 0) throw RenderError(what + ": " + std::strerror(errno));
+    publish(part, path);
   } catch (...) {
     if (png) png_destroy_write_struct(&png, &info);
     file.reset();

@@ -1,14 +1,12 @@
 #include "render/video/encoder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 
 #include "render/error.h"
+#include "render/publish.h"
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -28,21 +26,35 @@ void check(int code, const std::string& what) {
   throw RenderError(what + ": " + text);
 }
 
+/// A name with a colon in it is a file's name, not a protocol's.
+std::string url(const std::string& file) {
+  return "file:" + file;
+}
+
+/// Closes a file written; a full disk shows at the latest here.
+void close_file(AVIOContext*& file, const std::string& name) {
+  avio_flush(file);
+  const int met = file->error;
+  const int closed = avio_closep(&file);
+  check(met, "cannot write " + name);
+  check(closed, "cannot write " + name);
+}
+
 /// Copies the fragmented file into one with its index in front.
 void remux(const std::string& from, const std::string& to, std::int64_t frames,
            const std::map<std::string, std::string>& metadata) {
   AVFormatContext* in = nullptr;
   AVFormatContext* out = nullptr;
-  check(avformat_open_input(&in, from.c_str(), nullptr, nullptr), "cannot read back " + from);
+  check(avformat_open_input(&in, url(from).c_str(), nullptr, nullptr), "cannot read back " + from);
   check(avformat_find_stream_info(in, nullptr), "cannot read back " + from);
-  check(avformat_alloc_output_context2(&out, nullptr, "mp4", to.c_str()), "cannot write " + to);
+  check(avformat_alloc_output_context2(&out, nullptr, "mp4", url(to).c_str()), "cannot write " + to);
   AVStream* stream = avformat_new_stream(out, nullptr);
   check(avcodec_parameters_copy(stream->codecpar, in->streams[0]->codecpar), "cannot write " + to);
   stream->codecpar->codec_tag = 0;
   stream->time_base = in->streams[0]->time_base;
   stream->avg_frame_rate = in->streams[0]->avg_frame_rate;
   for (const auto& [key, value] : metadata) av_dict_set(&out->metadata, key.c_str(), value.c_str(), 0);
-  check(avio_open(&out->pb, to.c_str(), AVIO_FLAG_WRITE), "cannot write " + to);
+  check(avio_open(&out->pb, url(to).c_str(), AVIO_FLAG_WRITE), "cannot write " + to);
   AVDictionary* options = nullptr;
   av_dict_set(&options, "movflags", "faststart+use_metadata_tags", 0);
   check(avformat_write_header(out, &options), "cannot write " + to);
@@ -61,14 +73,9 @@ void remux(const std::string& from, const std::string& to, std::int64_t frames,
   // a film short of frames must not pass for a whole one
   if (copied != frames) throw RenderError(fmt::format("cannot read back {}: {} of {} frames", from, copied, frames));
   check(av_write_trailer(out), "cannot write " + to);
-  check(avio_closep(&out->pb), "cannot write " + to);
+  close_file(out->pb, to);
   avformat_free_context(out);
   avformat_close_input(&in);
-  const int file = open(to.c_str(), O_RDONLY);
-  const bool kept = file >= 0 && fsync(file) == 0;
-  const int reason = errno;
-  if (file >= 0) close(file);
-  if (!kept) throw RenderError("cannot write " + to + ": " + std::strerror(reason));
 }
 
 }  // namespace
@@ -144,7 +151,7 @@ VideoEncoder::VideoEncoder(const std::filesystem::path& output, int width, int h
   const std::string what = "cannot write " + output.string();
   const AVCodec* h264 = avcodec_find_encoder_by_name("libx264");
   if (!h264) throw RenderError(what + ": this libavcodec has no libx264");
-  check(avformat_alloc_output_context2(&m.format, nullptr, "mp4", m.part.c_str()), what);
+  check(avformat_alloc_output_context2(&m.format, nullptr, "mp4", url(m.part).c_str()), what);
   m.stream = avformat_new_stream(m.format, nullptr);
   m.codec = avcodec_alloc_context3(h264);
   m.codec->width = width;
@@ -166,7 +173,7 @@ VideoEncoder::VideoEncoder(const std::filesystem::path& output, int width, int h
   check(avcodec_parameters_from_context(m.stream->codecpar, m.codec), what);
   m.stream->time_base = m.codec->time_base;
   m.stream->avg_frame_rate = rate;
-  check(avio_open(&m.format->pb, m.part.c_str(), AVIO_FLAG_WRITE), what);
+  check(avio_open(&m.format->pb, url(m.part).c_str(), AVIO_FLAG_WRITE), what);
   AVDictionary* options = nullptr;
   av_dict_set(&options, "movflags", "frag_keyframe+empty_moov", 0);
   check(avformat_write_header(m.format, &options), what);
@@ -205,11 +212,22 @@ void VideoEncoder::finish() {
   check(avcodec_send_frame(m.codec, nullptr), "cannot encode " + m.output.string());
   m.drain();
   check(av_write_trailer(m.format), "cannot write " + m.part);
+  close_file(m.format->pb, m.part);
   m.release();
   remux(m.part, m.whole, m.next, m.metadata);
-  std::filesystem::rename(m.whole, m.output);
+  publish(m.whole, m.output);
   std::filesystem::remove(m.part);
   m.finished = true;
+}
+
+std::map<std::string, std::string> read_film_metadata(const std::filesystem::path& film) {
+  av_log_set_level(AV_LOG_QUIET);
+  AVFormatContext* in = nullptr;
+  check(avformat_open_input(&in, url(film.string()).c_str(), nullptr, nullptr), "cannot read " + film.string());
+  std::map<std::string, std::string> out;
+  for (const AVDictionaryEntry* e = nullptr; (e = av_dict_get(in->metadata, "", e, AV_DICT_IGNORE_SUFFIX));) out[e->key] = e->value;
+  avformat_close_input(&in);
+  return out;
 }
 
 }  // namespace render

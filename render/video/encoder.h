@@ -34,4 +34,7 @@ class VideoEncoder {
   std::unique_ptr<Impl> impl_;
 };
 
+/// What a finished film says of itself. Throws RenderError when it cannot be read.
+std::map<std::string, std::string> read_film_metadata(const std::filesystem::path&);
+
 }  // namespace render

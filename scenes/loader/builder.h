@@ -20,6 +20,8 @@ struct Builder {
   std::filesystem::path folder;                                       // of the scene file
   std::map<std::string, std::shared_ptr<const ImportedMesh>> meshes;  // by path: ten cars load one mesh
 
+  std::string assets;  // hashes of the library files and meshes read, in order
+
   std::vector<std::string> declared;  // names of vehicles, persons and bodies in the file, read or not
 
   /// Whether a name, or the person it is a part of, stands in the file: an error in it was told already.
@@ -80,8 +82,10 @@ render::MaterialKind read_material_kind(Reader&, std::string_view key);
 
 /// The library beside the scene format: poses, persons, vehicles. CRASHREEL_HOME first, then where the program was built.
 std::filesystem::path home_folder();
+/// SHA-256 of a file's bytes.
+std::string file_hash(const std::filesystem::path&);
 /// scene's folder first, then the library: `name`.toml under `kind` ("persons"). Empty when there is none.
-std::filesystem::path library_file(const Builder&, const std::string& kind, const std::string& name);
+std::filesystem::path library_file(Builder&, const std::string& kind, const std::string& name);
 std::vector<std::string> library_names(const Builder&, const std::string& kind);
 
 }  // namespace scenes

@@ -42,11 +42,15 @@ const Key kSceneKeys[] = {
 };
 const Section kSceneSection{"", "(top of the file)", "A scene.", kSceneKeys};
 
-std::string hash_of(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream bytes;
   bytes << in.rdbuf();
-  std::string all = bytes.str();
+  return bytes.str();
+}
+
+std::string hash_of(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  std::string all = bytes_of(file);
   for (const std::string& text : overrides) all += '\0' + text;
   return sha256(all);
 }
@@ -85,12 +89,18 @@ std::filesystem::path home_folder() {
   return home && *home ? std::filesystem::path(home) : std::filesystem::path(CRASHREEL_HOME_DEFAULT);
 }
 
-std::filesystem::path library_file(const Builder& builder, const std::string& kind, const std::string& name) {
+std::string file_hash(const std::filesystem::path& file) {
+  return sha256(bytes_of(file));
+}
+
+std::filesystem::path library_file(Builder& builder, const std::string& kind, const std::string& name) {
   if (name.empty() || name.find('/') != std::string::npos) return {};
   std::error_code ignored;
   for (const auto& folder : {builder.folder, builder.folder / kind, home_folder() / "scenes/library" / kind}) {
     const auto file = folder / (name + ".toml");
-    if (std::filesystem::is_regular_file(file, ignored)) return file;
+    if (!std::filesystem::is_regular_file(file, ignored)) continue;
+    builder.assets += file_hash(file);
+    return file;
   }
   return {};
 }
@@ -133,6 +143,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   read_closed_form(builder, r.table("closed_form"));
 
   if (!builder.errors.empty()) throw SceneErrors(builder.errors.lines());
+  builder.scene.assets_sha256 = sha256(builder.assets);
   builder.scene.warnings = builder.errors.warnings();
   builder.scene.stage.title = builder.scene.title;
   builder.scene.stage.provenance = fmt::format("scene {}", builder.scene.sha256.substr(0, 12));

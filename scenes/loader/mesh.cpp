@@ -174,6 +174,7 @@ std::shared_ptr<const ImportedMesh> import_mesh(Builder& builder, Reader& r, std
     r.fail(key, fmt::format("could not be imported: {}", result.problem));
     return nullptr;
   }
+  builder.assets += result.sha256;
   turn_upright(result.parts, extension);
   const int dropped = drop_not_finite(result.parts);
   if (dropped > 0) r.warn(key, fmt::format("has {} triangles with coordinates that are not finite; they are left out", dropped));

@@ -25,6 +25,7 @@ struct RawPart {
 struct CageResult {
   std::vector<RawPart> parts;
   std::string problem;  // empty: imported
+  std::string sha256;   // of everything that came out of it, the files it refers to included
 };
 
 struct CageLimits {

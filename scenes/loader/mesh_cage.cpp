@@ -3,6 +3,8 @@
 // at the mesh's folder. The child sends plain arrays through a pipe; the parent believes none of their lengths.
 #include <fcntl.h>
 #include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -21,6 +23,7 @@
 #include <cstring>
 
 #include "scenes/loader/mesh.h"
+#include "scenes/loader/sha256.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 #define CRASHREEL_ADDRESS_LIMIT 0
@@ -119,6 +122,7 @@ void limit(int resource, rlim_t value) {
     dup2(null, 1);
     dup2(null, 2);
   }
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody reads on from a parent that was killed
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, 0);
   limit(RLIMIT_CPU, static_cast<rlim_t>(limits.cpu_time));
@@ -169,8 +173,8 @@ class Message {
 
 CageResult unpacked(const std::string& bytes) {
   CageResult out;
-  if (bytes.empty()) return {{}, "the import crashed or ran out of its limits; convert the file to OBJ and try again"};
-  if (bytes[0] != 'M') return {{}, bytes.substr(1, 300)};
+  if (bytes.empty()) return {{}, "the import crashed or ran out of its limits; convert the file to OBJ and try again", {}};
+  if (bytes[0] != 'M') return {{}, bytes.substr(1, 300), {}};
   Message message(std::string_view(bytes).substr(1));
   while (message.more()) {
     RawPart part;
@@ -184,11 +188,12 @@ CageResult unpacked(const std::string& bytes) {
     const bool fits = message.good() && values.size() == 4 && part.positions.size() % 3 == 0 && part.indices.size() % 3 == 0 &&
                       (part.normals.empty() || part.normals.size() == part.positions.size()) &&
                       std::all_of(part.indices.begin(), part.indices.end(), [&](std::uint32_t i) { return i < vertices; });
-    if (!fits) return {{}, "the import broke off; convert the file to OBJ and try again"};
+    if (!fits) return {{}, "the import broke off; convert the file to OBJ and try again", {}};
     std::copy_n(values.begin(), 3, part.colour);
     part.opacity = values[3];
     out.parts.push_back(std::move(part));
   }
+  out.sha256 = sha256(bytes);
   return out;
 }
 
@@ -224,11 +229,11 @@ std::string received(int in, pid_t worker, int patience) {
 
 CageResult import_in_cage(const std::filesystem::path& file, const std::filesystem::path& root, const CageLimits& limits) {
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return {{}, std::string("no pipe to the import: ") + std::strerror(errno)};
+  if (pipe2(ends, O_CLOEXEC) != 0) return {{}, std::string("no pipe to the import: ") + std::strerror(errno), {}};
   const pid_t worker = fork();
   if (worker == 0) child(ends[1], file, root, limits);
   close(ends[1]);
-  CageResult out = worker < 0 ? CageResult{{}, std::string("no process for the import: ") + std::strerror(errno)}
+  CageResult out = worker < 0 ? CageResult{{}, std::string("no process for the import: ") + std::strerror(errno), {}}
                               : unpacked(received(ends[0], worker, limits.patience));
   close(ends[0]);
   return out;

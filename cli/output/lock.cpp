@@ -1,0 +1,36 @@
+#include "cli/output/lock.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "cli/exit.h"
+
+namespace cli {
+
+OutputLock::OutputLock(const std::filesystem::path& output) : file_(output.string() + ".lock") {
+  for (;;) {
+    handle_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (handle_ < 0) throw MachineError(fmt::format("writing {}: {}", file_.string(), std::strerror(errno)));
+    if (flock(handle_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      close(handle_);
+      throw MachineError(fmt::format("another run is writing {}; wait for it, or give another -o", output.string()));
+    }
+    // the run before may have removed the file between our opening and locking it; then the lock holds nobody off
+    struct stat found {};
+    if (fstat(handle_, &found) == 0 && found.st_nlink > 0) return;
+    close(handle_);
+  }
+}
+
+OutputLock::~OutputLock() {
+  unlink(file_.c_str());
+  close(handle_);
+}
+
+}  // namespace cli

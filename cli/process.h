@@ -1,0 +1,24 @@
+// The program as a process among others: its standard streams, the signals that stop it.
+#pragma once
+
+#include <stdexcept>
+
+namespace cli {
+
+/// Somebody asked the program to stop (Ctrl-C, a batch system). Exit code 128 + signal, as shells count.
+struct Interrupted : std::runtime_error {
+  explicit Interrupted(int signal);
+  int signal;
+};
+
+/// To be called first. Nothing printed can end up in an output file or end the program, whatever was closed before it was started;
+/// a full disk, a file-size limit or a reader that went away is an error of the call that met it; SIGINT and SIGTERM are noted for
+/// the functions below.
+void prepare_process();
+
+/// Whether a signal asked to stop. Cheap: for loops.
+bool interrupted();
+/// Throws Interrupted if one did.
+void check_interrupted();
+
+}  // namespace cli

@@ -1,0 +1,27 @@
+// --resume: what a run with the same fingerprint has finished is kept, the rest is done. Frames say themselves whose they are, so
+// there is no journal that could be wrong: a file has its final name only when it is whole.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "cli/film_plan.h"
+
+namespace cli {
+
+/// Whether `picture` is there, drawn by a run with the job's fingerprint at this moment. Throws UsageError when it is somebody
+/// else's.
+bool is_finished(const std::filesystem::path& picture, const render::Moment&, const render::FilmJob&);
+
+/// The stretches without the frames that are finished.
+std::vector<Stretch> unfinished(const std::vector<Stretch>&, const render::FilmJob&);
+
+/// Whether the film is there, whole, with the job's fingerprint. Throws UsageError when it is another film.
+bool film_is_finished(const render::FilmJob&);
+
+/// Where the frames of a film are kept until it is whole: OUT.mp4.frames, removed afterwards.
+std::filesystem::path frames_folder(const render::FilmJob&);
+/// The job of drawing those frames.
+render::FilmJob frames_job(const render::FilmJob& film);
+
+}  // namespace cli
