@@ -114,6 +114,14 @@ struct VideoEncoder::Impl {
   std::int64_t next = 0;
   bool finished = false;
 
+  // here and not in the encoder's own destructor: a constructor that throws leaves nothing behind either
+  ~Impl() {
+    release();
+    if (finished || part.empty()) return;
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    std::filesystem::remove(whole, ignored);
+  }
   void drain() {
     for (;;) {
       const int got = avcodec_receive_packet(codec, packet);
@@ -186,13 +194,7 @@ VideoEncoder::VideoEncoder(const std::filesystem::path& output, int width, int h
   m.packet = av_packet_alloc();
 }
 
-VideoEncoder::~VideoEncoder() {
-  impl_->release();
-  if (impl_->finished) return;
-  std::error_code ignored;
-  std::filesystem::remove(impl_->part, ignored);
-  std::filesystem::remove(impl_->whole, ignored);
-}
+VideoEncoder::~VideoEncoder() = default;
 
 void VideoEncoder::append(const std::uint8_t* i420) {
   Impl& m = *impl_;

@@ -95,6 +95,12 @@ void turn_upright(std::vector<RawPart>& parts, const std::string& extension) {
   }
 }
 
+constexpr float kFarthest = 1e6f;  // [m] no accident is larger; volumes of much larger numbers overflow
+
+bool is_sound(float x) {
+  return std::abs(x) <= kFarthest;
+}
+
 /// Triangles with a corner that is not finite cannot be drawn or touched.
 int drop_not_finite(std::vector<RawPart>& parts) {
   int dropped = 0;
@@ -102,7 +108,7 @@ int drop_not_finite(std::vector<RawPart>& parts) {
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i < part.indices.size(); i += 3) {
       bool finite = true;
-      for (std::size_t k = 0; k < 9; ++k) finite = finite && std::isfinite(part.positions[3 * part.indices[i + k / 3] + k % 3]);
+      for (std::size_t k = 0; k < 9; ++k) finite = finite && is_sound(part.positions[3 * part.indices[i + k / 3] + k % 3]);
       if (finite) {
         kept.insert(kept.end(), part.indices.begin() + static_cast<long>(i), part.indices.begin() + static_cast<long>(i) + 3);
       } else {
@@ -111,7 +117,13 @@ int drop_not_finite(std::vector<RawPart>& parts) {
     }
     part.indices = std::move(kept);
     for (float& x : part.positions)
-      if (!std::isfinite(x)) x = 0;
+      if (!is_sound(x)) x = 0;
+    // a normal made of a triangle without area
+    for (std::size_t i = 0; i + 2 < part.normals.size(); i += 3) {
+      float* normal = &part.normals[i];
+      if (!is_sound(normal[0]) || !is_sound(normal[1]) || !is_sound(normal[2]))
+        std::copy_n(std::array{0.0f, 0.0f, 1.0f}.data(), 3, normal);
+    }
   }
   return dropped;
 }
@@ -177,7 +189,9 @@ std::shared_ptr<const ImportedMesh> import_mesh(Builder& builder, Reader& r, std
   builder.assets += result.sha256;
   turn_upright(result.parts, extension);
   const int dropped = drop_not_finite(result.parts);
-  if (dropped > 0) r.warn(key, fmt::format("has {} triangles with coordinates that are not finite; they are left out", dropped));
+  if (dropped > 0)
+    r.warn(key, fmt::format("has {} triangles with coordinates that are not finite or farther than 1000 km; they are left out",
+                            dropped));
   for (const std::string& warning : audit(result.parts, file.filename().string())) r.errors().warn(r.place(key), warning);
   auto imported = std::make_shared<ImportedMesh>();
   imported->look = look_of(result.parts);

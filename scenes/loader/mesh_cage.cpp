@@ -20,8 +20,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 
+#include "scenes/loader/landlock.h"
 #include "scenes/loader/mesh.h"
 #include "scenes/loader/sha256.h"
 
@@ -128,6 +130,7 @@ void limit(int resource, rlim_t value) {
   limit(RLIMIT_CPU, static_cast<rlim_t>(limits.cpu_time));
   limit(RLIMIT_NOFILE, 64);
   if (CRASHREEL_ADDRESS_LIMIT) limit(RLIMIT_AS, kMemory);
+  confine_to(root);  // where the kernel cannot, the rooted file system below is the wall
   std::string bytes;
   try {
     bytes = import_here(file, root);
@@ -189,6 +192,8 @@ CageResult unpacked(const std::string& bytes) {
                       (part.normals.empty() || part.normals.size() == part.positions.size()) &&
                       std::all_of(part.indices.begin(), part.indices.end(), [&](std::uint32_t i) { return i < vertices; });
     if (!fits) return {{}, "the import broke off; convert the file to OBJ and try again", {}};
+    // damaged files have colours that are none
+    for (float& value : values) value = std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : 0.6f;
     std::copy_n(values.begin(), 3, part.colour);
     part.opacity = values[3];
     out.parts.push_back(std::move(part));

@@ -1,0 +1,163 @@
+// What the program does in bad places: streams closed, no descriptors, a file-size limit, two runs at once, signals; and --resume.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/file.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "tests/cli/program.h"
+
+using namespace cli_tests;
+using testing::HasSubstr;
+
+namespace {
+
+const std::vector<std::string> kFilm = {"render", "ball.toml", "--size", "64x64", "--quality", "draft", "--fps", "10", "-j", "1"};
+
+std::vector<std::string> film(const std::vector<std::string>& more) {
+  std::vector<std::string> out = kFilm;
+  out.insert(out.end(), more.begin(), more.end());
+  return out;
+}
+
+/// The program under a shell that prepares its surroundings: "ulimit -n 4; PROGRAM render ...".
+int under_shell(const Folder& folder, const std::string& line) {
+  const std::string command = "cd '" + folder.path().string() + "' && P='" CRASHREEL_PROGRAM "' && " + line;
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+std::vector<std::string> names_in(const std::filesystem::path& folder) {
+  std::vector<std::string> out;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) out.push_back(entry.path().filename().string());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+class Disturbed : public testing::Test {
+ protected:
+  void SetUp() override { folder.write("ball.toml", kBall); }
+  const Folder folder;
+};
+
+}  // namespace
+
+TEST_F(Disturbed, AColonInAFileNameIsNoProtocol) {
+  EXPECT_EQ(run(folder, film({"-o", "a:b.mp4"})).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "a:b.mp4"));
+}
+
+TEST_F(Disturbed, ClosedOrFullStandardErrorCostsNothing) {
+  const std::string line = "$P render ball.toml --size 64x64 --fps 10 -j 1 --progress always -v ";
+  EXPECT_EQ(under_shell(folder, line + "-o closed.mp4 2>&- >/dev/null"), 0);
+  EXPECT_EQ(under_shell(folder, line + "-o full.mp4 2>/dev/full >/dev/null"), 0);
+  EXPECT_EQ(run(folder, {"render", "ball.toml", "--size", "64x64", "--fps", "10", "-o", "open.mp4"}).code, 0);
+  // nothing printed went into a film
+  EXPECT_EQ(contents(folder / "closed.mp4"), contents(folder / "open.mp4"));
+  EXPECT_EQ(contents(folder / "full.mp4"), contents(folder / "open.mp4"));
+}
+
+TEST_F(Disturbed, ResultsThatNobodyCanReadAreAnError) {
+  EXPECT_EQ(under_shell(folder, "$P plan ball.toml >&- 2>/dev/null"), 3);
+  EXPECT_EQ(under_shell(folder, "$P plan ball.toml >/dev/full 2>/dev/null"), 3);
+}
+
+TEST_F(Disturbed, WithoutHomeAndEnvironment) {
+  EXPECT_EQ(under_shell(folder, "env -i $P render ball.toml --size 64x64 --fps 10 -j 1 -o a.mp4 >/dev/null 2>&1"), 0);
+}
+
+TEST_F(Disturbed, TooFewDescriptorsAreToldAndNothingIsLeft) {
+  EXPECT_EQ(under_shell(folder, "ulimit -n 4; $P render ball.toml --size 64x64 -j 1 -o a.mp4 2>message"), 3);
+  EXPECT_THAT(contents(folder / "message"), HasSubstr("a.mp4"));
+  EXPECT_THAT(contents(folder / "message"), HasSubstr("Too many open files"));
+  EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"ball.toml", "message"}));
+}
+
+TEST_F(Disturbed, AFileTooLargeForItsPlaceIsToldAndNothingIsLeft) {
+  // one block of 512 or 1024 bytes: less than any result
+  EXPECT_EQ(under_shell(folder, "ulimit -f 1; $P simulate ball.toml -o out 2>message >/dev/null"), 3);
+  EXPECT_THAT(contents(folder / "message"), HasSubstr("File too large"));
+  EXPECT_TRUE(names_in(folder / "out").empty());
+  EXPECT_EQ(under_shell(folder, "ulimit -f 1; $P render ball.toml --size 64x64 -j 1 -o a.mp4 2>message >/dev/null"), 3);
+  EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"ball.toml", "message", "out"}));
+}
+
+TEST_F(Disturbed, TwoRunsDoNotWriteOneOutput) {
+  const std::string name = (folder / "a.mp4.lock").string();
+  const int other = open(name.c_str(), O_RDWR | O_CREAT, 0666);
+  ASSERT_EQ(flock(other, LOCK_EX | LOCK_NB), 0);
+  const Result refused = run(folder, film({"-o", "a.mp4"}));
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_EQ(refused.err, "crashreel: another run is writing a.mp4; wait for it, or give another -o\n");
+  close(other);
+  // the file alone holds nobody off: its owner may have been killed
+  EXPECT_EQ(run(folder, film({"-o", "a.mp4"})).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(name));
+}
+
+TEST_F(Disturbed, SignalsEndARunWithinTwoSeconds) {
+  // a run of some minutes
+  folder.write("long.toml", ball_with("duration = \"0.4 s\"", "duration = \"4000 s\""));
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const pid_t child = fork();
+    if (child == 0) {
+      if (chdir(folder.path().c_str()) != 0) _exit(99);
+      execl(CRASHREEL_PROGRAM, CRASHREEL_PROGRAM, "simulate", "long.toml", "-q", "-o", "out", nullptr);
+      _exit(98);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    kill(child, signal);
+    const auto asked = std::chrono::steady_clock::now();
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::seconds(2));
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 128 + signal);
+    EXPECT_TRUE(names_in(folder / "out").empty());
+  }
+}
+
+TEST_F(Disturbed, ResumedFramesAreThoseOfAnUndisturbedRun) {
+  ASSERT_EQ(run(folder, film({"-o", "whole"})).code, 0);
+  ASSERT_EQ(run(folder, film({"-o", "part", "--frames", "1:1"})).code, 0);
+  ASSERT_EQ(run(folder, film({"-o", "part", "--resume"})).code, 0);
+  EXPECT_EQ(names_in(folder / "part"), names_in(folder / "whole"));
+  for (const std::string& name : names_in(folder / "whole"))
+    EXPECT_EQ(contents(folder / ("part/" + name)), contents(folder / ("whole/" + name))) << name;
+}
+
+TEST_F(Disturbed, AResumedFilmIsThatOfAnUndisturbedRun) {
+  ASSERT_EQ(run(folder, film({"-o", "whole.mp4"})).code, 0);
+  ASSERT_EQ(run(folder, film({"-o", "resumed.mp4", "--resume"})).code, 0);
+  // it names another file, but holds the same scene: the same bytes
+  EXPECT_EQ(contents(folder / "resumed.mp4"), contents(folder / "whole.mp4"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "resumed.mp4.frames"));
+  EXPECT_EQ(run(folder, film({"-o", "resumed.mp4", "--resume"})).code, 0);
+}
+
+TEST_F(Disturbed, ResumeRefusesWhatIsNotItsOwn) {
+  ASSERT_EQ(run(folder, film({"-o", "frames"})).code, 0);
+  for (const std::vector<std::string>& other :
+       {std::vector<std::string>{"--set", "body.ball.mass=\"3 kg\""}, {"--quality", "fine"}}) {
+    std::vector<std::string> arguments = film({"-o", "frames", "--resume"});
+    arguments.insert(arguments.end(), other.begin(), other.end());
+    const Result refused = run(folder, arguments);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("was not made by this scene with these assets, options and version"));
+  }
+  EXPECT_EQ(run(folder, film({"-o", "frames", "--resume", "--overwrite"})).code, 2);
+}
+
+TEST_F(Disturbed, ResumedResultsAreKeptWhenTheyAreWhole) {
+  ASSERT_EQ(run(folder, {"simulate", "ball.toml", "-o", "out", "-q"}).code, 0);
+  const auto before = std::filesystem::last_write_time(folder / "out/trajectory.csv");
+  EXPECT_EQ(run(folder, {"simulate", "ball.toml", "-o", "out", "-q", "--resume"}).code, 0);
+  EXPECT_EQ(std::filesystem::last_write_time(folder / "out/trajectory.csv"), before);
+  std::filesystem::remove(folder / "out/summary.json");
+  EXPECT_EQ(run(folder, {"simulate", "ball.toml", "-o", "out", "-q", "--resume"}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/summary.json"));
+}

@@ -1,0 +1,139 @@
+#include "tests/fuzz/targets.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string>
+
+#include "cli/exit.h"
+#include "cli/parse.h"
+#include "engine/geometry/triangle_mesh.h"
+#include "render/error.h"
+#include "render/image/png.h"
+#include "scenes/loader/mesh.h"
+#include "scenes/loader/quantity.h"
+#include "scenes/scene.h"
+
+namespace fuzz {
+namespace {
+
+void demand(bool holds, const char* promise) {
+  if (holds) return;
+  std::fprintf(stderr, "broken promise: %s\n", promise);
+  std::abort();
+}
+
+/// The bytes as a file, where a reader takes files only.
+const std::string& file_of(std::string_view bytes, const char* ending) {
+  static std::string name;
+  const char* folder = std::filesystem::is_directory("/dev/shm") ? "/dev/shm" : "/tmp";
+  name = std::string(folder) + "/crashreel_fuzz_" + std::to_string(getpid()) + ending;
+  std::FILE* file = std::fopen(name.c_str(), "wb");
+  demand(file != nullptr, "a temporary file can be made");
+  std::fwrite(bytes.data(), 1, bytes.size(), file);
+  std::fclose(file);
+  return name;
+}
+
+constexpr Target kTargets[] = {{"scene", scene}, {"quantity", quantity}, {"frames", frames}, {"png", png}, {"mesh", mesh}};
+
+}  // namespace
+
+std::span<const Target> targets() {
+  return kTargets;
+}
+
+void scene(std::string_view bytes) {
+  const std::string& file = file_of(bytes, ".toml");
+  try {
+    const scenes::Scene found = scenes::load(file);
+    demand(std::isfinite(found.model.settings.step) && found.model.settings.step > 0, "a loaded scene has a step");
+    for (const engine::Body& body : found.model.bodies) {
+      demand(body.mass > 0 && std::isfinite(body.mass), "a loaded body has a mass");
+      demand(body.X_WB.p.allFinite() && body.X_WB.q.coeffs().allFinite() && body.V_WB.v.allFinite() && body.V_WB.w.allFinite(),
+             "a loaded body is somewhere");
+    }
+  } catch (const scenes::SceneErrors& errors) {
+    demand(!errors.lines.empty(), "a refused scene says why");
+  }
+  std::filesystem::remove(file);
+}
+
+void quantity(std::string_view bytes) {
+  if (bytes.empty()) return;
+  constexpr int kDimensions = static_cast<int>(scenes::Dimension::inertia) + 1;
+  const auto dimension = static_cast<scenes::Dimension>(static_cast<unsigned char>(bytes[0]) % kDimensions);
+  const scenes::Quantity found = scenes::parse_quantity(std::string(bytes.substr(1)), dimension);
+  demand(!found.problem.empty() || std::isfinite(found.value), "a quantity without a problem is a finite number");
+}
+
+void frames(std::string_view bytes) {
+  const std::string text(bytes);
+  try {
+    const auto [first, last] = cli::parse_frames("--frames", text);
+    demand(first >= -1 && last >= -1 && (last < 0 || first <= last), "frames are counted from 0, first to last");
+  } catch (const cli::UsageError&) {
+  }
+  try {
+    demand(cli::parse_time("--at", text) >= 0, "a time is not negative");
+  } catch (const cli::UsageError&) {
+  }
+  try {
+    const auto [width, height] = cli::parse_size("--size", text);
+    demand(width >= 16 && height >= 16, "a size is a size");
+  } catch (const cli::UsageError&) {
+  }
+}
+
+void png(std::string_view bytes) {
+  const std::string& file = file_of(bytes, ".png");
+  try {
+    render::TextChunks text;
+    const render::Image image = render::read_png(file, &text);
+    demand(image.rgba.size() == static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4,
+           "a picture has four bytes a pixel");
+  } catch (const render::RenderError&) {
+  }
+  std::filesystem::remove(file);
+}
+
+void mesh(std::string_view bytes) {
+  // coordinates as the bytes have them, NaN and all; then corners among them
+  scenes::RawPart part;
+  const std::size_t vertices = std::min<std::size_t>(bytes.size() / 16, 64);
+  if (vertices < 3) return;
+  part.positions.resize(3 * vertices);
+  std::memcpy(part.positions.data(), bytes.data(), part.positions.size() * sizeof(float));
+  part.normals.resize(part.positions.size());
+  for (std::size_t i = 3 * vertices * sizeof(float); i < bytes.size(); ++i)
+    part.indices.push_back(static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i]) % vertices));
+  part.indices.resize(part.indices.size() / 3 * 3);
+  std::vector<scenes::RawPart> parts{part};
+  scenes::audit(parts, "m");
+  std::vector<engine::Vec3> corners;
+  std::vector<engine::Triangle> triangles;
+  for (std::size_t i = 0; i + 2 < part.positions.size(); i += 3) {
+    const auto sound = [&](std::size_t k) {
+      return std::abs(part.positions[i + k]) <= 1e6f ? static_cast<double>(part.positions[i + k]) : 0.0;
+    };
+    corners.emplace_back(sound(0), sound(1), sound(2));
+  }
+  const auto corner = [&](std::size_t i) { return static_cast<std::int32_t>(part.indices[i]); };
+  for (std::size_t i = 0; i < part.indices.size(); i += 3) triangles.push_back({corner(i), corner(i + 1), corner(i + 2)});
+  const engine::TriangleMesh solid(std::move(corners), std::move(triangles));
+  demand(solid.triangles().empty() || (solid.bounds().lower.allFinite() && solid.bounds().upper.allFinite()), "a mesh has bounds");
+}
+
+}  // namespace fuzz
+
+#ifdef CRASHREEL_FUZZ_TARGET
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::CRASHREEL_FUZZ_TARGET({reinterpret_cast<const char*>(data), size});
+  return 0;
+}
+#endif
