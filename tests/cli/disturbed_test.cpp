@@ -71,7 +71,7 @@ TEST_F(Disturbed, WithoutHomeAndEnvironment) {
 }
 
 TEST_F(Disturbed, TooFewDescriptorsAreToldAndNothingIsLeft) {
-  EXPECT_EQ(under_shell(folder, "ulimit -n 4; $P render ball.toml --size 64x64 -j 1 -o a.mp4 2>message"), 3);
+  EXPECT_EQ(under_shell(folder, "(ulimit -n 4; exec $P render ball.toml --size 64x64 -j 1 -o a.mp4) 2>message"), 3);
   EXPECT_THAT(contents(folder / "message"), HasSubstr("a.mp4"));
   EXPECT_THAT(contents(folder / "message"), HasSubstr("Too many open files"));
   EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"ball.toml", "message"}));
@@ -100,8 +100,8 @@ TEST_F(Disturbed, TwoRunsDoNotWriteOneOutput) {
 }
 
 TEST_F(Disturbed, SignalsEndARunWithinTwoSeconds) {
-  // a run of some minutes
-  folder.write("long.toml", ball_with("duration = \"0.4 s\"", "duration = \"4000 s\""));
+  // six million steps: a minute
+  folder.write("long.toml", ball_with("duration = \"0.4 s\"", "duration = \"600 s\"\nstep = \"0.1 ms\""));
   for (const int signal : {SIGINT, SIGTERM}) {
     const pid_t child = fork();
     if (child == 0) {

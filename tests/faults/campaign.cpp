@@ -260,7 +260,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "fault_campaign PROGRAM SHIM --faults N --kills N [--seed N]\n");
     return 2;
   }
-  Campaign campaign(argv[1], argv[2], static_cast<unsigned>(seed));
+  // jobs run in folders of their own
+  Campaign campaign(fs::absolute(argv[1]).string(), fs::absolute(argv[2]).string(), static_cast<unsigned>(seed));
   if (!campaign.prepare()) return 1;
   for (long i = 0; i < faults; ++i) campaign.fault();
   for (long i = 0; i < kills; ++i) campaign.strike();
