@@ -6,6 +6,11 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+
+#include "cli/exit.h"
 
 namespace cli {
 namespace {
@@ -67,6 +72,19 @@ void make_messages_harmless() {
   }
 }
 
+/// Libraries that promise not to throw run out of memory all the same; then no catch is reached.
+[[noreturn]] void end_without_memory() {
+  try {
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    constexpr char kMessage[] = "crashreel: not enough memory\n";
+    if (::write(STDERR_FILENO, kMessage, sizeof kMessage - 1) < 0) _exit(kMachineFailed);
+    _exit(kMachineFailed);
+  } catch (...) {
+  }
+  std::abort();
+}
+
 }  // namespace
 
 Interrupted::Interrupted(int number)
@@ -74,6 +92,7 @@ Interrupted::Interrupted(int number)
       signal(number) {}
 
 void prepare_process() {
+  std::set_terminate(end_without_memory);
   fill_standard_descriptors();
   make_messages_harmless();
   signal(SIGPIPE, SIG_IGN);

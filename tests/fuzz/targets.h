@@ -1,4 +1,4 @@
-// What reads text and bytes from strangers, each as one function over any bytes. libFuzzer calls them (tests/fuzz/run), and the
+// What reads text and bytes from strangers, each as one function over any bytes: the tests replay the corpus, and with
 // tests replay the corpus with the ordinary compiler.
 #pragma once
 
