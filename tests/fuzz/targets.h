@@ -1,5 +1,5 @@
-// What reads text and bytes from strangers, each as one function over any bytes: the tests replay the corpus, and with
-// tests replay the corpus with the ordinary compiler.
+// What reads text and bytes from strangers, each as one function over any bytes. The tests replay the corpus; with
+// CRASHREEL_FUZZ_TARGET set to a name of the table, targets.cpp is a libFuzzer target.
 #pragma once
 
 #include <cstddef>
