@@ -40,7 +40,7 @@ Recorder::Recorder(const World& world, const State& state)
 
 void Recorder::watch_events(const World& world, const Constraint& c, double time) {
   const int person = c.record_a >= 0 ? world.model.bodies[c.record_a].person : -1;
-  if (person < 0 || c.impulse[0] <= 0) return;
+  if (person < 0 || world.model.bodies[c.record_a].vehicle >= 0 || c.impulse[0] <= 0) return;
   const double closing = std::max(0.0, -c.u_before[0]);
   auto note = [&](const char* kind) { events_.push_back({time, kind, c.record_a, c.record_b, c.point, closing}); };
   if (c.contact_kind == ContactKind::vehicle) {

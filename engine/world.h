@@ -109,6 +109,7 @@ struct World {
   std::vector<MeshPair> mesh_pairs;
   std::vector<BodyPair> body_pairs;
   std::vector<WheelState> wheels;
+  std::vector<Vec3> joint_load;                           // [N] on the child, per joint; of those that can break
   std::vector<std::vector<SurfacePoint>> surface_points;  // per body with a mesh, for meshes against others
   std::vector<SurfaceContact> point_contacts;             // scratch of those
   std::vector<int> point_scratch;

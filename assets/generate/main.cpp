@@ -5,6 +5,7 @@
 
 #include "assets/generate/car.h"
 #include "assets/generate/trailers.h"
+#include "assets/generate/two_wheelers.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) {
@@ -20,6 +21,11 @@ int main(int argc, char** argv) {
     assets::write_obj(assets::car_trailer(), assets::trailer_paints(), folder + "/car_trailer");
     assets::write_obj(assets::dolly(), assets::trailer_paints(), folder + "/dolly");
     assets::write_obj(assets::drawbar_trailer(), assets::trailer_paints(), folder + "/drawbar_trailer");
+    const auto paints = assets::two_wheeler_paints();
+    assets::write_obj(assets::bicycle(), paints, folder + "/bicycle");
+    assets::write_obj(assets::spoked_wheel(0.34, 0.035, 28), paints, folder + "/bicycle_wheel");
+    assets::write_obj(assets::motorcycle(), paints, folder + "/motorcycle");
+    assets::write_obj(assets::spoked_wheel(0.31, 0.12, 10), paints, folder + "/motorcycle_wheel");
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());
     return 3;

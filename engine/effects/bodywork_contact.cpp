@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/effects/bodywork_contact.h"
 #include "engine/effects/effects.h"
 #include "engine/geometry/mesh_overlap.h"
 #include "engine/geometry/point_mesh.h"
@@ -26,7 +27,7 @@ bool is_mesh(const Body& body) {
 bool can_meet(const Model& model, int a, int b) {
   const Body& A = model.bodies[a];
   const Body& B = model.bodies[b];
-  if (!is_mesh(A) || !is_mesh(B) || (A.fixed && B.fixed)) return false;
+  if (!is_mesh(A) || !is_mesh(B) || (A.fixed && B.fixed) || (A.person >= 0 && A.person == B.person)) return false;
   if (model_between(A.collision_model, B.collision_model) == CollisionModel::kudlich_slibar) return false;
   return std::none_of(model.joints.begin(), model.joints.end(),
                       [&](const Joint& j) { return (j.parent == a && j.child == b) || (j.parent == b && j.child == a); });
@@ -148,17 +149,40 @@ void find_between(World& world, const State& state, int a, int b, int self) {
   }
 }
 
+bool frozen(const World& world, int body) {
+  return !world.awake[body] && !world.model.bodies[body].fixed;  // in the zero condition: that effect watches
+}
+
 void find(World& world, const State& state, int self) {
   const int n = static_cast<int>(world.model.bodies.size());
   for (int a = 0; a < n; ++a) {
     if (!is_mesh(world.model.bodies[a])) continue;
     if (world.awake[a]) find_on_ground(world, state, a, self);
     for (int b = a + 1; b < n; ++b)
-      if ((world.awake[a] || world.awake[b]) && can_meet(world.model, a, b)) find_between(world, state, a, b, self);
+      if (!frozen(world, a) && !frozen(world, b) && can_meet(world.model, a, b)) find_between(world, state, a, b, self);
   }
 }
 
 }  // namespace
+
+const std::vector<SurfaceContact>& contacts_of_meshes(World& world, const State& state, int a, int b) {
+  world.point_contacts.clear();
+  if (world.surface_points.empty() || !can_meet(world.model, a, b)) return world.point_contacts;
+  const double margin = pair_margin(world, state, a, b);
+  const Aabb box_a = box_of(world, state, a), box_b = box_of(world, state, b);
+  const Vec3 low = box_a.lower.cwiseMax(box_b.lower), high = box_a.upper.cwiseMin(box_b.upper);
+  if ((low.array() > high.array() + margin).any()) return world.point_contacts;
+  const auto& B = std::get<MeshShape>(world.model.bodies[b].shape);
+  touch(world, state, a, B.mesh.get(), state.X_WB[b] * B.X_BM, 0, margin, {low, high});
+  if (!world.point_contacts.empty()) return world.point_contacts;
+  const auto& A = std::get<MeshShape>(world.model.bodies[a].shape);
+  touch(world, state, b, A.mesh.get(), state.X_WB[a] * A.X_BM, 0, margin, {low, high});
+  for (SurfaceContact& c : world.point_contacts) {
+    std::swap(c.p_a, c.p_b);
+    c.normal = -c.normal;
+  }
+  return world.point_contacts;
+}
 
 const Effect kBodyworkContactEffect{.name = "bodywork_contact", .called_for = called_for, .begin = begin, .find_contacts = find};
 

@@ -1,20 +1,25 @@
 // Joints that close a ring (a rider's hands on a bar): bilateral rows solved with the contacts.
+#include <cmath>
+
 #include "engine/effects/effects.h"
 #include "engine/solver/joint_rows.h"
 
 namespace engine {
 namespace {
 
+// [s] a hand gives way in some milliseconds: rigid impacts exchange impulses in no time, their force is taken over this
+constexpr double kGrasp = 0.01;
 constexpr double kCorrection = 0.2;  // [-] share of the ring's gap taken out per step
 
 std::optional<std::string> called_for(const Model& model) {
   const std::size_t count = build_topology(model, {}).loops.size();
   if (count == 0) return std::nullopt;
-  return std::to_string(count) + " joints close a loop";
+  return std::to_string(count) + " joints close a loop or can break";
 }
 
 void find(World& world, const State& state, int self) {
   for (const int j : world.topology.loops) {
+    if (state.broken[j]) continue;
     const Joint& joint = world.model.joints[j];
     auto moving = [&](int body) { return body >= 0 && !world.model.bodies[body].fixed ? body : -1; };
     const bool live = (joint.child >= 0 && world.awake[joint.child]) || (joint.parent >= 0 && world.awake[joint.parent]);
@@ -39,8 +44,33 @@ void find(World& world, const State& state, int self) {
   }
 }
 
+/// What each breakable joint carries, as a mean that forgets with kGrasp; above its strength it lets go for good.
+void after_step(World& world, State& state, int self) {
+  const double h = world.step;
+  if (world.joint_load.empty()) return;
+  const double forget = std::exp(-h / kGrasp);
+  for (const int j : world.topology.loops) world.joint_load[j] *= forget;
+  for (const Constraint& c : world.constraints) {
+    if (c.effect != self || c.kind != ConstraintKind::bilateral) continue;
+    const Vec3 direction = c.body_a >= 0 ? Vec3(c.J_a.row(0).head<3>()) : Vec3(-c.J_b.row(0).head<3>());
+    world.joint_load[(c.key >> 8) & 0xffff] += (1 - forget) / h * c.impulse[0] * direction;
+  }
+  for (const int j : world.topology.loops) {
+    const Joint& joint = world.model.joints[j];
+    if (state.broken[j] || world.joint_load[j].norm() <= joint.breaking_force) continue;
+    state.broken[j] = 1;
+    world.events.push_back({state.time, "joint_broken", joint.child, joint.parent, state.X_WB[joint.child] * joint.X_CF.p,
+                            world.joint_load[j].norm()});
+  }
+}
+
+void begin(World& world, const State&, int) {
+  world.joint_load.assign(world.model.joints.size(), Vec3::Zero());
+}
+
 }  // namespace
 
-const Effect kJointLoopsEffect{.name = "joint_loops", .called_for = called_for, .find = find};
+const Effect kJointLoopsEffect{
+    .name = "joint_loops", .called_for = called_for, .begin = begin, .find = find, .after_step = after_step};
 
 }  // namespace engine

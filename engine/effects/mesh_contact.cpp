@@ -13,7 +13,9 @@ bool is_mesh(const Body& body) {
   return std::holds_alternative<MeshShape>(body.shape);
 }
 bool can_meet(const Body& round, const Body& mesh) {
-  return is_round(round) && is_mesh(mesh) && !(round.fixed && mesh.fixed);
+  // a rider and what it rides overlap where it sits: its joints hold the two apart
+  const bool rides = round.person >= 0 && round.person == mesh.person;
+  return is_round(round) && is_mesh(mesh) && !rides && !(round.fixed && mesh.fixed);
 }
 
 std::optional<std::string> called_for(const Model& model) {

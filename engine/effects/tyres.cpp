@@ -150,7 +150,7 @@ void find(World& world, const State& state, int self) {
     wheel.impulse.setZero();
     energy +=
         footing.found ? spring_energy(spec, wheel.static_load, wheel.compression) : spring_energy(spec, wheel.static_load, -droop);
-    if (footing.found) add_wheel(world, state, wheel, footing, i, self);
+    if (footing.found && world.awake[vehicle.body]) add_wheel(world, state, wheel, footing, i, self);
   }
   // what the springs took or gave since the last look is not lost: it leaves the dampers' account
   world.dissipated[self] -= energy - world.spring_energy;

@@ -2,6 +2,7 @@
 // costs a bounding test a step. The first touch by anything but its support releases it (source 000, "zero condition").
 #include <algorithm>
 
+#include "engine/effects/bodywork_contact.h"
 #include "engine/effects/effects.h"
 #include "engine/geometry/hyper_ellipsoid_pair.h"
 
@@ -36,11 +37,26 @@ bool touches(const World& world, const State& state, const SurfaceContact& touch
   return touch.gap - closing * world.step <= 0 && closing > 0;
 }
 
+/// A mount struck by another mesh sets its rider free.
+void watch_mounts(World& world, State& state) {
+  for (std::size_t p = 0; p < world.model.persons.size(); ++p) {
+    const int mount = world.model.persons[p].mount;
+    if (mount < 0 || state.released[p]) continue;
+    for (int other = 0; other < static_cast<int>(world.model.bodies.size()); ++other) {
+      if (other == mount || world.model.bodies[other].person == static_cast<int>(p)) continue;
+      for (const SurfaceContact& touch : contacts_of_meshes(world, state, mount, other))
+        if (!state.released[p] && touches(world, state, touch, mount, other)) release(world, state, mount, other, touch.p_a);
+    }
+  }
+}
+
 void before_step(World& world, State& state, int) {
   if (std::all_of(state.released.begin(), state.released.end(), [](char r) { return r != 0; })) return;
+  watch_mounts(world, state);
   ContactPoints found;
   for (MeshPair& pair : world.mesh_pairs) {
     if (pair.mesh_body < 0 || !waits(world, state, pair.body)) continue;
+    if (world.model.bodies[pair.mesh_body].person == world.model.bodies[pair.body].person) continue;  // what it rides
     const auto& mesh = std::get<MeshShape>(world.model.bodies[pair.mesh_body].shape);
     contacts_with_mesh(std::get<HyperEllipsoid>(world.model.bodies[pair.body].shape), state.X_WB[pair.body], *pair.mesh,
                        state.X_WB[pair.mesh_body] * mesh.X_BM, pair_margin(world, state, pair.body, pair.mesh_body), pair.scratch,
@@ -70,6 +86,8 @@ void after_step(World& world, State& state, int) {
       if (world.awake[b]) continue;
       state.X_WB[b].p += world.step * state.V_WB[b].v;
     }
+    if (const int mount = world.model.persons[p].mount; mount >= 0 && !world.awake[mount])
+      state.X_WB[mount].p += world.step * state.V_WB[mount].v;
   }
 }
 

@@ -38,7 +38,7 @@ struct Joint {
   Pose X_CF;                                // joint frame in the child
   std::array<ArticulationAngle, 3> angles;  // x, y, z as above; a revolute joint uses y only
   PassiveTorque passive = PassiveTorque::none;
-  double breaking_force = std::numeric_limits<double>::infinity();  // [N] a grip or pedal lets go above it
+  double breaking_force = std::numeric_limits<double>::infinity();  // [N] a grip or pedal lets go above it; mean over some 10 ms
 };
 
 }  // namespace engine

@@ -14,6 +14,7 @@ struct Person {
   int head = -1;            // body index, -1: has none
   int torso = -1;
   int hips = -1;          // the root
+  int mount = -1;         // body index of what it rides: that waits in the zero condition with it
   double stature = 1.75;  // [m]
   /// Zero condition: keeps pose and walking velocity at no cost until the first contact with anything but its support.
   bool zero_condition = true;

@@ -1,6 +1,7 @@
 #include "engine/solver/topology.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace engine {
@@ -44,6 +45,10 @@ Forest plant(const Model& model, const std::vector<char>& broken, std::vector<in
   DisjointSets sets(n + 1);  // slot n is the world
   for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
     if (!broken.empty() && broken[j]) continue;
+    if (std::isfinite(model.joints[j].breaking_force)) {
+      loops.push_back(j);
+      continue;
+    }
     const int a = grounded(model.joints[j].parent) ? n : model.joints[j].parent;
     const int b = grounded(model.joints[j].child) ? n : model.joints[j].child;
     if (a == n && b == n) continue;

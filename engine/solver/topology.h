@@ -7,7 +7,7 @@
 
 namespace engine {
 
-/// Bodies in tree order. Joints that close a loop are left to the contact solver.
+/// Bodies in tree order. Joints that close a loop or can break are left to the contact solver, which knows what they carry.
 struct Topology {
   struct Link {
     int body = 0;

@@ -27,6 +27,7 @@ struct Builder {
   /// Whether a name, or the person it is a part of, stands in the file: an error in it was told already.
   bool is_declared(const std::string& name) const;
   std::map<std::string, engine::Vec3> hitches;    // by vehicle: where it tows, from its centre of mass
+  std::map<std::string, engine::Vec3> saddles;    // by vehicle: centre of its rider's hips, from its centre of mass
   int body_index(const std::string& name) const;  // -1: no such body
   std::vector<std::string> body_names() const;
 };

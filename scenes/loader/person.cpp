@@ -57,6 +57,11 @@ const Key kKeys[] = {
      "Of the whole person about its centre of gravity, world axes."},
     {"height", Type::number, Dimension::length, "'0 m'", "Of the lowest point above the ground."},
     {"cg_height", Type::number, Dimension::length, "", "Of the centre of gravity above z = 0, in place of height."},
+    {"rides", Type::text, Dimension::none, "''",
+     "A vehicle with a saddle: the person sits on it in its pose, goes with it, and holds on with hands, feet and seat."},
+    {"grip_force", Type::number, Dimension::force, "'400 N'", "Above it a hand lets go (mean over 10 ms).", kPositive},
+    {"pedal_force", Type::number, Dimension::force, "'400 N'", "Above it a foot leaves its pedal or rest.", kPositive},
+    {"seat_force", Type::number, Dimension::force, "'1.5 kN'", "Above it the rider leaves the saddle.", kPositive},
     {"zero_condition", Type::boolean, Dimension::none, "true", "Keeps pose and velocity at no cost until something touches it."},
     {"appearance", Type::choice, Dimension::none, "'skin'", "Bare ellipsoids, the figure with its joints closed, or the wire grid.",
      kAny, "segments|skin|raster"},
@@ -202,6 +207,52 @@ void add_actor(Builder& builder, const std::string& name, int look, int first_bo
   builder.scene.stage.persons.push_back(std::move(actor));
 }
 
+/// The vehicle ridden, -1: none.
+int find_mount(Builder& builder, Reader& r) {
+  const std::string name = r.text("rides");
+  if (name.empty()) return -1;
+  const int mount = builder.body_index(name);
+  if (mount < 0 || !builder.saddles.contains(name)) {
+    r.fail("rides", mount < 0 ? "is no vehicle of the scene" : "is no vehicle with a saddle");
+    return -1;
+  }
+  for (const char* key : {"position", "heading", "height", "cg_height", "speed", "velocity", "angular_velocity"})
+    if (r.has(key)) r.fail(key, "must not be given for a rider, who goes with the vehicle");
+  if (builder.scene.model.bodies[static_cast<std::size_t>(mount)].person >= 0) r.fail("rides", "has a rider already");
+  return mount;
+}
+
+/// Joints of hands, feet and seat with the mount, breakable; the mount waits in the zero condition with its rider.
+void hold_on(Builder& builder, Reader& r, int mount, engine::Person& person) {
+  engine::Model& model = builder.scene.model;
+  engine::Body& ridden = model.bodies[static_cast<std::size_t>(mount)];
+  person.mount = mount;
+  ridden.person = static_cast<int>(model.persons.size());
+  for (const int index : person.bodies) {
+    const engine::Body& part = model.bodies[static_cast<std::size_t>(index)];
+    const std::string name = part.name.substr(part.name.find('/') + 1);
+    const auto& shape = std::get<engine::HyperEllipsoid>(part.shape);
+    engine::Joint joint;
+    if (name.ends_with("forearm")) {
+      joint.breaking_force = r.number("grip_force");
+      joint.X_CF.p.z() = -0.88 * shape.semi_axes.z();  // the palm
+    } else if (name.ends_with("foot")) {
+      joint.breaking_force = r.number("pedal_force");
+    } else if (name == "hips") {
+      joint.breaking_force = r.number("seat_force");
+      joint.X_CF.p.z() = -shape.semi_axes.z();
+    } else {
+      continue;
+    }
+    joint.name = part.name + "-" + ridden.name;
+    joint.kind = engine::JointKind::spherical;
+    joint.parent = mount;
+    joint.child = index;
+    joint.X_PF = ridden.X_WB.inverse() * part.X_WB * joint.X_CF;
+    model.joints.push_back(std::move(joint));
+  }
+}
+
 }  // namespace
 
 const Section kPersonSection{"person", "[[person]]",
@@ -223,16 +274,25 @@ void read_person(Builder& builder, Reader r) {
   change_segments(r, figure, surfaces);
   change_joints(r, figure);
   const Pose pose = read_pose(builder, r, figure);
-  const double heading = r.number("heading");
+  const int mount = find_mount(builder, r);
+  const engine::Body* ridden = mount < 0 ? nullptr : &model.bodies[static_cast<std::size_t>(mount)];
+  const engine::Vec3 ahead = ridden ? engine::Vec3(ridden->X_WB.q * engine::Vec3::UnitX()) : engine::Vec3::UnitX();
+  const double heading = ridden ? std::atan2(ahead.y(), ahead.x()) : r.number("heading");
   const engine::Quat q_root(Eigen::AngleAxisd(heading, engine::Vec3::UnitZ()) *
                             Eigen::AngleAxisd(pose.pitch, engine::Vec3::UnitY()) *
                             Eigen::AngleAxisd(pose.roll, engine::Vec3::UnitX()));
   std::vector<engine::Pose> X_WB = placed(figure, pose, q_root);
-  set_down(r, model.ground, figure, X_WB);
+  if (ridden) {
+    const engine::Vec3 seat = ridden->X_WB * builder.saddles.at(ridden->name);
+    for (engine::Pose& X : X_WB) X.p += seat;
+  } else {
+    set_down(r, model.ground, figure, X_WB);
+  }
 
   if (r.has("velocity") && r.has("speed")) r.fail("velocity", "must not be given together with speed");
   const engine::Vec3 v =
-      r.vector_if("velocity").value_or(r.number("speed") * engine::Vec3(std::cos(heading), std::sin(heading), 0));
+      ridden ? ridden->V_WB.v
+             : r.vector_if("velocity").value_or(r.number("speed") * engine::Vec3(std::cos(heading), std::sin(heading), 0));
   const engine::Vec3 w = r.vector("angular_velocity");
   const engine::Vec3 cg = centre_of_gravity(figure, X_WB);
   const auto collision = static_cast<engine::CollisionModel>(r.choice("collision"));
@@ -266,6 +326,7 @@ void read_person(Builder& builder, Reader r) {
   person.hips = first;
   person.stature = size.stature;
   person.zero_condition = r.boolean("zero_condition");
+  if (mount >= 0) hold_on(builder, r, mount, person);
   add_actor(builder, person.name, r.choice("appearance"), first, figure, X_WB);
   builder.scene.stage.speeds.emplace_back(first, person.name);
   model.persons.push_back(std::move(person));

@@ -94,6 +94,7 @@ const Key kKeys[] = {
      "ball|turntable"},
     {"towed_by", Type::text, Dimension::none, "''",
      "A vehicle above in the file: coupling is put on its hitch; place and speed are left out, heading is its own unless given."},
+    {"saddle", Type::vector3, Dimension::length, "", "Centre of a rider's hips, in the mesh frame."},
     {"brake", Type::table, Dimension::none, "", "Braking.", kAny, {}, &kBrakeSection},
     {"driver", Type::tables, Dimension::none, "", "What the driver does, act by act.", kAny, {}, &kDriverSection},
     {"path", Type::table, Dimension::none, "", "A line to steer along.", kAny, {}, &kPathSection},
@@ -345,6 +346,7 @@ void read_vehicle(Builder& builder, Reader scene) {
   body.V_WB.w = r.vector("angular_velocity");
   if (const int tower = find_tower(builder, r); tower >= 0 && r.has("coupling"))
     couple(builder, r, tower, r.vector("coupling") - cg, body);
+  if (r.has("saddle")) builder.saddles[vehicle.name] = r.vector("saddle") - cg;
   if (r.has("hitch")) builder.hitches[vehicle.name] = r.vector("hitch") - cg;
   vehicle.body = static_cast<int>(model.bodies.size());
   add_actors(builder, r, vehicle, meshes, X_BM);
