@@ -85,6 +85,27 @@ void Recorder::tally(const World& world, double time, double duration) {
   }
 }
 
+void Recorder::sample(const World& world, const State& state, Recording& recording) {
+  if (world.model.settings.contact_law != ContactLaw::compliant || world.model.persons.empty()) return;
+  if (recording.heads.empty()) {
+    for (int p = 0; p < static_cast<int>(world.model.persons.size()); ++p) {
+      recording.heads.push_back({p, {}, {}});
+      const int head = world.model.persons[p].head;
+      head_velocity_.push_back(head < 0 ? Vec3(Vec3::Zero()) : world.model.bodies[head].V_WB.v);
+    }
+  }
+  const double step = state.time - sampled_;
+  for (std::size_t p = 0; p < world.model.persons.size(); ++p) {
+    const int head = world.model.persons[p].head;
+    if (head < 0) continue;
+    const Vec3& v = state.V_WB[head].v;
+    recording.heads[p].time.push_back(state.time - 0.5 * step);
+    recording.heads[p].acceleration.push_back((v - head_velocity_[p]).norm() / step);
+    head_velocity_[p] = v;
+  }
+  sampled_ = state.time;
+}
+
 void Recorder::watch_rest(const World& world, const State& state) {
   for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
     bool still = true;
@@ -135,8 +156,8 @@ void Recorder::snapshot(const World& world, const State& state, Recording& recor
   for (std::size_t i = 0; i < world.wheels.size(); ++i) {
     const WheelState& w = world.wheels[i];
     const double h = world.step > 0 ? world.step : 1;
-    s.wheels.push_back({w.vehicle, w.wheel, w.hub, w.contact, w.steer, state.wheel_spin[i], w.impulse[0] / h,
-                        w.impulse[1] / h, w.impulse[2] / h, w.slip});
+    s.wheels.push_back({w.vehicle, w.wheel, w.hub, w.contact, w.steer, state.wheel_spin[i], w.impulse[0] / h, w.impulse[1] / h,
+                        w.impulse[2] / h, w.slip});
   }
   s.energies.kinetic = kinetic_energy(world.model, state);
   s.energies.potential = potential_energy(world.model, state) + world.spring_energy;
@@ -165,6 +186,8 @@ void Recorder::finish(const World& world, const State& state, Recording& recordi
                    [](const Event& a, const Event& b) { return a.time < b.time; });
   recording.diagnostics = world.diagnostics;
   recording.diagnostics.max_energy_rise = energy_rise_;
+  // the depth of a compliant contact is a deformation, not an error
+  if (world.model.settings.contact_law == ContactLaw::compliant) return;
   for (const ContactRecord& c : recording.snapshots.back().contacts)
     recording.diagnostics.rest_penetration = std::max(recording.diagnostics.rest_penetration, c.depth);
 }

@@ -15,6 +15,9 @@ class Recorder {
   /// Adds the impulses of the constraints just solved. `duration` [s] of the step, 0 for an instantaneous exchange.
   void tally(const World&, double time, double duration);
 
+  /// End of every step: what snapshots are too seldom for.
+  void sample(const World&, const State&, Recording&);
+
   /// Writes a snapshot with everything tallied since the one before.
   void snapshot(const World&, const State&, Recording&);
 
@@ -41,6 +44,8 @@ class Recorder {
   std::vector<char> support_;                              // per body: carried its person when that was released
   std::vector<double> last_ground_;                        // [s] per person: last time on the ground
   std::size_t exchanges_told_ = 0;
+  std::vector<Vec3> head_velocity_;  // [m/s] per person, at the last sample
+  double sampled_ = 0;               // [s] when that was
   double initial_energy_ = 0;
   double last_energy_ = 0;
   double energy_rise_ = 0;  // [J] largest between two snapshots

@@ -118,6 +118,13 @@ struct Failure {
   std::string message;
 };
 
+/// Acceleration of the centre of a person's head, a sample a step: what head injury criteria integrate. Only with the compliant law.
+struct HeadMotion {
+  int person = 0;
+  std::vector<double> time;          // [s]
+  std::vector<double> acceleration;  // [m/s^2] magnitude
+};
+
 struct Recording {
   std::vector<std::string> body_names;
   std::vector<std::string> vehicle_names;
@@ -125,6 +132,7 @@ struct Recording {
   double interval = 0;                    // [s] between snapshots
   std::vector<Snapshot> snapshots;        // never empty after simulate()
   std::vector<Event> events;
+  std::vector<HeadMotion> heads;
   std::vector<PlanLine> plan;
   std::vector<EffectCost> costs;
   Diagnostics diagnostics;

@@ -75,13 +75,14 @@ Recording simulate(const Model& model, const Plan& plan, const RunOptions& optio
   recording.interval = static_cast<double>(per_snapshot) * h;
   Recorder recorder(world, state);
   recorder.snapshot(world, state, recording);
-  Stepper stepper(model);
+  Stepper stepper(world);
   stepper.on_impulses = [&](double time, double duration) { recorder.tally(world, time, duration); };
   for (long k = 0; k < steps; ++k) {
     double left = h;
     while (left > 1e-9 * h) left -= stepper.advance(world, state, left);
     state.time = static_cast<double>(k + 1) * h;
     ++recording.steps;
+    recorder.sample(world, state, recording);
     if (const int body = diverged_body(state); body >= 0) {
       recording.failure = Failure{state.time, model.bodies[body].name, effect_at(world, body),
                                   "the motion left every physical bound: a smaller step or other properties may help"};

@@ -33,9 +33,17 @@ constexpr double kUnsolved = 0.01;         // [m/s] residual above which the ste
 constexpr double kSmoothTurn = 0.1;        // [rad] of any body in one step of the smooth motion
 constexpr double kLargestTurn = 0.3;       // [rad] in one step of all
 constexpr double kMostParts = 20;
+constexpr double kMostAdaptiveParts = 1000;
+constexpr double kCarried = 0.02;    // [s] over which an error of speed counts as one of place: a bounce is short, its speed lasts
+constexpr double kSpringStep = 0.3;  // [rad] of a compliant contact's spring in one step: it keeps its energy to 1e-5
 
 bool is_contact(const Constraint& c) {
   return c.kind == ConstraintKind::contact;
+}
+
+/// A contact whose depth is a deformation, not an error.
+bool is_compliant(const Constraint& c) {
+  return c.stiffness > 0;
 }
 
 /// Closing speed above which restitution acts and a touch counts as an impact; below, things come to rest.
@@ -45,11 +53,29 @@ double impact_speed(const World& world) {
 
 }  // namespace
 
-Stepper::Stepper(const Model& model)
-    : smooth_(model),
-      force_(model.bodies.size(), Vec6::Zero()),
-      result_(model.bodies.size(), Vec6::Zero()),
-      damping_(model.bodies.size(), Vec6::Zero()) {}
+Stepper::Stepper(World& world)
+    : smooth_(world.model),
+      force_(world.model.bodies.size(), Vec6::Zero()),
+      result_(world.model.bodies.size(), Vec6::Zero()),
+      damping_(world.model.bodies.size(), Vec6::Zero()) {
+  const Settings& settings = world.model.settings;
+  if (settings.scheme == Scheme::adaptive) depth_tolerance_ = std::max(10 * settings.adaptive_tolerance, 2 * kSlop);
+  if (settings.contact_law != ContactLaw::compliant || settings.scheme == Scheme::stepping) return;
+  compliant_.emplace(world.model, [&world](const State& state, double within, std::vector<Constraint>& found) {
+    world.constraints.swap(found);
+    const double step = world.step;
+    world.step = within;
+    for (std::size_t e = 0; e < world.plan.active.size(); ++e) {
+      if (!world.plan.active[e]->find_contacts) continue;
+      const double start = world.options.clock ? world.options.clock() : 0;
+      world.plan.active[e]->find_contacts(world, state, static_cast<int>(e));
+      ++world.costs[e].calls;
+      if (world.options.clock) world.costs[e].wall_s += world.options.clock() - start;
+    }
+    world.step = step;
+    world.constraints.swap(found);
+  });
+}
 
 void Stepper::choose_trees(World& world, const State& state) {
   world.active_trees.clear();
@@ -66,9 +92,10 @@ void Stepper::find_contacts(World& world, const State& state, std::vector<Constr
   world.constraints.clear();
   for (std::size_t e = 0; e < world.plan.active.size(); ++e) {
     const Effect* effect = world.plan.active[e];
-    if (!effect->find_contacts) continue;
+    if (!effect->find_contacts && !effect->find_limits) continue;
+    if (effect->find_contacts && compliant_) continue;
     const double start = world.options.clock ? world.options.clock() : 0;
-    effect->find_contacts(world, state, static_cast<int>(e));
+    (effect->find_contacts ? effect->find_contacts : effect->find_limits)(world, state, static_cast<int>(e));
     ++world.costs[e].calls;
     if (world.options.clock) world.costs[e].wall_s += world.options.clock() - start;
   }
@@ -235,12 +262,32 @@ void Stepper::set_targets(World& world, double h) {
       const Constraint& c = world.constraints[i];
       const double threshold = c.kind == ConstraintKind::limit ? 0.5 : v_impact;  // [rad/s], [m/s]
       const bool hard = c.kind == ConstraintKind::contact || c.kind == ConstraintKind::limit;
-      impact = impact || (hard && c.u_before[0] < -threshold && c.gap + h * std::min(c.u_before[0], c.u_free[0]) < 0);
+      impact = impact ||
+               (hard && !is_compliant(c) && c.u_before[0] < -threshold && c.gap + h * std::min(c.u_before[0], c.u_free[0]) < 0);
     }
     island_has_impact_[k] = impact;
     for (const int i : islands_[k]) {
       Constraint& c = world.constraints[i];
       if (c.kind == ConstraintKind::wheel || c.kind == ConstraintKind::bilateral) continue;  // their effect set it
+      if (is_compliant(c)) {
+        const double smoothing = std::max(1e-3, h * world.model.settings.gravity.norm());
+        const double S = c.gap >= 0 ? c.stiffness
+                                    : compliant_normal_force(c.stiffness, std::max(c.hysteresis, 1e-3), 1, c.u_before[0],
+                                                             ContactPhase::resting, smoothing);
+        if (h * h * S * c.free_response < 1) {
+          // the spring at the mean of its depths at both ends, which neither gains nor loses energy of itself:
+          // L = -h S (gap + h (u_before + u_after) / 4)
+          c.softness = 4 / (h * h * S);
+          c.target = -4 * c.gap / h - c.u_before[0];
+          weight_[i] = 0.5;
+        } else {
+          // a step too long to follow the spring: at its end, which is stable however stiff, L = -h S (gap + h u_after)
+          c.softness = 1 / (h * h * S);
+          c.target = -c.gap / h;
+          weight_[i] = 1;
+        }
+        continue;
+      }
       weight_[i] = impact ? 1.0 : 0.5;
       if (impact) {
         c.target = -std::max(0.0, c.gap) / h;
@@ -291,7 +338,7 @@ void Stepper::push_apart(World& world, const std::vector<int>& island, double h)
   allowed_.clear();
   for (const int i : island) {
     const Constraint& c = world.constraints[i];
-    if (c.kind == ConstraintKind::wheel || c.kind == ConstraintKind::bilateral) {
+    if (c.kind == ConstraintKind::wheel || c.kind == ConstraintKind::bilateral || is_compliant(c)) {
       allowed_.push_back(-std::numeric_limits<double>::infinity());
       continue;
     }
@@ -360,7 +407,7 @@ void Stepper::book(World& world) {
     double work = 0;
     for (int r = 0; r < c.rows; ++r) work += c.impulse[r] * mean[r];
     world.dissipated[c.effect] -= work;
-    if (is_contact(c)) world.diagnostics.max_penetration = std::max(world.diagnostics.max_penetration, -c.gap);
+    if (is_contact(c) && !is_compliant(c)) world.diagnostics.max_penetration = std::max(world.diagnostics.max_penetration, -c.gap);
     if (c.kind == ConstraintKind::limit)
       world.diagnostics.max_joint_angle_error = std::max(world.diagnostics.max_joint_angle_error, -c.gap);
   }
@@ -456,6 +503,75 @@ double Stepper::advance(World& world, State& state, double h) {
   return attempt(world, state, h);
 }
 
+/// The smooth motion over h to end_; with scheme `adaptive` in two halves, and returns the estimated error [m] of the one taken
+/// whole (Richardson: the halves are closer by 2^4).
+double Stepper::integrate(World& world, const State& state, double h) {
+  CompliantContacts* compliant = compliant_ ? &*compliant_ : nullptr;
+  const int parts = static_cast<int>(std::clamp(std::ceil(turning_ * h / kSmoothTurn), 1.0, kMostParts));
+  auto advance_over = [&](double length) {
+    if (compliant) compliant->next_part(length / parts);
+    for (int k = 0; k < parts; ++k) smooth_.advance(world, end_, length / parts, X_, V_, compliant);
+  };
+  auto begin = [&] {
+    end_ = state;
+    end_.time = state.time + h;
+    world.time = state.time;
+    if (compliant) compliant->restart(h);
+  };
+  begin();
+  advance_over(h);
+  if (world.model.settings.scheme != Scheme::adaptive) return 0;
+  X_whole_ = X_;
+  V_whole_ = V_;
+  begin();
+  advance_over(0.5 * h);
+  advance_over(0.5 * h);
+  double error = 0;
+  for (const int tree : world.active_trees)
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      const int b = world.topology.links[l].body;
+      const double turn = 2 * (X_[b].q.coeffs() - X_whole_[b].q.coeffs()).norm();
+      const double place = (X_[b].p - X_whole_[b].p).norm() + world.reach[b] * turn;
+      const double speed = (V_[b].v - V_whole_[b].v).norm() + world.reach[b] * (V_[b].w - V_whole_[b].w).norm();
+      error = std::max(error, std::max(place, kCarried * speed) / 15);
+    }
+  return error;
+}
+
+/// Shortens the step to the first touch, turn or separation of a compliant contact; regula falsi (Illinois) on the step's length.
+bool Stepper::locate_contact_event(World& world, const State& state, double& taken, CompliantContacts::Crossing& crossing) {
+  constexpr double kTight = 1e-12;  // [-] of the step
+  bool any = false;
+  for (int event = 0; event < 8 && compliant_->first_crossing(end_, crossing); ++event) {
+    any = true;
+    double low = 0, high = taken, f_low = crossing.start, f_high = crossing.end;
+    int side = 0;
+    for (int k = 0; k < 50 && high - low > kTight * taken; ++k) {
+      double middle = f_low < 0 ? (low * f_high - high * f_low) / (f_high - f_low) : 0.5 * (low + high);
+      if (!(middle > low && middle < high)) middle = 0.5 * (low + high);
+      integrate(world, state, middle);
+      const double f = compliant_->crossing_at(end_, crossing);
+      if (!std::isfinite(f) || f <= 0) {
+        low = middle;
+        f_low = std::isfinite(f) ? f : f_low;
+        if (side == -1) f_high *= 0.5;
+        side = -1;
+        if (f > -1e-15 && f <= 0) break;
+      } else {
+        high = middle;
+        f_high = f;
+        if (side == 1) f_low *= 0.5;
+        side = 1;
+      }
+    }
+    taken = high;
+    integrate(world, state, taken);
+    CompliantContacts::Crossing earlier;
+    if (!compliant_->first_crossing(end_, earlier) || (earlier.key == crossing.key && earlier.kind == crossing.kind)) break;
+  }
+  return any;
+}
+
 /// A step of at most h from contacts_; halves it until what it leaves at its end is acceptable.
 double Stepper::attempt(World& world, State& state, double h) {
   // cut the step where the next impact with restitution happens
@@ -466,10 +582,22 @@ double Stepper::attempt(World& world, State& state, double h) {
   if (taken != world.step) assemble_constraints(world, state, taken);
   const bool may_halve = taken > world.model.settings.step / kMostParts;
   prepare_resistance(world, state, taken);
-  end_ = state;
-  end_.time = state.time + taken;
-  const int parts = static_cast<int>(std::clamp(std::ceil(turning_ * taken / kSmoothTurn), 1.0, kMostParts));
-  for (int k = 0; k < parts; ++k) smooth_.advance(world, end_, taken / parts, X_, V_);
+  CompliantContacts::Crossing crossing;
+  bool crossed = false;
+  if (compliant_) {
+    compliant_->begin(world, state, world.model.settings.locate_events);
+    if (compliant_->fastest_spring() * taken > kSpringStep)
+      taken = std::max(kSpringStep / compliant_->fastest_spring(), h / kMostAdaptiveParts);
+  }
+  const double error = integrate(world, state, taken);
+  if (error > world.model.settings.adaptive_tolerance && taken > world.model.settings.step / kMostAdaptiveParts) {
+    ++world.diagnostics.substeps;
+    next_step_ = taken * std::clamp(0.9 * std::pow(world.model.settings.adaptive_tolerance / error, 0.2), 0.1, 0.7);
+    assemble_constraints(world, state, next_step_);
+    return attempt(world, state, next_step_);
+  }
+  if (compliant_ && world.model.settings.locate_events) crossed = locate_contact_event(world, state, taken, crossing);
+  if (taken != world.step) assemble_constraints(world, state, taken);
 
   drop_open_rows(world, taken);
   const bool impulses = world.any_damper || !world.constraints.empty();
@@ -500,16 +628,21 @@ double Stepper::attempt(World& world, State& state, double h) {
 
   cuts_ = cut ? cuts_ + 1 : 0;
   if (cut) ++world.diagnostics.substeps;
-  if (next_step_ > 0 && !cut) next_step_ = taken < world.model.settings.step / 2 ? 2 * taken : 0;
+  if (next_step_ > 0 && !cut && !crossed) {
+    const double tolerance = world.model.settings.adaptive_tolerance;
+    const double growth = error > 0 ? std::clamp(0.9 * std::pow(tolerance / error, 0.2), 0.5, 2.0) : 2.0;
+    next_step_ = growth * taken < world.model.settings.step ? growth * taken : 0;
+  }
   if (impulses) {
     world.diagnostics.max_solver_residual = std::max(world.diagnostics.max_solver_residual, residual);
     keep_impulses(world, state);
     book(world);
     if (world.any_damper) book_resistance(world, taken);
-    if (on_impulses) on_impulses(state.time + taken, taken);
   } else {
     state.warm.clear();
   }
+  if (compliant_) compliant_->finish(world, end_, crossed ? &crossing : nullptr, world.constraints);
+  if (on_impulses && !world.constraints.empty()) on_impulses(end_.time, taken);
   world.diagnostics.max_joint_gap = std::max(world.diagnostics.max_joint_gap, gap);
   for (const int tree : world.active_trees)
     for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
@@ -531,10 +664,11 @@ bool Stepper::acceptable(const std::vector<Constraint>& end) const {
   auto deepest = [](const std::vector<Constraint>& list, ConstraintKind kind) {
     double depth = 0;
     for (const Constraint& c : list)
-      if (c.kind == kind) depth = std::max(depth, -c.gap);
+      if (c.kind == kind && !is_compliant(c)) depth = std::max(depth, -c.gap);
     return depth;
   };
-  return deepest(end, ConstraintKind::contact) < std::max(kMayPenetrate, deepest(contacts_, ConstraintKind::contact) + kSlop) &&
+  const double penetrate = std::min(kMayPenetrate, depth_tolerance_);
+  return deepest(end, ConstraintKind::contact) < std::max(penetrate, deepest(contacts_, ConstraintKind::contact) + kSlop) &&
          deepest(end, ConstraintKind::limit) < std::max(kMayExceed, deepest(contacts_, ConstraintKind::limit) + kSlop);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "engine/solver/smooth_motion.h"
 #include "engine/world.h"
@@ -11,7 +12,7 @@ namespace engine {
 /// Buffers of a step, sized once.
 class Stepper {
  public:
-  Stepper(const Model&);
+  Stepper(World&);
 
   /// Advances by at most h; returns the time taken, which is shorter when the step was cut to place an impact.
   double advance(World&, State&, double h);
@@ -22,6 +23,8 @@ class Stepper {
  private:
   void choose_trees(World&, const State&);
   double attempt(World&, State&, double h);
+  double integrate(World&, const State&, double h);
+  bool locate_contact_event(World&, const State&, double& taken, CompliantContacts::Crossing&);
   void find_contacts(World&, const State&, std::vector<Constraint>& found);
   void assemble_constraints(World&, const State&, double h);
   void push_apart(World&, const std::vector<int>& island, double h);
@@ -43,7 +46,10 @@ class Stepper {
   void drop_open_rows(World&, double h);
 
   SmoothMotion smooth_;
-  State end_;  // of the step
+  std::optional<CompliantContacts> compliant_;  // contacts that act as forces in the stages
+  std::vector<Twist> V_whole_;
+  std::vector<Pose> X_whole_;  // adaptive: of the step taken in one
+  State end_;                  // of the step
   std::vector<Pose>& X_ = end_.X_WB;
   std::vector<Twist>& V_ = end_.V_WB;
   std::vector<Constraint> step_constraints_;
@@ -51,7 +57,8 @@ class Stepper {
   std::vector<Constraint> contacts_, end_contacts_;  // found at its start, at its end
   std::vector<int> contact_trees_;                   // trees awake when contacts_ were found
   bool contacts_known_ = false;
-  double next_step_ = 0;  // [s] what the last step suggests, 0: anything
+  double depth_tolerance_ = 1;  // [m] scheme adaptive: what a step may add to a penetration
+  double next_step_ = 0;        // [s] what the last step suggests, 0: anything
   std::vector<Vec6> force_, result_;
   std::vector<std::vector<int>> islands_;
   std::vector<char> island_has_impact_;

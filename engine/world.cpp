@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/laws/compliant_contact.h"
+
 namespace engine {
 
 World::World(const Model& m, const Plan& p, const RunOptions& o)
@@ -57,7 +59,20 @@ void add_contact(World& world, const State& state, const SurfaceContact& touch, 
   if (c.body_a < 0 && c.body_b < 0) return;
   c.record_a = a;
   c.record_b = b;
-  c.point = 0.5 * (touch.p_a + touch.p_b);
+  c.friction = friction;
+  c.restitution = restitution;
+  double share_a = 0.5;  // of the depth that surface a gives way by
+  if (world.model.settings.contact_law == ContactLaw::compliant) {
+    auto stiffness = [&](int body) {
+      return (body >= 0 ? world.model.bodies[body].surface : world.model.ground.surface).stiffness.at(state.time);
+    };
+    const double S_a = stiffness(a), S_b = stiffness(b);
+    c.stiffness = stiffness_in_series(S_a, S_b);
+    c.hysteresis = restitution;
+    c.restitution = 0;
+    share_a = S_b / (S_a + S_b);  // depth_a S_a = depth_b S_b, eq. (81)
+  }
+  c.point = touch.p_a + share_a * (touch.p_b - touch.p_a);
   const Vec3 t1 = touch.normal.unitOrthogonal();
   c.frame << touch.normal, t1, touch.normal.cross(t1);
   auto rows = [&](int body, double sign) {
@@ -74,8 +89,6 @@ void add_contact(World& world, const State& state, const SurfaceContact& touch, 
   for (const int body : {c.body_a, c.body_b})
     if (body >= 0) c.free_response += 1 / world.model.bodies[body].mass;
   c.gap = touch.gap;
-  c.friction = friction;
-  c.restitution = restitution;
   c.key = (static_cast<std::uint64_t>(effect) << 56) | (static_cast<std::uint64_t>(a & 0xffff) << 40) |
           (static_cast<std::uint64_t>(b & 0xffff) << 24) | (touch.key & 0xffffffu);
   c.effect = effect;

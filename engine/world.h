@@ -118,10 +118,13 @@ struct World {
   OverlapScratch overlap;
 
   // this step
+  double time = 0;  // [s] its start
   double step = 0;  // [s] its length
   std::vector<Constraint> constraints;
-  std::vector<JointDamper> dampers;     // per joint
-  std::vector<Resistance> resistances;  // per joint
+  std::vector<JointDamper> dampers;        // per joint
+  std::vector<Resistance> resistances;     // per joint
+  std::vector<char> resistance_in_stages;  // per joint: springs and dampers act in the stages of Runge and Kutta
+  double resistance_power = 0;             // [W] what those take out at the start of the step
   bool any_damper = false;
 
   // for the books, per effect of the plan

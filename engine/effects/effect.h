@@ -18,10 +18,12 @@ struct Effect {
   void (*begin)(World&, const State&, int self) = nullptr;
   /// Start of every step: inputs that follow the clock, dynamic pruning.
   void (*before_step)(World&, State&, int self) = nullptr;
-  /// Appends constraints that follow from poses alone: contacts, joint limits. Called at the end of a step, where it shows how well
-  /// the step kept them; what it found there serves the next step.
+  /// Appends contacts: they follow from poses alone. Called at the end of a step, where it shows how well the step kept them (what
+  /// it found there serves the next step), and in the stages of `rk4` with the compliant law.
   void (*find_contacts)(World&, const State&, int self) = nullptr;
-  /// Appends constraints that follow the clock or the length of the step: wheels, closed loops. Called at its start.
+  /// The same for joint limits, which no stage asks for.
+  void (*find_limits)(World&, const State&, int self) = nullptr;
+  /// Appends constraints that also follow the clock or the length of the step: wheels, closed loops. Called at its start.
   void (*find)(World&, const State&, int self) = nullptr;
   /// Smooth forces at a stage of the integration: adds to `force` (6 per body).
   void (*add_forces)(const World&, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& force) = nullptr;

@@ -62,6 +62,6 @@ void find(World& world, const State& state, int self) {
 
 }  // namespace
 
-const Effect kJointLimitsEffect{.name = "joint_limits", .called_for = called_for, .find_contacts = find};
+const Effect kJointLimitsEffect{.name = "joint_limits", .called_for = called_for, .find_limits = find};
 
 }  // namespace engine

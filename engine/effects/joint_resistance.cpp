@@ -24,6 +24,73 @@ std::optional<std::string> called_for(const Model& model) {
   return std::to_string(count) + " joints have a spring, damping or friction";
 }
 
+/// Schemes rk4 and adaptive evaluate springs and dampers anew in each stage, unless the damping is too stiff for an explicit scheme
+/// at this step (a light hand on a damped wrist): those stay implicit, and so does dry friction, which is not smooth.
+bool in_stages(const Model& model, const Joint& joint) {
+  if (model.settings.scheme == Scheme::stepping) return false;
+  constexpr double kStable = 1.5;  // [-] rate times step
+  double largest_inverse = 0;
+  for (const int b : {joint.parent, joint.child})
+    if (b >= 0 && !model.bodies[b].fixed) largest_inverse += 1 / model.bodies[b].inertia_B.diagonal().minCoeff();
+  for (const ArticulationAngle& a : joint.angles)
+    if (a.damping * largest_inverse * model.settings.step > kStable ||
+        a.stiffness * largest_inverse * model.settings.step * model.settings.step > kStable)
+      return false;
+  return true;
+}
+
+/// Torque of springs and dampers [N m] on the child, world axes.
+Vec3 smooth_torque(const Joint& joint, const JointAngles& now, const Vec3& w_PC) {
+  Vec3 torque = Vec3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const ArticulationAngle& a = joint.angles[i];
+    if (!now.free[i]) continue;
+    const Vec3 g = now.gradient_W.col(i);
+    torque -= (a.stiffness * (now.angle[i] - a.rest) + a.damping * g.dot(w_PC)) * g;
+  }
+  return torque;
+}
+
+void begin(World& world, const State&, int) {
+  world.resistance_in_stages.clear();
+  for (const Joint& joint : world.model.joints)
+    world.resistance_in_stages.push_back(resists(joint) && in_stages(world.model, joint));
+}
+
+void add_forces(const World& world, const std::vector<Pose>& X, const std::vector<Twist>& V, std::vector<Vec6>& force) {
+  for (std::size_t j = 0; j < world.model.joints.size(); ++j) {
+    const Joint& joint = world.model.joints[j];
+    if (!world.resistance_in_stages[j] || !world.awake[joint.child]) continue;
+    const JointAngles now = joint_angles(joint, joint.parent < 0 ? Pose{} : X[joint.parent], X[joint.child]);
+    const Vec3 w_PC = V[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : V[joint.parent].w);
+    const Vec3 torque = smooth_torque(joint, now, w_PC);
+    force[joint.child].tail<3>() += torque;
+    if (joint.parent >= 0) force[joint.parent].tail<3>() -= torque;
+  }
+}
+
+/// Power [W] that springs and dampers evaluated in the stages take out now.
+double power_taken(const World& world, const State& state) {
+  double power = 0;
+  for (std::size_t j = 0; j < world.model.joints.size(); ++j) {
+    const Joint& joint = world.model.joints[j];
+    if (!world.resistance_in_stages[j] || !world.awake[joint.child]) continue;
+    const JointAngles now = joint_angles(joint, joint.parent < 0 ? Pose{} : state.X_WB[joint.parent], state.X_WB[joint.child]);
+    const Vec3 w_PC = state.V_WB[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : state.V_WB[joint.parent].w);
+    power -= smooth_torque(joint, now, w_PC).dot(w_PC);
+  }
+  return power;
+}
+
+void before_step(World& world, State& state, int) {
+  if (world.model.settings.scheme != Scheme::stepping) world.resistance_power = power_taken(world, state);
+}
+
+void after_step(World& world, State& state, int self) {
+  if (world.model.settings.scheme == Scheme::stepping) return;
+  world.dissipated[self] += 0.5 * world.step * (world.resistance_power + power_taken(world, state));
+}
+
 void resist(World& world, const State& state, int self) {
   const double h = world.step;
   for (int j = 0; j < static_cast<int>(world.model.joints.size()); ++j) {
@@ -42,9 +109,14 @@ void resist(World& world, const State& state, int self) {
       const Vec3 g = now.gradient_W.col(i);
       const double rate = g.dot(w_PC);
       const double friction = a.friction_torque / std::max(std::abs(rate), kFrictionRate);
+      if (world.resistance_in_stages[j]) {
+        damper.matrix += h * friction * g * g.transpose();
+        continue;
+      }
       damper.matrix += (h * (a.damping + friction) + h * h * a.stiffness) * g * g.transpose();
       world.resistances[j].torque_W -= a.stiffness * (now.angle[i] - a.rest) * g;
     }
+    if (damper.matrix.isZero(0)) continue;
     damper.present = true;
     world.any_damper = true;
   }
@@ -52,6 +124,12 @@ void resist(World& world, const State& state, int self) {
 
 }  // namespace
 
-const Effect kJointResistanceEffect{.name = "joint_resistance", .called_for = called_for, .resist = resist};
+const Effect kJointResistanceEffect{.name = "joint_resistance",
+                                    .called_for = called_for,
+                                    .begin = begin,
+                                    .before_step = before_step,
+                                    .add_forces = add_forces,
+                                    .resist = resist,
+                                    .after_step = after_step};
 
 }  // namespace engine

@@ -25,6 +25,24 @@ Vec3 approach(const Snapshot& s, const Event& impact) {
 
 }  // namespace
 
+namespace {
+
+/// HIC and 3 ms clip of what the head went through from its first impact on: landing on the road counts too.
+void measure_injury(const Person& person, const HeadMotion& head, double from, std::vector<Metric>& out) {
+  std::vector<double> t, a;
+  for (std::size_t i = 0; i < head.time.size(); ++i) {
+    if (head.time[i] < from - 0.005) continue;
+    t.push_back(head.time[i]);
+    a.push_back(head.acceleration[i] / kGravity);
+  }
+  if (t.size() < 2) return;
+  out.push_back({"hic15", person.name, hic(t, a, 0.015)});
+  out.push_back({"hic36", person.name, hic(t, a, 0.036)});
+  out.push_back({"three_ms_g", person.name, three_ms_clip(t, a)});
+}
+
+}  // namespace
+
 void measure_head(const Model& model, const Recording& recording, int p, std::vector<Metric>& out) {
   const Person& person = model.persons[p];
   for (const Event& e : recording.events) {
@@ -32,6 +50,8 @@ void measure_head(const Model& model, const Recording& recording, int p, std::ve
     out.push_back({"head_impact_s", person.name, e.time});
     const Vec3 v = approach(before(recording, e.time), e);
     out.push_back({"head_impact_speed_mps", person.name, v.norm()});
+    for (const HeadMotion& head : recording.heads)
+      if (head.person == p) measure_injury(person, head, e.time, out);
     if (e.body_b < 0) return;
     const Pose X_WB = recording.at(e.time).bodies[e.body_b].X_WB;
     // a tape from the front has a meaning only for a vehicle whose front runs against the person

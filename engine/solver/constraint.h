@@ -27,6 +27,8 @@ struct Constraint {
   double restitution = 0;         // [-]
   double softness = 0;            // [1/kg] added to the normal's own response: 1 / (dt (k dt + c))
   double target = 0;              // [m/s] what u_0 + softness * impulse must reach
+  double stiffness = 0;           // [N/m] compliant contact, both surfaces in series; 0: Default-Auto
+  double hysteresis = 0;          // [-] compliant contact: share of the energy that comes back
   double free_response = 0;       // [1/kg] contact: of its two bodies were they free of joints
   double rolling_bound = 0;       // [N s] wheel: most that brake can give along t1
   double rolling_drive = 0;       // [N s] wheel: what the engine gives along t1

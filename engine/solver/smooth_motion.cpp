@@ -32,7 +32,8 @@ SmoothMotion::SmoothMotion(const Model& model) : X_(model.bodies.size()), force_
   }
 }
 
-void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const std::vector<Twist>& V, std::vector<Vec6>& a) {
+void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const std::vector<Twist>& V, std::vector<Vec6>& a,
+                                 CompliantContacts* compliant, double weight) {
   const Model& model = world.model;
   for (const int tree : world.active_trees) {
     for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
@@ -43,6 +44,7 @@ void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const
   }
   for (const Effect* effect : world.plan.active)
     if (effect->add_forces) effect->add_forces(world, X, V, force_);
+  if (compliant) compliant->add_forces(world, X, V, weight, force_);
   for (const int tree : world.active_trees) {
     world.smooth.factor(world.topology, tree, X, nullptr);
     world.smooth.set_bias(world.topology, tree, X, V);
@@ -50,12 +52,14 @@ void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const
   }
 }
 
-void SmoothMotion::advance(World& world, const State& state, double h, std::vector<Pose>& X, std::vector<Twist>& V) {
+void SmoothMotion::advance(World& world, const State& state, double h, std::vector<Pose>& X, std::vector<Twist>& V,
+                           CompliantContacts* compliant) {
   constexpr double kNode[4] = {0, 0.5, 0.5, 1};
+  constexpr double kWeight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
   X_ = state.X_WB;
   for (int s = 0; s < 4; ++s) {
     Stage& stage = stages_[s];
-    if (s == 0) stage.V = state.V_WB;
+    stage.V = state.V_WB;
     for (const int tree : world.active_trees) {
       for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
         const int b = world.topology.links[l].body;
@@ -72,7 +76,7 @@ void SmoothMotion::advance(World& world, const State& state, double h, std::vect
         stage.dq[b] = quaternion_rate(q, stage.V[b].w);
       }
     }
-    accelerations(world, X_, stage.V, stage.a);
+    accelerations(world, X_, stage.V, stage.a, compliant, kWeight[s]);
   }
   const auto& [k1, k2, k3, k4] = stages_;
   for (const int tree : world.active_trees) {

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "engine/solver/compliant_contacts.h"
 #include "engine/world.h"
 
 namespace engine {
@@ -16,7 +17,8 @@ class SmoothMotion {
   explicit SmoothMotion(const Model&);
 
   /// Advances the awake bodies by h from `state` under the plan's forces; results for awake bodies only.
-  void advance(World&, const State&, double h, std::vector<Pose>& X, std::vector<Twist>& V);
+  /// `compliant` (may be null) adds the forces of contacts in every stage.
+  void advance(World&, const State&, double h, std::vector<Pose>& X, std::vector<Twist>& V, CompliantContacts* compliant = nullptr);
 
  private:
   struct Stage {
@@ -24,7 +26,8 @@ class SmoothMotion {
     std::vector<Eigen::Vector4d> dq;
     std::vector<Twist> V;
   };
-  void accelerations(World&, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& a);
+  void accelerations(World&, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& a, CompliantContacts*,
+                     double weight);
 
   Stage stages_[4];
   std::vector<Pose> X_;

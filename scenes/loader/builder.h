@@ -69,6 +69,12 @@ render::MaterialKind read_material_kind(Reader&, std::string_view key);
       "",                                                                                                                      \
       "Coulomb coefficient, sets both kinds below. Of two objects the smaller acts.",                                          \
       kNotNegative},                                                                                                           \
+      {"stiffness",                                                                                                            \
+       Type::schedule,                                                                                                         \
+       Dimension::stiffness,                                                                                                   \
+       "",                                                                                                                     \
+       "S of the compliant contact law; two surfaces act in series. Left out: 50 kN/m.",                                       \
+       kPositive},                                                                                                             \
       {"friction_body", Type::schedule, Dimension::none, "", "Coulomb coefficient against every other object.", kNotNegative}, \
       {"friction_ground", Type::schedule, Dimension::none, "", "Coulomb coefficient against the ground.", kNotNegative},       \
       {"restitution",                                                                                                          \

@@ -20,6 +20,8 @@ const Key kKeys[] = {
     {"friction", Type::schedule, Dimension::none, "1",
      "Coulomb coefficient of the ground. Of two objects the smaller acts, so 1 leaves it to the other.", kNotNegative},
     {"restitution", Type::schedule, Dimension::none, "0", "Restitution of the ground. Of two objects the larger acts.", kShare},
+    {"stiffness", Type::schedule, Dimension::stiffness, "'1000 MN/m'", "S of the compliant contact law; two surfaces act in series.",
+     kPositive},
     {"patch", Type::tables, Dimension::none, "", "Where the road is wet or icy.", kAny, {}, &kPatchSection},
     {"terrain", Type::path, Dimension::none, "", "A mesh file in world axes (z up), besides or in place of the plane."},
 };
@@ -35,6 +37,7 @@ void read_ground(Builder& builder, std::optional<Reader> reader) {
   ground.height = r.number("height");
   ground.surface.friction_body = ground.surface.friction_ground = r.schedule("friction");
   ground.surface.restitution_body = ground.surface.restitution_ground = r.schedule("restitution");
+  ground.surface.stiffness = r.schedule("stiffness");
   for (Reader& patch : r.tables("patch")) {
     const engine::Vec3 p = patch.vector("from"), q = patch.vector("to");
     if (p.x() == q.x() || p.y() == q.y()) patch.fail("to", "must differ from the other corner in x and in y");

@@ -23,15 +23,25 @@ const Key kKeys[] = {
     {"record_interval", Type::number, Dimension::time, "'5 ms'", "Time between recorded instants, rounded to whole steps.",
      Range{0, 1, true}},
     {"scheme", Type::choice, Dimension::none, "'stepping'",
-     "Integration: Runge-Kutta 4 for the smooth motion, impulses of all contacts at the end of the step.", kAny, "stepping"},
-    {"contact_law", Type::choice, Dimension::none, "'default_auto'", "Impulses at first touch, at all touching points at once.",
-     kAny, "default_auto"},
+     "Integration. stepping: Runge-Kutta 4 for the smooth motion, contacts, limits and joint resistance implicit at the end of the "
+     "step. "
+     "rk4: joint resistance and compliant contacts too are evaluated anew in each of four stages. "
+     "adaptive: rk4 with steps no longer than `step`, divided until the error is below `adaptive_tolerance`.",
+     kAny, "stepping|rk4|adaptive"},
+    {"adaptive_tolerance", Type::number, Dimension::length, "'0.01 mm'",
+     "Error of one step's smooth motion, and a tenth of the penetration it may leave; scheme adaptive.", kPositive},
+    {"contact_law", Type::choice, Dimension::none, "'default_auto'",
+     "default_auto: surfaces do not give way; impulses at first touch, at all touching points at once, restitution is a ratio of "
+     "speeds. compliant: force = stiffness x depth while closing, restitution x stiffness x depth while parting, so that "
+     "restitution is the share of energy that comes back.",
+     kAny, "default_auto|compliant"},
     {"gravity", Type::number, Dimension::acceleration, "'9.81 m/s^2'", "Acceleration of gravity; 0 for none.", kNotNegative},
     {"slope", Type::number, Dimension::angle, "'0 deg'",
      "Tilts the whole world: the ground stays z = height and gravity turns, so that +x runs downhill at this angle.",
      between(-kRightAngle, kRightAngle)},
     {"solver_tolerance", Type::number, Dimension::speed, "'0.01 mm/s'", "Residual at which the contact solver stops.", kPositive},
-    {"locate_events", Type::boolean, Dimension::none, "true", "Place impacts inside the step."},
+    {"locate_events", Type::boolean, Dimension::none, "true",
+     "Place impacts (and with rk4 touch, turn and separation of compliant contacts) inside the step."},
     {"stop_at_rest", Type::boolean, Dimension::none, "true", "End the run when everything has come to rest."},
     {"effects", Type::table, Dimension::none, "", "Effects forced on or off.", kAny, {}, &kEffectsSection},
 };
@@ -53,6 +63,7 @@ void read_settings(Builder& builder, std::optional<Reader> reader) {
   const double slope = r.number("slope");
   s.gravity = {g * std::sin(slope), 0, -g * std::cos(slope)};
   if (slope == 0) s.gravity = {0, 0, -g};
+  s.adaptive_tolerance = r.number("adaptive_tolerance");
   s.solver_tolerance = r.number("solver_tolerance");
   s.locate_events = r.boolean("locate_events");
   s.stop_at_rest = r.boolean("stop_at_rest");

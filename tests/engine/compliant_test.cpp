@@ -1,0 +1,177 @@
+// The compliant contact law against its closed forms, and what locating its events is worth.
+#include <gtest/gtest.h>
+
+#include "tests/engine/experiment.h"
+
+namespace {
+
+using namespace engine;
+using namespace engine::test;
+
+Model dropped(double e, Scheme scheme, double step) {
+  Model model = on_ground(0.8, step);
+  model.settings.contact_law = ContactLaw::compliant;
+  model.settings.scheme = scheme;
+  model.settings.record_interval = step;
+  model.bodies = {ball(0.1, 1, {0, 0, 1.1})};
+  model.bodies[0].surface.restitution_ground = e;
+  return model;
+}
+
+/// Height [m] the ball would rise to from its first instant in the air after the bounce.
+double rebound(const Recording& run) {
+  for (const Snapshot& s : run.snapshots) {
+    const double z = s.bodies[0].X_WB.p.z() - 0.1, v = s.bodies[0].V_WB.v.z();
+    if (s.time > 0.44 && v > 0 && z > 1e-3) return z + v * v / (2 * kGravity);
+  }
+  return 0;
+}
+
+TEST(CompliantBall, RisesToItsShareOfTheDrop) {
+  // stiff, so that the weight's work over the depth, m g (1 - e) d with d = v sqrt(m/S) = 0.014 mm, is below 0.1 % of e too
+  for (const Scheme scheme : {Scheme::rk4, Scheme::adaptive})
+    for (const double step : {2e-3, 1e-3})
+      for (const double e : {0.1, 0.25, 0.5, 0.9}) {
+        Model model = dropped(e, scheme, step);
+        model.bodies[0].surface.stiffness = 1e13;
+        model.ground.surface.stiffness = 1e11;
+        EXPECT_NEAR(rebound(simulate(model)), e, 1e-3 * e) << "e " << e << " step " << step;
+      }
+}
+
+TEST(CompliantBall, SoftOneLosesWhatItsWeightTakesOverTheDepth) {
+  // 1/2 S d^2 = m g (H + d); what comes back e S d^2/2 lifts the ball to e H - (1 - e) d
+  const double S = 50e3, e = 0.5, H = 1;
+  const double d = (kGravity + std::sqrt(kGravity * kGravity + 2 * S * kGravity * H)) / S;
+  Model model = dropped(e, Scheme::rk4, 1e-3);
+  model.bodies[0].surface.stiffness = S;
+  model.ground.surface.stiffness = 1e13;
+  // a step turns the spring by at most 0.3 rad, over which Runge-Kutta 4 keeps its energy to 1e-5
+  EXPECT_NEAR(rebound(simulate(model)), e * H - (1 - e) * d, 1e-5);
+}
+
+TEST(CompliantBall, SteppingConvergesToIt) {
+  // implicit and of first order: a bounce of some ten steps is right to a few per cent and twice as right at half the step
+  const double S = 20e3, e = 0.5;
+  const double d = (kGravity + std::sqrt(kGravity * kGravity + 2 * S * kGravity)) / S;
+  const double exact = e - (1 - e) * d;
+  double error[2];
+  for (int k = 0; k < 2; ++k) {
+    Model model = dropped(e, Scheme::stepping, k ? 1.25e-4 : 1e-3);
+    model.bodies[0].surface.stiffness = S;
+    model.ground.surface.stiffness = 1e13;
+    error[k] = std::abs(rebound(simulate(model)) - exact);
+  }
+  EXPECT_LT(error[0], 0.05 * exact);
+  EXPECT_LT(error[1], 0.4 * error[0]);
+}
+
+TEST(CompliantBall, ComesToRestUnderItsWeight) {
+  for (const Scheme scheme : {Scheme::stepping, Scheme::rk4}) {
+    Model model = dropped(0.5, scheme, 1e-3);
+    model.settings.duration = 6;
+    model.bodies[0].surface.stiffness = 50e3;
+    model.ground.surface.stiffness = 1e13;
+    const BodyState end = simulate(model).snapshots.back().bodies[0];
+    EXPECT_LT(end.V_WB.v.norm(), 1e-3);
+    // the resting law stands between S and (1 + e)/2 S
+    const double depth = 0.1 - end.X_WB.p.z();
+    EXPECT_GT(depth, 0.99 * kGravity / 50e3);
+    EXPECT_LT(depth, 1.01 * kGravity / (0.75 * 50e3));
+  }
+}
+
+/// A body thrown, turning, that bounces twice: where it is at the end.
+Vec3 thrown(Scheme scheme, bool located, double step, long& stages) {
+  Model model = on_ground(1.2, step);
+  model.settings.contact_law = ContactLaw::compliant;
+  model.settings.scheme = scheme;
+  model.settings.locate_events = located;
+  model.bodies = {ball(0.12, 5, {0, 0, 0.8})};
+  model.bodies[0].V_WB = {{6, 0, 2}, {0, 3, 0}};
+  model.bodies[0].surface.restitution_ground = 0.5;
+  model.bodies[0].surface.friction_ground = 0.3;
+  model.bodies[0].surface.stiffness = 20e3;
+  const Recording run = simulate(model);
+  for (const EffectCost& cost : run.costs)
+    if (cost.effect == "ground_contact") stages = cost.calls;  // looks for contacts: the work of a run whatever its scheme
+  return run.snapshots.back().bodies[0].X_WB.p;
+}
+
+TEST(LocatedEvents, AreWorthFiftyTimesThePlainSchemeAtEqualCost) {
+  long work = 0, unused = 0;
+  const Vec3 exact = thrown(Scheme::rk4, true, 2.5e-5, unused);
+  const double located = (thrown(Scheme::rk4, true, 1e-3, work) - exact).norm();
+  // plain steps that cost at least as much
+  double step = 1e-3, plain = 0;
+  for (long spent = 0; spent < work; step *= 0.8) plain = (thrown(Scheme::rk4, false, step, spent) - exact).norm();
+  RecordProperty("gain", std::to_string(plain / located));
+  EXPECT_GT(plain, 50 * located) << "plain " << plain << " located " << located << " step " << step;
+}
+
+TEST(Adaptive, HoldsItsTolerance) {
+  long unused = 0;
+  const Vec3 exact = thrown(Scheme::rk4, true, 2.5e-5, unused);
+  Model model = on_ground(1.2, 0.01);
+  double last = 1;
+  for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+    model.settings.contact_law = ContactLaw::compliant;
+    model.settings.scheme = Scheme::adaptive;
+    model.settings.adaptive_tolerance = tolerance;
+    model.bodies = {ball(0.12, 5, {0, 0, 0.8})};
+    model.bodies[0].V_WB = {{6, 0, 2}, {0, 3, 0}};
+    model.bodies[0].surface.restitution_ground = 0.5;
+    model.bodies[0].surface.friction_ground = 0.3;
+    model.bodies[0].surface.stiffness = 20e3;
+    const double error = (simulate(model).snapshots.back().bodies[0].X_WB.p - exact).norm();
+    EXPECT_LT(error, std::max(300 * tolerance, 1e-6)) << tolerance;  // some tens of steps, carried over half a second
+    EXPECT_LT(error, last);
+    last = error + 1e-9;
+  }
+}
+
+TEST(Rk4, IsOfFourthOrderWithJointSpringsAndDampers) {
+  auto swung = [](double step) {
+    Model model = free_space(0.5, step);
+    model.settings.gravity = {0, 0, -kGravity};
+    model.settings.scheme = Scheme::rk4;
+    model.bodies = {inert(2, {0.02, 0.03, 0.01}, {0, 0, -0.3}), inert(1, {0.01, 0.012, 0.004}, {0, 0, -0.8})};
+    model.joints = {joint_at(model, JointKind::spherical, -1, 0, {0, 0, 0}),
+                    joint_at(model, JointKind::ragdoll, 0, 1, {0, 0, -0.6})};
+    model.bodies[0].V_WB.w = {1, 2, 0.5};
+    model.bodies[0].V_WB.v = model.bodies[0].V_WB.w.cross(Vec3(0, 0, -0.3));
+    model.bodies[1].V_WB.w = model.bodies[0].V_WB.w;
+    model.bodies[1].V_WB.v = model.bodies[0].V_WB.w.cross(Vec3(0, 0, -0.8));
+    for (ArticulationAngle& a : model.joints[1].angles) a.stiffness = 3, a.damping = 0.05;
+    return simulate(model).snapshots.back().bodies[1].X_WB.p;
+  };
+  const Vec3 exact = swung(1.0 / 8192);
+  const double coarse = (swung(1.0 / 256) - exact).norm(), fine = (swung(1.0 / 512) - exact).norm();
+  EXPECT_NEAR(std::log2(coarse / fine), 4, 0.3);
+}
+
+TEST(HeadInjury, IsMeasuredWithTheCompliantLaw) {
+  // a head-like ball against a wall-less world cannot be struck: the series itself is tested, sample by sample against dv/dt
+  Model model = dropped(0.5, Scheme::rk4, 1e-4);
+  Person person;
+  person.name = "person";
+  person.bodies = {0};
+  person.head = 0;
+  person.zero_condition = false;
+  model.bodies[0].person = 0;
+  model.bodies[0].surface.stiffness = 50e3;
+  model.persons = {person};
+  const Recording run = simulate(model);
+  ASSERT_EQ(run.heads.size(), 1u);
+  double sum = 0, peak = 0;
+  for (std::size_t i = 0; i < run.heads[0].time.size(); ++i) {
+    if (std::abs(run.heads[0].time[i] - 0.46) < 0.02) sum += run.heads[0].acceleration[i] * 1e-4;
+    peak = std::max(peak, run.heads[0].acceleration[i]);
+  }
+  const double v = std::sqrt(2 * kGravity);
+  // the change of speed in the bounce, and S d/m - g at the turn
+  EXPECT_NEAR(sum, v * (1 + std::sqrt(0.5)), 0.06 * v);
+  EXPECT_NEAR(peak, v * std::sqrt(50e3), 0.03 * v * std::sqrt(50e3));
+}
+
+}  // namespace
