@@ -8,7 +8,6 @@
 
 #include "cli/exit.h"
 #include "cli/output/whole_file.h"
-#include "cli/parse.h"
 #include "scenes/loader/value.h"
 
 namespace cli {
@@ -53,11 +52,13 @@ void choose_container(const FilmArguments& wish, const scenes::Scene& scene, Fil
     throw UsageError(fmt::format("-o is \"{}\", --at draws PNGs; name a file that ends in .png", name));
   } else if (extension == ".mp4") {
     plan.job.container = Container::mp4;
+  } else if (extension == ".mkv") {
+    plan.job.container = Container::mkv;
   } else if (extension.empty() || fs::is_directory(path)) {
     plan.job.output = path / "frame_%05d.png";
     plan.job.container = Container::png_sequence;
   } else {
-    throw UsageError(fmt::format("-o is \"{}\", must end in .mp4 or .png, or name a folder", name));
+    throw UsageError(fmt::format("-o is \"{}\", must end in .mp4, .mkv or .png, or name a folder", name));
   }
 }
 
@@ -90,6 +91,7 @@ void choose_camera(const FilmArguments& wish, scenes::Scene& scene) {
                                    [&wish](const render::Camera& camera) { return camera.name == wish.camera; });
   std::rotate(scene.stage.cameras.begin(), chosen, chosen + 1);
   scene.stage.shots.clear();
+  scene.stage.cards.clear();
 }
 
 void choose_times(const FilmArguments& wish, const scenes::Scene& scene, FilmPlan& plan) {
@@ -104,7 +106,7 @@ void choose_times(const FilmArguments& wish, const scenes::Scene& scene, FilmPla
   plan.to = wish.to.empty() ? duration : parse_time("--to", wish.to);
   if (plan.to <= plan.from)
     throw UsageError(fmt::format("--from {} s to {} s holds no time; the scene lasts {} s", plan.from, plan.to, duration));
-  if (!wish.frames.empty()) std::tie(plan.first_frame, plan.last_frame) = parse_frames("--frames", wish.frames);
+  if (!wish.frames.empty()) plan.frames = parse_frames("--frames", wish.frames);
 }
 
 /// Whether `name` is what the pattern's %0Nd makes of some number.
@@ -131,13 +133,14 @@ void refuse_existing_frames(const FilmPlan& plan) {
 }  // namespace
 
 void declare_film(Arguments& arguments, FilmArguments& film) {
-  arguments.option("-o,--output", film.output, "OUT",
-                   "OUT.mp4, a folder or pattern (frame_%05d.png), or one PNG with --at; default: the scene's name");
+  arguments.option(
+      "-o,--output", film.output, "OUT",
+      "OUT.mp4, OUT.mkv (lossless), a folder or pattern (frame_%05d.png), or one PNG with --at; default: the scene's name");
   arguments.repeatable("--at", film.at, "TIME", "draw a still at this simulated time: 0.2s");
   arguments.option("--camera", film.camera, "NAME", "the whole run from this camera instead of the scene's shots");
   arguments.option("--from", film.from, "TIME", "leave out what comes before this simulated time");
   arguments.option("--to", film.to, "TIME", "leave out what comes after it");
-  arguments.option("--frames", film.frames, "A:B", "only these frames of the film, counted from 0, both included");
+  arguments.option("--frames", film.frames, "LIST", "only these frames of the film, counted from 0: 7, 1-100, 1-100x5, 10-, lists");
   arguments.option("--fps", film.fps, "N", "frames a second");
   arguments.option("--size", film.size, "WxH", "pixels");
   arguments.choice("--quality", film.quality, {"draft", "standard", "fine"}, "looks against time");
@@ -165,7 +168,7 @@ FilmPlan plan_film(const FilmArguments& wish, scenes::Scene& scene) {
   // what is there may be a part of this very run: looked at when its fingerprint is known
   const bool replace = wish.overwrite || wish.resume;
   if (plan.job.container == Container::png_sequence && !replace) refuse_existing_frames(plan);
-  if (plan.job.container == Container::mp4) refuse_existing(plan.job.output, replace);
+  if (render::is_video(plan.job.container)) refuse_existing(plan.job.output, replace);
   for (const double time : plan.stills) refuse_existing(still_file(plan, time), replace);
   return plan;
 }
@@ -174,25 +177,24 @@ void prepare_output(const FilmPlan& plan) {
   make_writable_folder(plan.job.output.parent_path());
 }
 
-std::vector<Stretch> frames_of(const FilmPlan& plan, const render::Stage& stage, const engine::Recording& recording) {
+Selection frames_of(const FilmPlan& plan, const render::Stage& stage, const engine::Recording& recording) {
   const std::vector<render::Moment> all = render::film(stage, recording, plan.job.fps);
   constexpr double kRounding = 1e-9;  // [s] frame times are sums of 1/fps
-  std::vector<Stretch> out;
-  bool going_on = false;
+  Selection out;
   for (int i = 0; i < static_cast<int>(all.size()); ++i) {
     const render::Moment& moment = all[static_cast<std::size_t>(i)];
-    const bool wanted = moment.time >= plan.from - kRounding && moment.time <= plan.to + kRounding &&
-                        (plan.first_frame < 0 || i >= plan.first_frame) && (plan.last_frame < 0 || i <= plan.last_frame);
-    if (wanted && !going_on) out.push_back({i, {}});
-    if (wanted) out.back().moments.push_back(moment);
-    going_on = wanted;
+    const bool listed = plan.frames.empty() || std::any_of(plan.frames.begin(), plan.frames.end(),
+                                                           [i](const FrameRange& range) { return range.holds(i); });
+    if (!listed || moment.time < plan.from - kRounding || moment.time > plan.to + kRounding) continue;
+    out.numbers.push_back(i);
+    out.moments.push_back(moment);
   }
   return out;
 }
 
 render::Moment still_of(const FilmPlan&, const render::Stage& stage, double time) {
   for (const render::Shot& shot : stage.shots) {
-    if (time >= shot.from && time <= shot.to) return {time, shot.camera, 1};
+    if (time >= shot.from && time <= shot.to) return {time, shot.camera, 1, shot.layout, shot.second};
   }
   return {time, stage.cameras.front().name, 1};
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/arguments.h"
+#include "cli/parse.h"
 #include "engine/recording.h"
 #include "render/arrange.h"
 #include "render/film.h"
@@ -37,9 +38,8 @@ struct FilmPlan {
   std::vector<double> stills;  // --at; empty: a film
   double from = 0;
   double to = 0;
-  int first_frame = -1;  // --frames; -1: open
-  int last_frame = -1;
-  bool resume = false;  // keep what is finished
+  std::vector<FrameRange> frames;  // --frames; empty: all
+  bool resume = false;             // keep what is finished
 };
 
 /// Throws UsageError; refuses what exists. With --camera the scene's shots give way to the whole run from that camera.
@@ -48,14 +48,14 @@ FilmPlan plan_film(const FilmArguments&, scenes::Scene&);
 /// Makes the folders the film goes into. Throws MachineError when they cannot be written.
 void prepare_output(const FilmPlan&);
 
-/// A stretch of consecutive frames of the whole film.
-struct Stretch {
-  int first_frame = 0;
+/// Frames of the whole film, in order, with their numbers in it.
+struct Selection {
+  std::vector<int> numbers;
   std::vector<render::Moment> moments;
 };
 
-/// The frames asked for. Several stretches where the scene's shots show the same time twice and --from or --to cut it.
-std::vector<Stretch> frames_of(const FilmPlan&, const render::Stage&, const engine::Recording&);
+/// The frames asked for.
+Selection frames_of(const FilmPlan&, const render::Stage&, const engine::Recording&);
 
 /// The moment of a still: seen as the film would show that time.
 render::Moment still_of(const FilmPlan&, const render::Stage&, double time);

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "cli/exit.h"
 #include "scenes/loader/quantity.h"
@@ -16,6 +18,29 @@ template <typename Number>
 bool read_whole(std::string_view text, Number& out) {
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), out);
   return problem == std::errc() && end == text.data() + text.size() && !text.empty();
+}
+
+/// One entry of a list of frames; nothing when it is none.
+std::optional<FrameRange> read_range(std::string_view text) {
+  FrameRange range;
+  const std::size_t dash = text.find('-');
+  std::size_t separator = dash;
+  if (dash == std::string_view::npos) separator = text.find(':');  // FIRST:LAST
+  if (separator == std::string_view::npos) {
+    if (!read_whole(text, range.first) || range.first < 0) return std::nullopt;
+    range.last = range.first;
+    return range;
+  }
+  std::string_view first = text.substr(0, separator), last = text.substr(separator + 1);
+  const std::size_t step = last.find_first_of("x:");
+  if (step != std::string_view::npos) {
+    if (!read_whole(last.substr(step + 1), range.step) || range.step < 1) return std::nullopt;
+    last = last.substr(0, step);
+  }
+  if (first.empty() && last.empty()) return std::nullopt;
+  if (!first.empty() && (!read_whole(first, range.first) || range.first < 0)) return std::nullopt;
+  if (!last.empty() && (!read_whole(last, range.last) || range.last < range.first)) return std::nullopt;
+  return range;
 }
 
 constexpr int kLargestSide = 16384;  // [px] what the renderer's targets can hold
@@ -48,18 +73,20 @@ std::pair<int, int> parse_size(const std::string& option, const std::string& tex
   return {width, height};
 }
 
-std::pair<int, int> parse_frames(const std::string& option, const std::string& text) {
-  const std::size_t colon = text.find(':');
-  int first = -1;
-  int last = -1;
-  const std::string_view all = text;
-  bool good = colon != std::string::npos && text.size() > 1;
-  if (good && colon > 0) good = read_whole(all.substr(0, colon), first) && first >= 0;
-  if (good && colon + 1 < text.size()) good = read_whole(all.substr(colon + 1), last) && last >= 0;
-  if (!good || (first >= 0 && last >= 0 && last < first)) {
-    throw UsageError(fmt::format("{} is \"{}\", must be FIRST:LAST, like 10:20, counted from 0, both drawn", option, text));
+std::vector<FrameRange> parse_frames(const std::string& option, const std::string& text) {
+  std::vector<FrameRange> out;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const std::optional<FrameRange> range = read_range(std::string_view(text).substr(at, comma - at));
+    if (!range) {
+      throw UsageError(fmt::format(
+          "{} is \"{}\", must be frames counted from 0: 7, 10-20, 10-20x5 (every fifth), 10-, -20, or a list of these with commas",
+          option, text));
+    }
+    out.push_back(*range);
+    at = comma + 1;
   }
-  return {first, last};
+  return out;
 }
 
 int parse_integer(const std::string& option, const std::string& text, int lower, int upper) {

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace cli {
 
@@ -12,8 +13,17 @@ double parse_time(const std::string& option, const std::string& text);
 /// "1280x720".
 std::pair<int, int> parse_size(const std::string& option, const std::string& text);
 
-/// "10:20", "10:", ":20": first and last frame, both included; an open end is -1.
-std::pair<int, int> parse_frames(const std::string& option, const std::string& text);
+/// Frames first, first + step ... up to last, both included; last -1: to the end.
+struct FrameRange {
+  int first = 0;
+  int last = -1;
+  int step = 1;
+  bool holds(int frame) const { return frame >= first && (last < 0 || frame <= last) && (frame - first) % step == 0; }
+};
+
+/// As render farms write them: "7", "1-100", "1-100x5" or "1-100:5" (every fifth), "10-" and "-20" with an open end, "10:20" and
+/// the like for FIRST:LAST, and lists "1-10,20,30-".
+std::vector<FrameRange> parse_frames(const std::string& option, const std::string& text);
 
 int parse_integer(const std::string& option, const std::string& text, int lower, int upper);
 double parse_number(const std::string& option, const std::string& text, double lower, double upper);

@@ -46,18 +46,12 @@ bool is_finished(const fs::path& picture, const render::Moment& moment, const re
   return true;
 }
 
-std::vector<Stretch> unfinished(const std::vector<Stretch>& stretches, const render::FilmJob& job) {
-  std::vector<Stretch> out;
-  for (const Stretch& stretch : stretches) {
-    bool going_on = false;
-    for (int i = 0; i < static_cast<int>(stretch.moments.size()); ++i) {
-      const render::Moment& moment = stretch.moments[static_cast<std::size_t>(i)];
-      const int frame = stretch.first_frame + i;
-      const bool wanted = !is_finished(render::frame_path(job, frame), moment, job);
-      if (wanted && !going_on) out.push_back({frame, {}});
-      if (wanted) out.back().moments.push_back(moment);
-      going_on = wanted;
-    }
+Selection unfinished(const Selection& selection, const render::FilmJob& job) {
+  Selection out;
+  for (std::size_t i = 0; i < selection.moments.size(); ++i) {
+    if (is_finished(render::frame_path(job, selection.numbers[i]), selection.moments[i], job)) continue;
+    out.numbers.push_back(selection.numbers[i]);
+    out.moments.push_back(selection.moments[i]);
   }
   return out;
 }

@@ -13,8 +13,8 @@ namespace cli {
 /// else's.
 bool is_finished(const std::filesystem::path& picture, const render::Moment&, const render::FilmJob&);
 
-/// The stretches without the frames that are finished.
-std::vector<Stretch> unfinished(const std::vector<Stretch>&, const render::FilmJob&);
+/// The selection without the frames that are finished.
+Selection unfinished(const Selection&, const render::FilmJob&);
 
 /// Whether the film is there, whole, with the job's fingerprint. Throws UsageError when it is another film.
 bool film_is_finished(const render::FilmJob&);

@@ -51,32 +51,7 @@ void add_person(DrawList& list, const PersonActor& person, const engine::Snapsho
     add_ellipsoid(list, s.shape, now.bodies[static_cast<std::size_t>(s.body)].X_WB, s.material, person.look == PersonLook::raster);
 }
 
-}  // namespace
-
-std::vector<Moment> film(const Stage& stage, const engine::Recording& recording, double fps) {
-  std::vector<Shot> shots = stage.shots;
-  if (shots.empty()) shots.push_back({stage.cameras.front().name, 0, recording.end_time(), 1, 0});
-  std::vector<Moment> moments;
-  double left_over = 0;  // [s] of film between the last frame and the end of its shot: cuts do not move the clock
-  for (Shot& shot : shots) {
-    // a run that came to rest early is not drawn out: the last picture stands for a moment, then the shot is over
-    shot.to = std::min(shot.to, std::max(shot.from, recording.end_time() + kLastPicture * shot.speed));
-    const double length = shot.speed == 0 ? shot.hold : (shot.to - shot.from) / shot.speed;
-    double at = left_over;
-    for (; at < length - 1e-9; at += 1 / fps)
-      moments.push_back({shot.speed == 0 ? shot.from : shot.from + at * shot.speed, shot.camera, shot.speed});
-    left_over = at - length;
-  }
-  return moments;
-}
-
-DrawList arrange(const Stage& stage, const engine::Recording& recording, const Moment& moment, double aspect) {
-  const Camera& camera = camera_named(stage, moment.camera);
-  const engine::Snapshot now = recording.at(moment.time);
-  DrawList list;
-  list.view = view_of(camera, recording, moment.time, aspect);
-  list.sky = stage.sky;
-  list.road = stage.road;
+void add_scene(DrawList& list, const Stage& stage, const engine::Snapshot& now) {
   for (const EllipsoidActor& actor : stage.ellipsoids)
     add_ellipsoid(list, actor.shape, now.bodies[static_cast<std::size_t>(actor.body)].X_WB, actor.material, false);
   for (const PersonActor& person : stage.persons) add_person(list, person, now);
@@ -93,9 +68,63 @@ DrawList arrange(const Stage& stage, const engine::Recording& recording, const M
       add_mesh(list, actor.mesh, rigid(X), {});
     }
   if (stage.road.terrain) add_mesh(list, stage.road.terrain, Mat4::Identity(), {});
+}
+
+bool wanted(const Overlay& overlay, Layer layer, const Camera& camera) {
+  // an eye sees the scene and its skid marks, not what is drawn over them
+  if (camera.kind == CameraKind::eye && !overlay.whole_picture && &overlay != &kSkidMarks) return false;
+  return layer == Layer::all || overlay.whole_picture == (layer == Layer::sheet);
+}
+
+}  // namespace
+
+std::vector<Moment> film(const Stage& stage, const engine::Recording& recording, double fps) {
+  std::vector<Shot> shots = stage.shots;
+  if (shots.empty()) shots.push_back({stage.cameras.front().name, 0, recording.end_time(), 1, 0});
+  std::vector<Moment> moments;
+  double left_over = 0;  // [s] of film between the last frame and the end of its shot: cuts do not move the clock
+  int number = 0;
+  auto append = [&](double length, auto moment_at) {
+    double at = left_over;
+    for (; at < length - 1e-9; at += 1 / fps) {
+      moments.push_back(moment_at(at));
+      moments.back().shot = number;
+    }
+    left_over = at - length;
+    ++number;
+  };
+  auto cards = [&](bool at_end) {
+    for (std::size_t c = 0; c < stage.cards.size(); ++c) {
+      if (stage.cards[c].at_end != at_end) continue;
+      const double time = at_end ? recording.end_time() : 0;
+      append(stage.cards[c].hold,
+             [&](double) { return Moment{time, shots.front().camera, 0, Layout::single, "", static_cast<int>(c)}; });
+    }
+  };
+  cards(false);
+  for (Shot& shot : shots) {
+    // a run that came to rest early is not drawn out: the last picture stands for a moment, then the shot is over
+    shot.to = std::min(shot.to, std::max(shot.from, recording.end_time() + kLastPicture * shot.speed));
+    const double length = shot.speed == 0 ? shot.hold : (shot.to - shot.from) / shot.speed;
+    append(length, [&](double at) {
+      return Moment{shot.speed == 0 ? shot.from : shot.from + at * shot.speed, shot.camera, shot.speed, shot.layout, shot.second};
+    });
+  }
+  cards(true);
+  return moments;
+}
+
+DrawList arrange(const Stage& stage, const engine::Recording& recording, const Moment& moment, double aspect, Layer layer) {
+  const Camera& camera = camera_named(stage, moment.camera);
+  const engine::Snapshot now = recording.at(moment.time);
+  DrawList list;
+  list.view = view_of(camera, recording, moment.time, aspect);
+  list.sky = stage.sky;
+  list.road = stage.road;
+  if (layer != Layer::sheet) add_scene(list, stage, now);
   const Frame frame{stage, recording, now, moment, camera, aspect};
   for (const Overlay* overlay : overlay_table())
-    if (overlay->shown(frame)) overlay->add(frame, list);
+    if (wanted(*overlay, layer, camera) && overlay->shown(frame)) overlay->add(frame, list);
   return list;
 }
 

@@ -38,6 +38,35 @@ Vec3 followed_point(const Camera& camera, const engine::Recording& recording, do
   return sum / kSamples;
 }
 
+namespace {
+
+/// The body whose motion an eye shares: a person sees with the head.
+int carrier(const Camera& camera, const engine::Recording& recording) {
+  if (camera.follow.empty()) return -1;
+  const auto at = std::find(recording.body_names.begin(), recording.body_names.end(), camera.follow + "/head");
+  if (at != recording.body_names.end()) return static_cast<int>(at - recording.body_names.begin());
+  return body_of_name(recording, camera.follow);
+}
+
+/// Cubic through the knots whose slope at each is that of its neighbours (Catmull & Rom 1974, unequal times); at rest beyond both
+/// ends.
+Vec3 along_path(const std::vector<CameraKnot>& path, Vec3 CameraKnot::*what, double time) {
+  if (time <= path.front().time) return path.front().*what;
+  if (time >= path.back().time) return path.back().*what;
+  const auto next = std::upper_bound(path.begin(), path.end(), time, [](double t, const CameraKnot& k) { return t < k.time; });
+  const std::size_t b = static_cast<std::size_t>(next - path.begin()), a = b - 1;
+  auto slope = [&](std::size_t i) -> Vec3 {
+    if (i == 0 || i + 1 == path.size()) return Vec3::Zero();
+    return (path[i + 1].*what - path[i - 1].*what) / (path[i + 1].time - path[i - 1].time);
+  };
+  const double span = path[b].time - path[a].time, s = (time - path[a].time) / span;
+  const double s2 = s * s, s3 = s2 * s;
+  return (2 * s3 - 3 * s2 + 1) * (path[a].*what) + (s3 - 2 * s2 + s) * span * slope(a) + (-2 * s3 + 3 * s2) * (path[b].*what) +
+         (s3 - s2) * span * slope(b);
+}
+
+}  // namespace
+
 View view_of(const Camera& camera, const engine::Recording& recording, double time, double aspect) {
   constexpr double kNear = 0.15, kFar = 1500;  // [m]
   const Vec3 subject = followed_point(camera, recording, time);
@@ -59,6 +88,19 @@ View view_of(const Camera& camera, const engine::Recording& recording, double ti
       eye = subject + Vec3(camera.orbit_radius * std::cos(angle), camera.orbit_radius * std::sin(angle), camera.orbit_height);
       break;
     }
+    case CameraKind::eye: {
+      const int body = carrier(camera, recording);
+      if (body < 0) break;  // a witness stands in the world
+      const Pose X_WB = recording.at(time).bodies[static_cast<std::size_t>(body)].X_WB;
+      eye = X_WB * camera.position;
+      target = X_WB * camera.target;
+      up = X_WB.q * Vec3::UnitZ();
+      break;
+    }
+    case CameraKind::path:
+      eye = subject + along_path(camera.path, &CameraKnot::position, time);
+      target = subject + along_path(camera.path, &CameraKnot::target, time);
+      break;
     case CameraKind::top: {
       target = subject + camera.target;
       eye = target + Vec3(0, 0, 60);

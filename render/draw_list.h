@@ -89,6 +89,23 @@ struct LabelItem {
   bool plate = true;                  // translucent plate behind
 };
 
+/// A small diagram over time, drawn up to now.
+struct ChartItem {
+  struct Series {
+    std::string name;
+    Float4 colour{1, 1, 1, 1};
+    std::vector<std::array<float, 2>> points;  // time [s], value
+  };
+  std::string title;  // with its unit
+  std::vector<Series> series;
+  double end = 1;                     // [s] of the time axis, from 0
+  double ceiling = 1;                 // of the value axis, from 0
+  double now = 0;                     // [s]
+  std::array<float, 2> anchor{0, 0};  // where in the frame its pivot sits
+  std::array<float, 2> pivot{0, 0};
+  float width = 430, height = 240;  // pixels at 1080 lines
+};
+
 struct DrawList {
   View view;
   SkyLook sky;
@@ -101,6 +118,9 @@ struct DrawList {
   std::vector<ArrowItem> arrows;
   std::vector<MarkerItem> markers;
   std::vector<LabelItem> labels;
+  std::vector<ChartItem> charts;
+  float scale = 1;                             // of text and lines: a pane's are as large as the whole picture's
+  std::vector<std::array<float, 4>> reserved;  // x, y, width, height in 0..1 of the frame: no label may lie there
 };
 
 }  // namespace render

@@ -20,6 +20,7 @@
 
 #include "render/error.h"
 #include "render/image/png.h"
+#include "render/painter.h"
 #include "render/video/encoder.h"
 
 namespace render {
@@ -51,6 +52,11 @@ class SharedMemory {
   std::size_t size_ = 0;
 };
 
+/// Number in the whole film of the job's i-th moment.
+int number_of(const FilmJob& job, int i) {
+  return job.numbers.empty() ? job.first_frame + i : job.numbers[static_cast<std::size_t>(i)];
+}
+
 struct Job {
   const Stage& stage;
   const engine::Recording& recording;
@@ -62,14 +68,16 @@ struct Job {
   std::uint8_t* pictures;
 };
 
-void draw_frame(const Job& j, Renderer& renderer, Image& image, int i) {
+void draw_frame(const Job& j, Painter& painter, Image& image, int i) {
   const Moment& moment = j.moments[static_cast<std::size_t>(i)];
-  renderer.draw(arrange(j.stage, j.recording, moment, static_cast<double>(j.job.width) / j.job.height), image);
-  if (j.job.container == Container::mp4) {
-    rgba_to_i420(image, j.pictures + j.frame_bytes * static_cast<std::size_t>(i % j.slots));
+  painter.paint(j.stage, j.recording, moment, image);
+  std::uint8_t* const place = j.pictures + j.frame_bytes * static_cast<std::size_t>(i % j.slots);
+  if (j.job.container == Container::mp4) return rgba_to_i420(image, place);
+  if (j.job.container == Container::mkv) {
+    std::copy(image.rgba.begin(), image.rgba.end(), place);
     return;
   }
-  write_png(frame_path(j.job, j.job.first_frame + i), image, frame_metadata(j.job, moment));
+  write_png(frame_path(j.job, number_of(j.job, i)), image, frame_metadata(j.job, moment));
 }
 
 /// A worker's life: its frames from `first` on, in steps of the number of workers.
@@ -79,12 +87,12 @@ void draw_frame(const Job& j, Renderer& renderer, Image& image, int i) {
   setenv("LP_NUM_THREADS", "0", 1);
   int at = first;
   try {
-    Renderer renderer(j.job.width, j.job.height, j.job.quality);
+    Painter painter(j.job.width, j.job.height, j.job.quality);
     Image image;
     for (; at < static_cast<int>(j.moments.size()); at += j.workers) {
       Slot& slot = j.ring[at % j.slots];
       while (at >= j.slots && slot.taken.load() < at - j.slots) usleep(300);
-      draw_frame(j, renderer, image, at);
+      draw_frame(j, painter, image, at);
       slot.frame.store(at);
     }
     _exit(0);
@@ -148,10 +156,10 @@ class Workers {
 void refuse_existing(const FilmJob& job, const std::vector<Moment>& moments) {
   if (job.overwrite) return;
   std::vector<std::string> paths;
-  if (job.container == Container::mp4)
+  if (is_video(job.container))
     paths.push_back(job.output.string());
   else
-    for (int i = 0; i < static_cast<int>(moments.size()); ++i) paths.push_back(frame_path(job, job.first_frame + i).string());
+    for (int i = 0; i < static_cast<int>(moments.size()); ++i) paths.push_back(frame_path(job, number_of(job, i)).string());
   for (const std::string& path : paths)
     if (std::filesystem::exists(path)) throw RenderError(path + " exists already: remove it or add --overwrite");
 }
@@ -173,7 +181,7 @@ std::filesystem::path frame_path(const FilmJob& job, int number) {
 std::map<std::string, std::string> frame_metadata(const FilmJob& job, const Moment& moment) {
   std::map<std::string, std::string> out = job.metadata;
   out["time_s"] = fmt::format("{:.6f}", moment.time);
-  out["camera"] = moment.camera;
+  out["camera"] = moment.second.empty() ? moment.camera : moment.camera + " and " + moment.second;
   return out;
 }
 
@@ -185,8 +193,10 @@ void make_film(const Stage& stage, const engine::Recording& recording, const std
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const int workers = std::min(job.workers > 0 ? job.workers : cores, frames);
   const int slots = 2 * workers;
-  const std::size_t frame_bytes =
-      job.container == Container::mp4 ? static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height) * 3 / 2 : 0;
+  const std::size_t pixels = static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height);
+  const std::size_t frame_bytes = job.container == Container::mp4   ? pixels * 3 / 2
+                                  : job.container == Container::mkv ? pixels * 4
+                                                                    : 0;
   std::optional<VideoEncoder> encoder;
 
   const std::size_t head = (sizeof(Slot) * static_cast<std::size_t>(slots) + 4095) / 4096 * 4096;
@@ -196,7 +206,8 @@ void make_film(const Stage& stage, const engine::Recording& recording, const std
   const Job j{stage, recording, moments, job, workers, slots, frame_bytes, ring, shared.data() + head};
   Workers team(j);
   // after the fork: the encoder brings threads of its own, and a child of a process with threads may inherit a lock they hold
-  if (job.container == Container::mp4) encoder.emplace(job.output, job.width, job.height, job.fps, job.metadata);
+  if (is_video(job.container))
+    encoder.emplace(job.output, job.width, job.height, job.fps, job.metadata, story_of(stage, recording, moments, job.fps));
   for (int i = 0; i < frames; ++i) {
     team.await(i);
     if (encoder) encoder->append(j.pictures + frame_bytes * static_cast<std::size_t>(i % slots));
@@ -206,8 +217,9 @@ void make_film(const Stage& stage, const engine::Recording& recording, const std
   if (encoder) encoder->finish();
 }
 
-void join_film(const std::vector<std::filesystem::path>& pictures, const FilmJob& job) {
-  VideoEncoder encoder(job.output, job.width, job.height, job.fps, job.metadata);
+void join_film(const Stage& stage, const engine::Recording& recording, const std::vector<Moment>& moments,
+               const std::vector<std::filesystem::path>& pictures, const FilmJob& job) {
+  VideoEncoder encoder(job.output, job.width, job.height, job.fps, job.metadata, story_of(stage, recording, moments, job.fps));
   std::vector<std::uint8_t> i420(static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height) * 3 / 2);
   for (const std::filesystem::path& picture : pictures) {
     if (job.look_around) job.look_around();
@@ -215,8 +227,8 @@ void join_film(const std::vector<std::filesystem::path>& pictures, const FilmJob
     if (image.width != job.width || image.height != job.height)
       throw RenderError(
           fmt::format("{} is {}x{}, not a frame of {}", picture.string(), image.width, image.height, job.output.string()));
-    rgba_to_i420(image, i420.data());
-    encoder.append(i420.data());
+    if (job.container == Container::mp4) rgba_to_i420(image, i420.data());
+    encoder.append(job.container == Container::mp4 ? i420.data() : image.rgba.data());
   }
   encoder.finish();
 }

@@ -15,7 +15,11 @@
 
 namespace render {
 
-enum class Container { mp4, png_sequence, single_png };
+enum class Container { mp4, mkv, png_sequence, single_png };  // H.264; FFV1, lossless; files of their own
+
+constexpr bool is_video(Container c) {
+  return c == Container::mp4 || c == Container::mkv;
+}
 
 struct FilmJob {
   std::filesystem::path output;  // OUT.mp4, or a pattern like DIR/frame_%05d.png, or one PNG
@@ -23,7 +27,8 @@ struct FilmJob {
   int width = 1280;
   int height = 720;
   double fps = 30;
-  int first_frame = 0;  // number of moments[0] in the whole film; a sub-range never moves the clock
+  int first_frame = 0;       // number of moments[0] in the whole film; a sub-range never moves the clock
+  std::vector<int> numbers;  // of each moment in the whole film, where they do not follow one another; empty: first_frame + i
   Quality quality = Quality::standard;
   int workers = 0;  // 0: one a core
   bool overwrite = false;
@@ -46,6 +51,7 @@ void make_film(const Stage&, const engine::Recording&, const std::vector<Moment>
                const std::function<void(const FilmProgress&)>& progress = {});
 
 /// The film of pictures drawn before, the same to the byte as if it had been drawn at once. Throws RenderError.
-void join_film(const std::vector<std::filesystem::path>& pictures, const FilmJob&);
+void join_film(const Stage&, const engine::Recording&, const std::vector<Moment>&,
+               const std::vector<std::filesystem::path>& pictures, const FilmJob&);
 
 }  // namespace render

@@ -109,22 +109,33 @@ struct SkyLook {
   double haze = 0.4;           // [-] 0 clear .. 1 fog
 };
 
-enum class CameraKind { fixed, follow, orbit, top };
+enum class CameraKind { fixed, follow, orbit, top, eye, path };
+
+/// Where a moving camera is at one time; between knots it runs along a smooth curve.
+struct CameraKnot {
+  double time = 0;  // [s]
+  Vec3 position{-8, -8, 3};
+  Vec3 target{0, 0, 1};
+};
 
 struct Camera {
   std::string name;
   CameraKind kind = CameraKind::fixed;
-  Vec3 position{-8, -8, 3};   // fixed: world; follow: offset from the followed point
-  Vec3 target{0, 0, 1};       // fixed: world; follow, orbit, top: offset from the followed point
-  std::string follow;         // body, vehicle or person ("pedestrian" = its hips); empty: the world
-  double vertical_fov = 0.7;  // [rad]
-  double orbit_radius = 8;    // [m]
-  double orbit_height = 2.5;  // [m]
-  double orbit_start = 0;     // [rad]
-  double orbit_rate = 0.3;    // [rad/s]
-  double top_height = 14;     // [m] seen from bottom to top of the picture; orthographic
-  double smoothing = 0.25;    // [s] a following camera averages its subject over this time
+  Vec3 position{-8, -8, 3};      // fixed: world; follow: offset from the followed point; eye: body axes of what it follows
+  Vec3 target{0, 0, 1};          // fixed: world; follow, orbit, top: offset from the followed point; eye: body axes
+  std::string follow;            // body, vehicle or person ("pedestrian" = its hips); empty: the world
+  double vertical_fov = 0.7;     // [rad]
+  double orbit_radius = 8;       // [m]
+  double orbit_height = 2.5;     // [m]
+  double orbit_start = 0;        // [rad]
+  double orbit_rate = 0.3;       // [rad/s]
+  double top_height = 14;        // [m] seen from bottom to top of the picture; orthographic
+  double smoothing = 0.25;       // [s] a following camera averages its subject over this time
+  std::vector<CameraKnot> path;  // path: at least two, times ascending; offsets where it follows something
 };
+
+/// How two cameras share the picture, on one clock.
+enum class Layout { single, split, stacked, inset };
 
 /// A stretch of film. `speed` 0.25 is four times slow motion; 0 freezes for `hold`.
 struct Shot {
@@ -133,7 +144,29 @@ struct Shot {
   double to = 0;    // [s]
   double speed = 1;
   double hold = 0;  // [s] of film, for speed 0
+  Layout layout = Layout::single;
+  std::string second{};  // the other camera of a shared picture
+  std::string title{};   // chapter in the video file; empty: the camera's name
 };
+
+/// A page of text before the first shot or after the last: title, assumptions.
+struct Card {
+  std::string title;
+  std::vector<std::string> lines;
+  double hold = 3;  // [s] of film
+  bool at_end = false;
+};
+
+/// A line with its length in numbers, between two points or from where a body was to where it is.
+struct Dimension {
+  std::string label;
+  int body = -1;     // -1: from `from` to `to`
+  double since = 0;  // [s] where the body was then
+  Vec3 from = Vec3::Zero();
+  Vec3 to = Vec3::Zero();
+};
+
+enum class ContactColour { time, impulse };
 
 struct Overlays {
   bool contacts = true;             // point and normal
@@ -144,6 +177,16 @@ struct Overlays {
   bool scale_bar = true;            // top cameras
   double newtons_per_metre = 10e3;  // [N/m] arrow length scale
   std::vector<std::string> trace_bodies;
+  bool legend = false;           // colours of arrows and marks, scale of arrows
+  bool contact_history = false;  // marks on vehicle and person where they touched so far
+  ContactColour contact_colour = ContactColour::time;
+  double ghost_interval = 0;  // [s] between stroboscopic figures; 0: none
+  double ghost_distance = 0;  // [m] travelled between them; 0: none
+  bool velocities = false;    // arrows at the bodies whose speed the caption tells
+  double velocity_scale = 8;  // [m/s per m] of those arrows
+  bool speed_chart = false;   // running with the film
+  bool energy_chart = false;
+  std::vector<Dimension> dimensions;
 };
 
 struct Stage {
@@ -156,8 +199,10 @@ struct Stage {
   std::vector<PersonActor> persons;
   RoadLook road;
   SkyLook sky;
+  std::optional<double> north;  // [rad] from +x towards +y; unknown: top views show the x axis
   std::vector<Camera> cameras;  // never empty after loading
   std::vector<Shot> shots;      // empty: the whole run from the first camera at natural speed
+  std::vector<Card> cards;
   Overlays overlays;
   /// Bodies named in the caption with their speed, and their readable names.
   std::vector<std::pair<int, std::string>> speeds;

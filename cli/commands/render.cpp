@@ -32,7 +32,7 @@ struct Drawn {
 };
 
 void list_cameras(const scenes::Scene& scene, bool json) {
-  constexpr const char* kKinds[] = {"fixed", "follow", "orbit", "top"};
+  constexpr const char* kKinds[] = {"fixed", "follow", "orbit", "top", "eye", "path"};
   nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
   for (const render::Camera& camera : scene.stage.cameras) {
     cameras.push_back({{"name", camera.name}, {"kind", kKinds[static_cast<int>(camera.kind)]}, {"follow", camera.follow}});
@@ -43,12 +43,6 @@ void list_cameras(const scenes::Scene& scene, bool json) {
   if (json) fmt::print("{}\n", cameras.dump(2));
 }
 
-int count(const std::vector<Stretch>& stretches) {
-  int frames = 0;
-  for (const Stretch& stretch : stretches) frames += static_cast<int>(stretch.moments.size());
-  return frames;
-}
-
 /// Steps and frames at most: a run may come to rest before its time.
 void dry_run(const scenes::Scene& scene, const FilmPlan& plan, bool json) {
   const engine::Settings& settings = scene.model.settings;
@@ -56,7 +50,8 @@ void dry_run(const scenes::Scene& scene, const FilmPlan& plan, bool json) {
   empty.interval = settings.duration;
   empty.snapshots.resize(2);
   empty.snapshots.back().time = settings.duration;
-  const int frames = plan.stills.empty() ? count(frames_of(plan, scene.stage, empty)) : static_cast<int>(plan.stills.size());
+  const int frames = plan.stills.empty() ? static_cast<int>(frames_of(plan, scene.stage, empty).numbers.size())
+                                         : static_cast<int>(plan.stills.size());
   const long steps = std::lround(settings.duration / settings.step);
   if (json) {
     const nlohmann::ordered_json out = {
@@ -82,59 +77,44 @@ Drawn draw_stills(const FilmPlan& plan, const render::Stage& stage, const engine
   return drawn;
 }
 
-/// Draws stretches of one job under one progress.
-void draw_stretches(const std::vector<Stretch>& stretches, const render::FilmJob& whole, const render::Stage& stage,
+void draw_selection(const Selection& selection, const render::FilmJob& whole, const render::Stage& stage,
                     const engine::Recording& recording, ShowProgress show) {
-  Progress progress("draw", "frames", count(stretches), show);
-  int done = 0;
-  for (const Stretch& stretch : stretches) {
-    render::FilmJob job = whole;
-    job.first_frame = stretch.first_frame;
-    render::make_film(stage, recording, stretch.moments, job,
-                      [&](const render::FilmProgress& now) { progress.at(done + now.frames_done); });
-    done += static_cast<int>(stretch.moments.size());
-  }
-  progress.finish(done);
+  if (selection.moments.empty()) return;  // all of it was there
+  const int frames = static_cast<int>(selection.moments.size());
+  Progress progress("draw", "frames", frames, show);
+  render::FilmJob job = whole;
+  job.numbers = selection.numbers;
+  render::make_film(stage, recording, selection.moments, job,
+                    [&](const render::FilmProgress& now) { progress.at(now.frames_done); });
+  progress.finish(frames);
 }
 
 /// --resume: every frame goes to the disk first and stays there until the film of them is whole.
-void draw_film_by_frames(const std::vector<Stretch>& stretches, const FilmPlan& plan, const render::Stage& stage,
+void draw_film_by_frames(const Selection& selection, const FilmPlan& plan, const render::Stage& stage,
                          const engine::Recording& recording, ShowProgress show) {
   const render::FilmJob frames = frames_job(plan.job);
   if (!film_is_finished(plan.job)) {
     make_writable_folder(frames.output.parent_path());
-    draw_stretches(unfinished(stretches, frames), frames, stage, recording, show);
+    draw_selection(unfinished(selection, frames), frames, stage, recording, show);
     std::vector<std::filesystem::path> pictures;
-    for (const Stretch& stretch : stretches) {
-      for (int i = 0; i < static_cast<int>(stretch.moments.size()); ++i)
-        pictures.push_back(render::frame_path(frames, stretch.first_frame + i));
-    }
-    render::join_film(pictures, plan.job);
+    for (const int number : selection.numbers) pictures.push_back(render::frame_path(frames, number));
+    render::join_film(stage, recording, selection.moments, pictures, plan.job);
   }
   std::error_code kept;
   std::filesystem::remove_all(frames.output.parent_path(), kept);
 }
 
 Drawn draw_film(const FilmPlan& plan, const render::Stage& stage, const engine::Recording& recording, ShowProgress show) {
-  std::vector<Stretch> stretches = frames_of(plan, stage, recording);
-  if (stretches.empty()) {
+  const Selection selection = frames_of(plan, stage, recording);
+  if (selection.moments.empty()) {
     throw UsageError(fmt::format("no frame lies in the part asked for; the run ends at {:.3f} s and its film has {} frames",
                                  recording.end_time(), render::film(stage, recording, plan.job.fps).size()));
   }
-  const Drawn drawn{{plan.job.output.string()}, count(stretches)};
-  const bool video = plan.job.container == render::Container::mp4;
-  if (video && plan.resume) {
-    draw_film_by_frames(stretches, plan, stage, recording, show);
-    return drawn;
-  }
-  // a video is one file whatever was cut out of it; a sequence keeps the numbers of the whole film
-  if (video) {
-    for (std::size_t i = 1; i < stretches.size(); ++i) {
-      stretches[0].moments.insert(stretches[0].moments.end(), stretches[i].moments.begin(), stretches[i].moments.end());
-    }
-    stretches.resize(1);
-  }
-  draw_stretches(plan.resume ? unfinished(stretches, plan.job) : stretches, plan.job, stage, recording, show);
+  const Drawn drawn{{plan.job.output.string()}, static_cast<int>(selection.moments.size())};
+  if (render::is_video(plan.job.container) && plan.resume)
+    draw_film_by_frames(selection, plan, stage, recording, show);
+  else
+    draw_selection(plan.resume ? unfinished(selection, plan.job) : selection, plan.job, stage, recording, show);
   return drawn;
 }
 
@@ -147,7 +127,7 @@ int render_scene(const RenderWish& wish, const Arguments& arguments) {
   }
   // what cannot be drawn or written is told before the work, not after it
   FilmPlan plan = plan_film(wish.film, scene);
-  const bool video = plan.job.container == render::Container::mp4 && plan.stills.empty();
+  const bool video = render::is_video(plan.job.container) && plan.stills.empty();
   plan.job.metadata["fingerprint"] = fingerprint(video ? ResultKind::whole : ResultKind::frame, scene, arguments);
   plan.job.look_around = check_interrupted;
   if (wish.dry_run) {

@@ -40,7 +40,7 @@ void OverlayPass::begin(const DrawList& list, int width, int height) {
   for (int i = 0; i < 16; ++i) clip_[i] = static_cast<float>(m.data()[i]);
   width_ = static_cast<float>(width);
   height_ = static_cast<float>(height);
-  scale_ = height_ / 1080;
+  scale_ = height_ / 1080 * list.scale;
   vertices_.clear();
 }
 

@@ -38,7 +38,8 @@ void add_caption(const Frame& frame, DrawList& list) {
     label.sizes.push_back(22);
     label.colours.push_back(kAmber);
   }
-  label.lines.push_back(frame.stage.title + " \u00b7 camera " + frame.camera.name);
+  label.lines.push_back(frame.stage.title + " \u00b7 camera " + frame.camera.name +
+                        (frame.moment.second.empty() ? "" : " and " + frame.moment.second));
   label.sizes.push_back(18);
   label.colours.push_back(kPale);
   for (const std::string& warning : frame.stage.warnings) {
@@ -62,7 +63,8 @@ void add_disclaimer(const Frame& frame, DrawList& list) {
   list.labels.push_back(label);
 }
 
-/// A bar of a round number of metres, drawn on the ground in the lower part of a top view, and an arrow to the north (+x).
+/// A bar of a round number of metres, drawn on the ground in the lower part of a top view, and an arrow to the north (along +x
+/// while nobody has said where north is).
 void add_scale_bar(const Frame& frame, DrawList& list) {
   const double seen = list.view.vertical_extent;
   const double wanted = seen / 5;
@@ -77,7 +79,8 @@ void add_scale_bar(const Frame& frame, DrawList& list) {
     return {p.x(), p.y(), frame.stage.road.height};
   };
   const double half_width = 0.5 * seen * frame.aspect;
-  const double x1 = half_width * 0.95, x0 = x1 - length, y = 0.40 * seen;
+  const double x1 = half_width * 0.95, x0 = x1 - length,
+               y = (frame.stage.overlays.legend ? -0.38 : 0.40) * seen;  // the legend's corner
   auto line = [&](double ax, double ay, double bx, double by) {
     LineItem item;
     item.points = {to_float(on_ground(ax, ay)), to_float(on_ground(bx, by))};
@@ -95,21 +98,24 @@ void add_scale_bar(const Frame& frame, DrawList& list) {
   label.world = to_float(on_ground(0.5 * (x0 + x1), y));
   label.pivot = {0.5f, 1.1f};
   list.labels.push_back(label);
-  const Vec3 tail = on_ground(-half_width * 0.92, 0.34 * seen);
-  list.arrows.push_back({to_float(tail), to_float(tail + Vec3(0.09 * seen, 0, 0)), {1, 1, 1, 1}, 4});
+  const double bearing = frame.stage.north.value_or(0);
+  const Vec3 along = Vec3(std::cos(bearing), std::sin(bearing), 0);
+  const bool charts = frame.stage.overlays.speed_chart || frame.stage.overlays.energy_chart;
+  const Vec3 middle = on_ground(-half_width * 0.92 + 0.045 * seen, (charts ? -0.16 : 0.34) * seen);
+  list.arrows.push_back({to_float(middle - 0.045 * seen * along), to_float(middle + 0.045 * seen * along), {1, 1, 1, 1}, 4});
   LabelItem north = label;
-  north.lines = {"x"};
-  north.world = to_float(tail + Vec3(0.10 * seen, 0, 0));
-  north.pivot = {0, 0.5f};
+  north.lines = {frame.stage.north ? "N" : "x"};
+  north.world = to_float(middle + (frame.stage.north ? 0.065 : 0.055) * seen * along);
+  north.pivot = {frame.stage.north ? 0.5f : 0.0f, 0.5f};
   north.plate = false;
   list.labels.push_back(north);
 }
 
 }  // namespace
 
-const Overlay kCaption{"caption", [](const Frame& f) { return f.stage.overlays.caption; }, add_caption};
+const Overlay kCaption{"caption", [](const Frame& f) { return f.stage.overlays.caption; }, add_caption, true};
 const Overlay kScaleBar{"scale_bar", [](const Frame& f) { return f.stage.overlays.scale_bar && f.camera.kind == CameraKind::top; },
                         add_scale_bar};
-const Overlay kDisclaimer{"disclaimer", [](const Frame& f) { return f.stage.overlays.disclaimer; }, add_disclaimer};
+const Overlay kDisclaimer{"disclaimer", [](const Frame& f) { return f.stage.overlays.disclaimer; }, add_disclaimer, true};
 
 }  // namespace render

@@ -22,6 +22,7 @@ struct Overlay {
   const char* name = "";
   bool (*shown)(const Frame&) = nullptr;
   void (*add)(const Frame&, DrawList&) = nullptr;
+  bool whole_picture = false;  // belongs to the picture, not to one of its panes
 };
 
 std::span<const Overlay* const> overlay_table();
@@ -32,7 +33,16 @@ Float4 colour_of_part(const std::string& body_name);
 /// "pedestrian/left_thigh" -> "left thigh".
 std::string readable(const std::string& body_name);
 
+/// Ramp from dark blue to yellow whose lightness only rises, for 0..1: it reads in black and white too.
+Float4 colour_of_share(double share);
+
 extern const Overlay kSkidMarks;
+extern const Overlay kGhosts;
+extern const Overlay kContactHistory;
+extern const Overlay kVelocities;
+extern const Overlay kDimensions;
+extern const Overlay kLegend;
+extern const Overlay kCharts;
 extern const Overlay kTraces;
 extern const Overlay kContacts;
 extern const Overlay kForces;

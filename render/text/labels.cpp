@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "render/matrix.h"
+#include "render/text/charts.h"
 
 namespace render {
 namespace {
@@ -116,8 +117,16 @@ void draw_one(cairo_t* c, const LabelItem& label, const PanelBox& box, double sc
 }  // namespace
 
 std::vector<PanelBox> place_labels(const DrawList& list, int width, int height) {
-  const double scale = height / 1080.0;
+  const double scale = height / 1080.0 * static_cast<double>(list.scale);
   const CairoPtr cairo = scratch();
+  std::vector<PanelBox> taken;  // charts and reserved places come first
+  for (const ChartItem& chart : list.charts) {
+    const auto [x, y, w, h] = chart_box(chart, width, height);
+    taken.push_back({x, y, w, h});
+  }
+  for (const auto& [x, y, w, h] : list.reserved)
+    taken.push_back({static_cast<double>(x) * width, static_cast<double>(y) * height, static_cast<double>(w) * width,
+                     static_cast<double>(h) * height});
   std::vector<PanelBox> boxes;
   for (const LabelItem& label : list.labels) {
     PanelBox box = measure(cairo.get(), label, scale);
@@ -130,21 +139,22 @@ std::vector<PanelBox> place_labels(const DrawList& list, int width, int height) 
     for (int attempt = 0; box.shown; ++attempt) {
       box.x = std::clamp(box.x, 0.0, width - box.width);
       box.y = std::clamp(box.y, 0.0, height - box.height);
-      const bool taken = std::any_of(boxes.begin(), boxes.end(), [&](const PanelBox& b) { return b.shown && overlap(b, box); });
-      if (!taken) break;
+      const bool free = std::none_of(taken.begin(), taken.end(), [&](const PanelBox& b) { return overlap(b, box); });
+      if (free) break;
       if (attempt == 40) box.shown = false;
       const int steps = attempt / 2 + 1;
       const double step = steps * 0.35 * box.height;
       box.y = wanted_y + (attempt % 2 ? step : -step);
     }
+    if (box.shown) taken.push_back(box);
     boxes.push_back(box);
   }
   return boxes;
 }
 
 void draw_labels(const DrawList& list, Image& image) {
-  if (list.labels.empty()) return;
-  const double scale = image.height / 1080.0;
+  if (list.labels.empty() && list.charts.empty()) return;
+  const double scale = image.height / 1080.0 * static_cast<double>(list.scale);
   // cairo wants premultiplied BGRA; the picture is opaque, so only the order differs
   std::vector<std::uint8_t> bgra(image.rgba.size());
   for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
@@ -157,6 +167,7 @@ void draw_labels(const DrawList& list, Image& image) {
     const SurfacePtr surface(
         cairo_image_surface_create_for_data(bgra.data(), CAIRO_FORMAT_RGB24, image.width, image.height, 4 * image.width));
     const CairoPtr cairo(cairo_create(surface.get()));
+    for (const ChartItem& chart : list.charts) draw_chart(cairo.get(), chart, image.width, image.height);
     const std::vector<PanelBox> boxes = place_labels(list, image.width, image.height);
     for (std::size_t i = 0; i < boxes.size(); ++i)
       if (boxes[i].shown) draw_one(cairo.get(), list.labels[i], boxes[i], scale);

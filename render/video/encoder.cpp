@@ -40,9 +40,68 @@ void close_file(AVIOContext*& file, const std::string& name) {
   check(closed, "cannot write " + name);
 }
 
+constexpr AVRational kMilliseconds{1, 1000};
+
+/// Tells the container its chapters; before its header is written.
+void add_chapters(AVFormatContext* out, const Story& story) {
+  if (story.chapters.size() < 2) return;
+  out->chapters = static_cast<AVChapter**>(av_calloc(story.chapters.size(), sizeof(AVChapter*)));
+  for (const Passage& p : story.chapters) {
+    auto* chapter = static_cast<AVChapter*>(av_mallocz(sizeof(AVChapter)));
+    chapter->id = out->nb_chapters + 1;
+    chapter->time_base = kMilliseconds;
+    chapter->start = std::lround(1000 * p.from);
+    chapter->end = std::lround(1000 * p.to);
+    av_dict_set(&chapter->metadata, "title", p.text.c_str(), 0);
+    out->chapters[out->nb_chapters++] = chapter;
+  }
+}
+
+/// A stream for subtitles; none where there are no subtitles.
+AVStream* add_subtitle_stream(AVFormatContext* out, const Story& story, bool mp4) {
+  if (story.subtitles.empty()) return nullptr;
+  AVStream* stream = avformat_new_stream(out, nullptr);
+  stream->codecpar->codec_type = AVMEDIA_TYPE_SUBTITLE;
+  stream->codecpar->codec_id = mp4 ? AV_CODEC_ID_MOV_TEXT : AV_CODEC_ID_SUBRIP;
+  stream->time_base = kMilliseconds;
+  av_dict_set(&stream->metadata, "language", "eng", 0);
+  if (mp4) {
+    // 3GPP TS 26.245, TextSampleEntry: centred below, no box, font 1 at 18 in white; one font
+    constexpr std::uint8_t kEntry[] = {0, 0,  0,   0,   1,   0xff, 0, 0, 0, 0,  0,    0,    0,    0,    0,   0,
+                                       0, 0,  0,   0,   0,   0,    0, 1, 0, 18, 0xff, 0xff, 0xff, 0xff, 0,   0,
+                                       0, 18, 'f', 't', 'a', 'b',  0, 1, 0, 1,  5,    'S',  'e',  'r',  'i', 'f'};
+    stream->codecpar->extradata = static_cast<std::uint8_t*>(av_mallocz(sizeof kEntry + AV_INPUT_BUFFER_PADDING_SIZE));
+    std::memcpy(stream->codecpar->extradata, kEntry, sizeof kEntry);
+    stream->codecpar->extradata_size = sizeof kEntry;
+  }
+  return stream;
+}
+
+void write_subtitles(AVFormatContext* out, AVStream* stream, const Story& story, bool mp4, const std::string& to) {
+  if (!stream) return;
+  AVPacket* packet = av_packet_alloc();
+  for (const Passage& p : story.subtitles) {
+    const std::size_t head = mp4 ? 2 : 0;  // an MP4's text comes after its length
+    const std::string text = p.text.substr(0, 0xffff);
+    check(av_new_packet(packet, static_cast<int>(head + text.size())), "cannot write " + to);
+    if (mp4) {
+      packet->data[0] = static_cast<std::uint8_t>(text.size() >> 8);
+      packet->data[1] = static_cast<std::uint8_t>(text.size() & 0xff);
+    }
+    std::memcpy(packet->data + head, text.data(), text.size());
+    packet->pts = packet->dts = std::lround(1000 * p.from);
+    packet->duration = std::lround(1000 * (p.to - p.from));
+    av_packet_rescale_ts(packet, kMilliseconds, stream->time_base);
+    packet->stream_index = stream->index;
+    packet->flags |= AV_PKT_FLAG_KEY;
+    check(av_interleaved_write_frame(out, packet), "cannot write " + to);
+  }
+  av_packet_free(&packet);
+}
+
 /// Copies the fragmented file into one with its index in front.
-void remux(const std::string& from, const std::string& to, std::int64_t frames,
-           const std::map<std::string, std::string>& metadata) {
+void remux(const std::string& from, const std::string& to, std::int64_t frames, const std::map<std::string, std::string>& metadata,
+           const Story& story) {
   AVFormatContext* in = nullptr;
   AVFormatContext* out = nullptr;
   check(avformat_open_input(&in, url(from).c_str(), nullptr, nullptr), "cannot read back " + from);
@@ -54,11 +113,14 @@ void remux(const std::string& from, const std::string& to, std::int64_t frames,
   stream->time_base = in->streams[0]->time_base;
   stream->avg_frame_rate = in->streams[0]->avg_frame_rate;
   for (const auto& [key, value] : metadata) av_dict_set(&out->metadata, key.c_str(), value.c_str(), 0);
+  add_chapters(out, story);
+  AVStream* const subtitles = add_subtitle_stream(out, story, true);
   check(avio_open(&out->pb, url(to).c_str(), AVIO_FLAG_WRITE), "cannot write " + to);
   AVDictionary* options = nullptr;
   av_dict_set(&options, "movflags", "faststart+use_metadata_tags", 0);
   check(avformat_write_header(out, &options), "cannot write " + to);
   av_dict_free(&options);
+  write_subtitles(out, subtitles, story, true, to);
   AVPacket* packet = av_packet_alloc();
   std::int64_t copied = 0;
   int got = 0;
@@ -106,6 +168,8 @@ struct VideoEncoder::Impl {
   std::filesystem::path output;
   std::string part, whole;
   std::map<std::string, std::string> metadata;
+  Story story;
+  bool lossless = false;
   AVFormatContext* format = nullptr;
   AVCodecContext* codec = nullptr;
   AVStream* stream = nullptr;
@@ -122,6 +186,86 @@ struct VideoEncoder::Impl {
     std::filesystem::remove(part, ignored);
     std::filesystem::remove(whole, ignored);
   }
+
+  void open(int width, int height, double fps) {
+    const std::string what = "cannot write " + output.string();
+    const char* name = lossless ? "ffv1" : "libx264";
+    const AVCodec* coder = avcodec_find_encoder_by_name(name);
+    if (!coder) throw RenderError(what + ": this libavcodec has no " + name);
+    check(avformat_alloc_output_context2(&format, nullptr, lossless ? "matroska" : "mp4", url(part).c_str()), what);
+    stream = avformat_new_stream(format, nullptr);
+    codec = avcodec_alloc_context3(coder);
+    codec->width = width;
+    codec->height = height;
+    codec->pix_fmt = lossless ? AV_PIX_FMT_BGR0 : AV_PIX_FMT_YUV420P;
+    const AVRational rate = av_d2q(fps, 100000);
+    codec->time_base = av_inv_q(rate);
+    codec->framerate = rate;
+    codec->color_primaries = AVCOL_PRI_BT709;
+    codec->color_trc = AVCOL_TRC_BT709;
+    codec->colorspace = lossless ? AVCOL_SPC_RGB : AVCOL_SPC_BT709;
+    codec->color_range = lossless ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
+    codec->gop_size = lossless ? 1 : static_cast<int>(std::lround(2 * fps));
+    codec->thread_count = kEncoderThreads;
+    if (format->oformat->flags & AVFMT_GLOBALHEADER) codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+    if (lossless) {
+      codec->level = 3;  // slices with checksums: a damaged frame is known as such
+      codec->slices = 4;
+      av_opt_set_int(codec->priv_data, "slicecrc", 1, 0);
+    } else {
+      av_opt_set(codec->priv_data, "preset", "veryfast", 0);
+      av_opt_set(codec->priv_data, "crf", "20", 0);
+    }
+    check(avcodec_open2(codec, coder, nullptr), what);
+    check(avcodec_parameters_from_context(stream->codecpar, codec), what);
+    stream->time_base = codec->time_base;
+    stream->avg_frame_rate = rate;
+    write_header(what);
+    frame = av_frame_alloc();
+    frame->format = codec->pix_fmt;
+    frame->width = width;
+    frame->height = height;
+    check(av_frame_get_buffer(frame, 0), what);
+    packet = av_packet_alloc();
+  }
+
+  void write_header(const std::string& what) {
+    AVStream* subtitles = nullptr;
+    AVDictionary* options = nullptr;
+    if (lossless) {                          // written in one go; an MP4 gets these when it is rewritten with its index in front
+      format->flags |= AVFMT_FLAG_BITEXACT;  // no random identifiers: equal films, equal files
+      for (const auto& [key, value] : metadata) av_dict_set(&format->metadata, key.c_str(), value.c_str(), 0);
+      add_chapters(format, story);
+      subtitles = add_subtitle_stream(format, story, false);
+    } else {
+      av_dict_set(&options, "movflags", "frag_keyframe+empty_moov", 0);
+    }
+    check(avio_open(&format->pb, url(part).c_str(), AVIO_FLAG_WRITE), what);
+    check(avformat_write_header(format, &options), what);
+    av_dict_free(&options);
+    write_subtitles(format, subtitles, story, false, part);
+  }
+
+  void load(const std::uint8_t* picture) {
+    if (lossless) {
+      for (int y = 0; y < codec->height; ++y) {
+        std::uint8_t* row = frame->data[0] + y * frame->linesize[0];
+        for (int x = 0; x < codec->width; ++x, picture += 4, row += 4) {
+          row[0] = picture[2];
+          row[1] = picture[1];
+          row[2] = picture[0];
+          row[3] = 0;
+        }
+      }
+      return;
+    }
+    for (int plane = 0; plane < 3; ++plane) {
+      const int w = plane ? codec->width / 2 : codec->width, h = plane ? codec->height / 2 : codec->height;
+      for (int y = 0; y < h; ++y, picture += w)
+        std::memcpy(frame->data[plane] + y * frame->linesize[plane], picture, static_cast<std::size_t>(w));
+    }
+  }
+
   void drain() {
     for (;;) {
       const int got = avcodec_receive_packet(codec, packet);
@@ -145,65 +289,28 @@ struct VideoEncoder::Impl {
 };
 
 VideoEncoder::VideoEncoder(const std::filesystem::path& output, int width, int height, double fps,
-                           const std::map<std::string, std::string>& metadata)
+                           const std::map<std::string, std::string>& metadata, const Story& story)
     : impl_(std::make_unique<Impl>()) {
-  if (width % 2 || height % 2)
+  Impl& m = *impl_;
+  m.lossless = output.extension() == ".mkv";
+  if (!m.lossless && (width % 2 || height % 2))
     throw RenderError(fmt::format("an MP4 needs an even size, not {}x{}: try --size {}x{}", width, height, width + width % 2,
                                   height + height % 2));
   av_log_set_level(AV_LOG_ERROR);
-  Impl& m = *impl_;
   m.output = output;
   m.part = output.string() + ".part";
   m.whole = output.string() + ".whole.part";
   m.metadata = metadata;
-  const std::string what = "cannot write " + output.string();
-  const AVCodec* h264 = avcodec_find_encoder_by_name("libx264");
-  if (!h264) throw RenderError(what + ": this libavcodec has no libx264");
-  check(avformat_alloc_output_context2(&m.format, nullptr, "mp4", url(m.part).c_str()), what);
-  m.stream = avformat_new_stream(m.format, nullptr);
-  m.codec = avcodec_alloc_context3(h264);
-  m.codec->width = width;
-  m.codec->height = height;
-  m.codec->pix_fmt = AV_PIX_FMT_YUV420P;
-  const AVRational rate = av_d2q(fps, 100000);
-  m.codec->time_base = av_inv_q(rate);
-  m.codec->framerate = rate;
-  m.codec->color_primaries = AVCOL_PRI_BT709;
-  m.codec->color_trc = AVCOL_TRC_BT709;
-  m.codec->colorspace = AVCOL_SPC_BT709;
-  m.codec->color_range = AVCOL_RANGE_MPEG;
-  m.codec->gop_size = static_cast<int>(std::lround(2 * fps));
-  m.codec->thread_count = kEncoderThreads;
-  if (m.format->oformat->flags & AVFMT_GLOBALHEADER) m.codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
-  av_opt_set(m.codec->priv_data, "preset", "veryfast", 0);
-  av_opt_set(m.codec->priv_data, "crf", "20", 0);
-  check(avcodec_open2(m.codec, h264, nullptr), what);
-  check(avcodec_parameters_from_context(m.stream->codecpar, m.codec), what);
-  m.stream->time_base = m.codec->time_base;
-  m.stream->avg_frame_rate = rate;
-  check(avio_open(&m.format->pb, url(m.part).c_str(), AVIO_FLAG_WRITE), what);
-  AVDictionary* options = nullptr;
-  av_dict_set(&options, "movflags", "frag_keyframe+empty_moov", 0);
-  check(avformat_write_header(m.format, &options), what);
-  av_dict_free(&options);
-  m.frame = av_frame_alloc();
-  m.frame->format = AV_PIX_FMT_YUV420P;
-  m.frame->width = width;
-  m.frame->height = height;
-  check(av_frame_get_buffer(m.frame, 0), what);
-  m.packet = av_packet_alloc();
+  m.story = story;
+  m.open(width, height, fps);
 }
 
 VideoEncoder::~VideoEncoder() = default;
 
-void VideoEncoder::append(const std::uint8_t* i420) {
+void VideoEncoder::append(const std::uint8_t* picture) {
   Impl& m = *impl_;
   check(av_frame_make_writable(m.frame), "cannot encode " + m.output.string());
-  for (int plane = 0; plane < 3; ++plane) {
-    const int w = plane ? m.codec->width / 2 : m.codec->width, h = plane ? m.codec->height / 2 : m.codec->height;
-    for (int y = 0; y < h; ++y, i420 += w)
-      std::memcpy(m.frame->data[plane] + y * m.frame->linesize[plane], i420, static_cast<std::size_t>(w));
-  }
+  m.load(picture);
   m.frame->pts = m.next++;
   check(avcodec_send_frame(m.codec, m.frame), "cannot encode " + m.output.string());
   m.drain();
@@ -216,9 +323,13 @@ void VideoEncoder::finish() {
   check(av_write_trailer(m.format), "cannot write " + m.part);
   close_file(m.format->pb, m.part);
   m.release();
-  remux(m.part, m.whole, m.next, m.metadata);
-  publish(m.whole, m.output);
-  std::filesystem::remove(m.part);
+  if (m.lossless) {
+    publish(m.part, m.output);
+  } else {
+    remux(m.part, m.whole, m.next, m.metadata, m.story);
+    publish(m.whole, m.output);
+    std::filesystem::remove(m.part);
+  }
   m.finished = true;
 }
 

@@ -1,4 +1,4 @@
-// H.264 in MP4 by libav*. The bytes depend on the encoder's thread count, so that is pinned.
+// H.264 in MP4, or lossless FFV1 in Matroska, by libav*. The bytes depend on the encoder's thread count, so that is pinned.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/image/image.h"
+#include "render/video/story.h"
 
 namespace render {
 
@@ -17,15 +18,16 @@ void rgba_to_i420(const Image&, std::uint8_t* out);
 
 class VideoEncoder {
  public:
-  /// Sizes must be even (RenderError names the next even one). Writes fragments to OUT.part: a kill leaves what was encoded
-  /// readable.
+  /// OUT.mkv is lossless, anything else an MP4. An MP4's sizes must be even (RenderError names the next even one). Writes fragments
+  /// to OUT.part: a kill leaves what was encoded readable.
   VideoEncoder(const std::filesystem::path& output, int width, int height, double fps,
-               const std::map<std::string, std::string>& metadata);
+               const std::map<std::string, std::string>& metadata, const Story& story = {});
   ~VideoEncoder();
   VideoEncoder(const VideoEncoder&) = delete;
   VideoEncoder& operator=(const VideoEncoder&) = delete;
 
-  void append(const std::uint8_t* i420);
+  /// Planar I420 for an MP4, RGBA for a lossless film.
+  void append(const std::uint8_t* picture);
   /// Flushes, rewrites the file with its index in front, renames it to its final name.
   void finish();
 

@@ -43,7 +43,7 @@ void read_film(Builder&, Reader& scene);  // camera, shot, overlays, output, roa
 
 extern const Section kSimulationSection, kGroundSection, kBodySection, kJointSection, kImpactSection, kPersonSection,
     kVehicleSection;
-extern const Section kCameraSection, kShotSection, kOverlaysSection, kOutputSection, kRoadSection, kSkySection;
+extern const Section kCameraSection, kShotSection, kCardSection, kOverlaysSection, kOutputSection, kRoadSection, kSkySection;
 
 // Shared by several sections.
 

@@ -2,20 +2,37 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scenes/loader/builder.h"
 
 namespace scenes {
 namespace {
 
+constexpr double kFilmHeight = 0.024;  // [m] of the 35 mm still format that focal lengths are spoken of in
+
+const Key kKnotKeys[] = {
+    {"time", Type::number, Dimension::time, kRequired, "When the camera is there.", kNotNegative},
+    {"position", Type::vector3, Dimension::length, kRequired, "Where it is; with follow: offset from the subject."},
+    {"target", Type::vector3, Dimension::length, kRequired, "The point looked at; with follow: offset from the subject."},
+};
+const Section kKnotSection{"camera.knot", "[[camera.knot]]",
+                           "A moving camera's place at one time; between knots it runs along a smooth curve.", kKnotKeys};
+
 const Key kCameraKeys[] = {
     {"name", Type::text, Dimension::none, kRequired, "Name for --camera and for shots."},
-    {"kind", Type::choice, Dimension::none, "'fixed'", "Stands still; keeps its offset; circles; or looks straight down.", kAny,
-     "fixed|follow|orbit|top"},
-    {"position", Type::vector3, Dimension::length, "'-8 -8 3 m'", "Fixed: in the world. Follow: offset from the subject."},
-    {"target", Type::vector3, Dimension::length, "'0 0 1 m'", "Fixed: point looked at. Others: offset from the subject."},
+    {"kind", Type::choice, Dimension::none, "'fixed'",
+     "Stands still; keeps its offset; circles; looks straight down; sees with a driver or a person; or moves along knots.", kAny,
+     "fixed|follow|orbit|top|eye|path"},
+    {"position", Type::vector3, Dimension::length, "'-8 -8 3 m'",
+     "Fixed: in the world. Follow: offset from the subject. Eye: in the axes of the body that carries it, a person's head, "
+     "a vehicle."},
+    {"target", Type::vector3, Dimension::length, "'0 0 1 m'",
+     "Fixed: point looked at. Eye: the same in the axes of its carrier. Others: offset from the subject."},
     {"follow", Type::text, Dimension::none, "''", "The subject: a body, a vehicle or a person. Empty: the world."},
     {"fov", Type::number, Dimension::angle, "'40 deg'", "Vertical angle of view.", between(0.02, 2.6)},
+    {"lens", Type::number, Dimension::length, "",
+     "Focal length in place of fov, for a picture 24 mm high (35 mm still format): \"50 mm\".", between(0.006, 1)},
     {"radius", Type::number, Dimension::length, "'8 m'", "Orbit: distance.", kPositive},
     {"height", Type::number, Dimension::length, "'2.5 m'", "Orbit: above the subject."},
     {"start", Type::number, Dimension::angle, "'0 deg'", "Orbit: where it begins, from +x towards +y."},
@@ -23,6 +40,7 @@ const Key kCameraKeys[] = {
     {"span", Type::number, Dimension::length, "'14 m'", "Top: metres from the lower to the upper edge of the picture.", kPositive},
     {"smoothing", Type::number, Dimension::time, "'0.25 s'", "A following camera averages its subject over this time.",
      kNotNegative},
+    {"knot", Type::tables, Dimension::none, "", "Path: where it is when, at least two.", kAny, {}, &kKnotSection},
 };
 
 const Key kShotKeys[] = {
@@ -31,7 +49,29 @@ const Key kShotKeys[] = {
     {"to", Type::number, Dimension::time, "", "Simulated time at its end; left out: the end of the run.", kNotNegative},
     {"speed", Type::number, Dimension::none, "1", "0.25 is four times slow motion, 0 freezes for hold.", kNotNegative},
     {"hold", Type::number, Dimension::time, "'0 s'", "How long a frozen picture stays.", kNotNegative},
+    {"layout", Type::choice, Dimension::none, "'single'",
+     "One camera; two side by side; two above each other; or the second small in a corner of the first. One clock for both.", kAny,
+     "single|split|stacked|inset"},
+    {"second", Type::text, Dimension::none, "''", "The other camera of a shared picture."},
+    {"title", Type::text, Dimension::none, "''", "Chapter in the video file; left out: the camera's name."},
 };
+
+const Key kCardKeys[] = {
+    {"title", Type::text, Dimension::none, kRequired, "Its heading."},
+    {"lines", Type::texts, Dimension::none, "[]", "What stands below: assumptions, sources, results."},
+    {"hold", Type::number, Dimension::time, "'3 s'", "How long it stays.", kPositive},
+    {"place", Type::choice, Dimension::none, "'start'", "Before the first shot or after the last.", kAny, "start|end"},
+};
+
+const Key kDimensionKeys[] = {
+    {"label", Type::text, Dimension::none, "''", "Stands before the number."},
+    {"body", Type::text, Dimension::none, "''", "How far this body, vehicle or person has come, level, since a time."},
+    {"since", Type::number, Dimension::time, "'0 s'", "That time.", kNotNegative},
+    {"from", Type::vector3, Dimension::length, "", "Without body: one end."},
+    {"to", Type::vector3, Dimension::length, "", "Without body: the other end."},
+};
+const Section kDimensionSection{"overlays.dimension", "[[overlays.dimension]]", "A line with its length in numbers.",
+                                kDimensionKeys};
 
 const Key kOverlayKeys[] = {
     {"contacts", Type::boolean, Dimension::none, "true", "Contact points and normals."},
@@ -41,6 +81,18 @@ const Key kOverlayKeys[] = {
     {"trace_bodies", Type::texts, Dimension::none, "[]", "Bodies whose paths are drawn; empty: head and hips of every person."},
     {"disclaimer", Type::boolean, Dimension::none, "true", "\"Simulation, not footage\" and the provenance at the foot."},
     {"scale_bar", Type::boolean, Dimension::none, "true", "A bar of metres in top views."},
+    {"legend", Type::boolean, Dimension::none, "false", "What colours and lengths of arrows and marks mean."},
+    {"contact_history", Type::boolean, Dimension::none, "false", "Marks on vehicles and persons where they touched so far."},
+    {"contact_colour", Type::choice, Dimension::none, "'time'", "Their colours: when it touched, or how hard.", kAny,
+     "time|impulse"},
+    {"ghost_interval", Type::number, Dimension::time, "", "Pale figures of persons and free bodies at equal times.",
+     between(0.005, 60)},
+    {"ghost_distance", Type::number, Dimension::length, "", "Pale figures at equal distances travelled.", between(0.02, 1000)},
+    {"velocities", Type::boolean, Dimension::none, "false", "Velocity arrows of vehicles and persons, with numbers."},
+    {"velocity_scale", Type::number, Dimension::speed, "'8 m/s'", "Speed that one metre of arrow stands for.", kPositive},
+    {"speed_chart", Type::boolean, Dimension::none, "false", "Speeds over time, running with the film."},
+    {"energy_chart", Type::boolean, Dimension::none, "false", "Energies over time, running with the film."},
+    {"dimension", Type::tables, Dimension::none, "", "Lengths with their numbers.", kAny, {}, &kDimensionSection},
     {"force_scale", Type::number, Dimension::stiffness, "'10 kN/m'", "Force that one metre of arrow stands for.", kPositive},
 };
 
@@ -70,6 +122,7 @@ const Key kRoadKeys[] = {
 };
 
 const Key kSkyKeys[] = {
+    {"north", Type::number, Dimension::angle, "", "Where north is, from +x towards +y; top views show it. Left out: they show x."},
     {"sun_azimuth", Type::number, Dimension::angle, "'130 deg'", "Direction to the sun, from +x towards +y."},
     {"sun_elevation", Type::number, Dimension::angle, "'46 deg'", "Height of the sun.", between(0.02, 1.5707964)},
     {"haze", Type::number, Dimension::none, "0.4", "0 clear, 1 fog.", kShare},
@@ -81,6 +134,19 @@ bool subject_exists(const Builder& builder, const std::string& name) {
   return builder.body_index(name) >= 0 ||
          std::any_of(model.persons.begin(), model.persons.end(), [&](const auto& p) { return p.name == name; }) ||
          std::any_of(model.vehicles.begin(), model.vehicles.end(), [&](const auto& v) { return v.name == name; });
+}
+
+void read_knots(Reader& r, render::Camera& camera) {
+  for (Reader& knot : r.tables("knot")) {
+    camera.path.push_back({knot.number("time"), knot.vector("position"), knot.vector("target")});
+    if (camera.path.size() > 1 && camera.path.back().time <= camera.path[camera.path.size() - 2].time)
+      knot.fail("time", "must be later than that of the knot before it");
+    if ((camera.path.back().position - camera.path.back().target).norm() < 1e-6)
+      knot.fail("target", "must differ from position; a camera needs a direction");
+  }
+  const bool path = camera.kind == render::CameraKind::path;
+  if (path && camera.path.size() < 2) r.fail("kind", "needs two knots or more, each under [[camera.knot]]");
+  if (!path && !camera.path.empty()) r.fail("kind", "has no use for knots; a camera with knots is of kind \"path\"");
 }
 
 void read_camera(Builder& builder, Reader& r) {
@@ -100,25 +166,28 @@ void read_camera(Builder& builder, Reader& r) {
                                    : fmt::format("is no body, vehicle or person of the scene; did you mean \"{}\"?", guess));
   }
   camera.vertical_fov = r.number("fov");
+  if (const auto lens = r.number_if("lens")) camera.vertical_fov = 2 * std::atan(kFilmHeight / 2 / *lens);
+  if (r.has("lens") && r.has("fov")) r.fail("lens", "says the same as fov; give one of them");
   camera.orbit_radius = r.number("radius");
   camera.orbit_height = r.number("height");
   camera.orbit_start = r.number("start");
   camera.orbit_rate = r.number("rate");
   camera.top_height = r.number("span");
   camera.smoothing = r.number("smoothing");
-  if (camera.kind == render::CameraKind::fixed && (camera.position - camera.target).norm() < 1e-6) {
+  const bool straight = camera.kind == render::CameraKind::fixed || camera.kind == render::CameraKind::eye;
+  if (straight && (camera.position - camera.target).norm() < 1e-6) {
     r.fail("target", "must differ from position; a camera needs a direction");
   }
+  read_knots(r, camera);
   builder.scene.stage.cameras.push_back(std::move(camera));
 }
 
-void check_camera_name(Builder& builder, Reader& r, const std::string& name) {
+void check_camera_name(Builder& builder, Reader& r, const std::string& name, std::string_view key = "camera") {
   std::vector<std::string> names;
   for (const render::Camera& camera : builder.scene.stage.cameras) names.push_back(camera.name);
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
   const std::string guess = nearest(name, names);
-  r.fail("camera",
-         guess.empty() ? "is no camera of the scene" : fmt::format("is no camera of the scene; did you mean \"{}\"?", guess));
+  r.fail(key, guess.empty() ? "is no camera of the scene" : fmt::format("is no camera of the scene; did you mean \"{}\"?", guess));
 }
 
 void read_shot(Builder& builder, Reader& r) {
@@ -132,7 +201,46 @@ void read_shot(Builder& builder, Reader& r) {
   if (shot.to < shot.from) r.fail("to", "must not be earlier than from");
   if (shot.speed == 0 && shot.hold == 0)
     r.fail("hold", "must be greater than 0 s where speed is 0; a frozen picture needs a duration");
+  shot.layout = static_cast<render::Layout>(r.choice("layout"));
+  shot.second = r.text("second");
+  shot.title = r.text("title");
+  const bool shared = shot.layout != render::Layout::single;
+  if (!shot.second.empty()) check_camera_name(builder, r, shot.second, "second");
+  if (shared && shot.second.empty()) r.fail("layout", "shares the picture between two cameras; name the other as second");
+  if (!shared && !shot.second.empty()) r.fail("second", "needs a layout: split, stacked or inset");
   builder.scene.stage.shots.push_back(shot);
+}
+
+void read_card(Builder& builder, Reader& r) {
+  builder.scene.stage.cards.push_back({r.text("title"), r.texts("lines"), r.number("hold"), r.choice("place") == 1});
+}
+
+/// Body of the Model that a body, vehicle or person goes by; -1: none.
+int body_of(const Builder& builder, const std::string& name) {
+  const engine::Model& model = builder.scene.model;
+  for (const engine::Person& person : model.persons)
+    if (person.name == name) return person.hips;
+  for (const engine::Vehicle& vehicle : model.vehicles)
+    if (vehicle.name == name) return vehicle.body;
+  return builder.body_index(name);
+}
+
+void read_dimension(Builder& builder, Reader& r) {
+  render::Dimension d;
+  d.label = r.text("label");
+  d.since = r.number("since");
+  const std::string name = r.text("body");
+  if (name.empty()) {
+    if (!r.has("from") || !r.has("to")) r.fail_here("needs a body, or from and to");
+    d.from = r.vector_if("from").value_or(engine::Vec3::Zero());
+    d.to = r.vector_if("to").value_or(engine::Vec3::Zero());
+  } else {
+    d.body = body_of(builder, name);
+    const bool told = !builder.errors.empty() && builder.is_declared(name);
+    if (d.body < 0 && !told) r.fail("body", "is no body, vehicle or person of the scene");
+    if (r.has("from") || r.has("to")) r.fail("body", "needs no from and to; it is measured from where it was at since");
+  }
+  builder.scene.stage.overlays.dimensions.push_back(d);
 }
 
 void read_overlays(Builder& builder, Reader r) {
@@ -144,6 +252,16 @@ void read_overlays(Builder& builder, Reader r) {
   o.disclaimer = r.boolean("disclaimer");
   o.scale_bar = r.boolean("scale_bar");
   o.newtons_per_metre = r.number("force_scale");
+  o.legend = r.boolean("legend");
+  o.contact_history = r.boolean("contact_history");
+  o.contact_colour = static_cast<render::ContactColour>(r.choice("contact_colour"));
+  o.ghost_interval = r.number_if("ghost_interval").value_or(0);
+  o.ghost_distance = r.number_if("ghost_distance").value_or(0);
+  o.velocities = r.boolean("velocities");
+  o.velocity_scale = r.number("velocity_scale");
+  o.speed_chart = r.boolean("speed_chart");
+  o.energy_chart = r.boolean("energy_chart");
+  for (Reader& dimension : r.tables("dimension")) read_dimension(builder, dimension);
   o.trace_bodies = r.texts("trace_bodies");
   for (const std::string& name : o.trace_bodies) {
     const bool told = !builder.errors.empty() && builder.is_declared(name);
@@ -187,6 +305,7 @@ void read_road_and_sky(Builder& builder, Reader road, Reader sky) {
   look.zebra = road.has("zebra");
   if (look.zebra) look.zebra_x = road.number("zebra");
   builder.scene.stage.sky = {sky.number("sun_azimuth"), sky.number("sun_elevation"), sky.number("haze")};
+  builder.scene.stage.north = sky.number_if("north");
 }
 
 }  // namespace
@@ -196,6 +315,7 @@ const Section kCameraSection{"camera", "[[camera]]",
                              kCameraKeys};
 const Section kShotSection{"shot", "[[shot]]",
                            "A stretch of film. Without shots: the whole run from the first camera at natural speed.", kShotKeys};
+const Section kCardSection{"card", "[[card]]", "A page of text in the film: title, assumptions, results.", kCardKeys};
 const Section kOverlaysSection{"overlays", "[overlays]", "What is drawn over the picture.", kOverlayKeys};
 const Section kOutputSection{"output", "[output]", "Size and rate of pictures; the command line overrides.", kOutputKeys};
 const Section kRoadSection{"road", "[road]", "What the ground plane looks like; its friction stands in [ground].", kRoadKeys};
@@ -231,6 +351,7 @@ void read_film(Builder& builder, Reader& scene) {
   for (Reader& camera : scene.tables("camera")) read_camera(builder, camera);
   if (builder.scene.stage.cameras.empty()) builder.scene.stage.cameras.push_back(overview(builder.scene.model));
   for (Reader& shot : scene.tables("shot")) read_shot(builder, shot);
+  for (Reader& card : scene.tables("card")) read_card(builder, card);
   read_overlays(builder, section("overlays", kOverlaysSection));
   read_output(builder, section("output", kOutputSection));
   read_road_and_sky(builder, section("road", kRoadSection), section("sky", kSkySection));

@@ -34,6 +34,7 @@ const Key kSceneKeys[] = {
     {"impact", Type::tables, Dimension::none, "", "Kudlich-Slibar impacts settled by hand.", kAny, {}, &kImpactSection},
     {"camera", Type::tables, Dimension::none, "", "Cameras.", kAny, {}, &kCameraSection},
     {"shot", Type::tables, Dimension::none, "", "The film, shot by shot.", kAny, {}, &kShotSection},
+    {"card", Type::tables, Dimension::none, "", "Pages of text in the film.", kAny, {}, &kCardSection},
     {"overlays", Type::table, Dimension::none, "", "What is drawn over the picture.", kAny, {}, &kOverlaysSection},
     {"output", Type::table, Dimension::none, "", "Size and rate of pictures.", kAny, {}, &kOutputSection},
     {"road", Type::table, Dimension::none, "", "What the ground looks like.", kAny, {}, &kRoadSection},

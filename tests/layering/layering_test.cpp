@@ -50,7 +50,7 @@ const std::vector<Library> kLibraries = {
     {"GL/.*|EGL/.*", {"render/gl/"}},
     {"lib(av|sw).*", {"render/video/"}},
     {"png\\.h|zlib\\.h", {"render/image/"}},
-    {"cairo.*|pango.*|ft2build\\.h|freetype.*|fontconfig.*", {"render/text/", "render/charts/"}},
+    {"cairo.*|pango.*|ft2build\\.h|freetype.*|fontconfig.*", {"render/text/", "render/figures/", "render/charts/"}},
     {"toml\\+\\+.*|toml\\.hpp", {"scenes/loader/toml.cpp"}},
     {"assimp/.*", {"scenes/loader/"}},
     {"CLI/.*", {"cli/command.cpp"}},

@@ -1,0 +1,127 @@
+// crashreel figure SCENE -o DIR: report figures of one run.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "cli/command.h"
+#include "cli/exit.h"
+#include "cli/output/whole_file.h"
+#include "cli/parse.h"
+#include "cli/scene_run.h"
+#include "engine/measure/metrics.h"
+#include "render/figures/figures.h"
+
+namespace cli {
+namespace {
+
+struct FigureWish {
+  SceneArguments scene;
+  std::string output;
+  std::string size = "1920x1080";
+  std::string quality = "standard";
+  bool overwrite = false;
+};
+
+/// What the drawings are called, and what they write.
+struct Figure {
+  const char* name;
+  std::vector<std::string> (*draw)(const render::Stage&, const engine::Recording&, const render::FigureJob&);
+};
+constexpr Figure kFigures[] = {{"site_diagram", render::site_diagram},
+                               {"contact_map", render::contact_map},
+                               {"time_histories", render::time_histories},
+                               {"stroboscopic", render::stroboscopic_still},
+                               {"contact_sheet", render::contact_sheet}};
+
+/// Last time a vehicle pushed the person before it landed, as the measures take it.
+std::optional<double> released(const engine::Model& model, const engine::Recording& recording, int person, double landed) {
+  std::optional<double> last;
+  for (const engine::Snapshot& s : recording.snapshots) {
+    if (s.time > landed) break;
+    for (const engine::ContactRecord& c : s.contacts)
+      if (c.kind == engine::ContactKind::vehicle && c.normal_impulse > 0 &&
+          model.bodies[static_cast<std::size_t>(c.body_a)].person == person)
+        last = s.time;
+  }
+  return last;
+}
+
+render::PersonFacts facts_of(const engine::Model& model, const engine::Recording& recording, int index,
+                             const std::vector<engine::Metric>& metrics) {
+  const engine::Person& person = model.persons[static_cast<std::size_t>(index)];
+  render::PersonFacts facts;
+  facts.name = person.name;
+  facts.bodies = person.bodies;
+  for (const int b : person.bodies) facts.masses.push_back(model.bodies[static_cast<std::size_t>(b)].mass);
+  for (const engine::Event& e : recording.events) {
+    if (e.body_a < 0 || model.bodies[static_cast<std::size_t>(e.body_a)].person != index) continue;
+    if (e.kind == "first_contact" && !facts.hit) {
+      facts.hit = e.time;
+      facts.vehicle_body = e.body_b;
+    }
+    if (e.kind == "ground_contact" && !facts.landed) facts.landed = e.time;
+    if (e.kind == "rest" && !facts.rest) facts.rest = e.time;
+  }
+  if (facts.landed) facts.released = released(model, recording, index, *facts.landed);
+  constexpr std::pair<const char*, const char*> kShown[] = {{"throw_distance_m", "throw distance"},
+                                                            {"airborne_m", "airborne"},
+                                                            {"slide_m", "slide"},
+                                                            {"wrap_around_distance_m", "wrap-around"}};
+  for (const auto& [key, name] : kShown)
+    for (const engine::Metric& m : metrics)
+      if (m.key == key && m.object == person.name) facts.dimensions.emplace_back(name, m.value);
+  return facts;
+}
+
+int draw_figures(const FigureWish& wish) {
+  scenes::Scene scene = load_scene(wish.scene);
+  render::FigureJob job;
+  job.folder = wish.output;
+  std::tie(job.width, job.height) = parse_size("--size", wish.size);
+  job.quality = wish.quality == "draft"  ? render::Quality::draft
+                : wish.quality == "fine" ? render::Quality::fine
+                                         : render::Quality::standard;
+  job.metadata = {{"title", scene.title},
+                  {"version", fmt::format("crashreel {}", CRASHREEL_VERSION)},
+                  {"scene", scene.path.filename().string()},
+                  {"scene_sha256", scene.sha256}};
+  for (const Figure& figure : kFigures)
+    for (const char* extension : {".pdf", ".svg", ".png"})
+      refuse_existing(job.folder / (std::string(figure.name) + extension), wish.overwrite);
+  make_writable_folder(job.folder);
+
+  const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
+  if (recording.failure) scene.stage.warnings.push_back(fmt::format("the model diverged at {:.3f} s", recording.failure->time));
+  const std::vector<engine::Metric> metrics = engine::measure(scene.model, recording);
+  for (int p = 0; p < static_cast<int>(scene.model.persons.size()); ++p)
+    job.persons.push_back(facts_of(scene.model, recording, p, metrics));
+
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  for (const Figure& figure : kFigures) {
+    const std::vector<std::string> written = figure.draw(scene.stage, recording, job);
+    if (written.empty() && !wish.scene.quiet) fmt::print(stderr, "{}: the run has nothing to show there\n", figure.name);
+    for (const std::string& file : written) {
+      files.push_back(file);
+      if (!wish.scene.json) fmt::print("{}\n", file);
+    }
+  }
+  if (wish.scene.json) fmt::print("{}\n", nlohmann::ordered_json{{"files", files}}.dump(2));
+  return exit_code_of(recording);
+}
+
+}  // namespace
+
+std::function<int()> declare_figure(Arguments& arguments) {
+  const auto wish = std::make_shared<FigureWish>();
+  declare_scene(arguments, wish->scene);
+  declare_progress(arguments, wish->scene);
+  arguments.required_option("-o,--output", wish->output, "DIR", "folder for the figures");
+  arguments.option("--size", wish->size, "WxH", "pixels of the stills; default 1920x1080");
+  arguments.choice("--quality", wish->quality, {"draft", "standard", "fine"}, "looks of the stills against time");
+  arguments.flag("--overwrite", wish->overwrite, "replace files that exist");
+  return [wish] { return draw_figures(*wish); };
+}
+
+}  // namespace cli

@@ -1,0 +1,194 @@
+// The struck vehicle unrolled: along a taut tape over its longitudinal section, from the ground up over front, bonnet and
+// windscreen, against the place across. A touch is a mark: its shape tells the part of the body, its lightness the time, its size
+// the impulse.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/figures/figures.h"
+#include "render/figures/outline.h"
+#include "render/figures/sheet.h"
+#include "render/overlays/overlay.h"
+
+namespace render {
+namespace {
+
+constexpr double kLeft = 34, kTop = 34, kRight = 215, kBottom = kSheetHeight - 26;  // [mm]
+constexpr double kLeast = 0.2;                                                      // [N s]
+constexpr double kCell = 0.04;  // [m] one mark a cell and part: the strongest touch
+
+struct Touch {
+  int part = 5;
+  double along = 0, across = 0;  // [m] tape from the ground; to the left
+  double time = 0, impulse = 0;
+};
+
+/// The tape: the upper front of the section's convex outline, from the ground to the top of the roof.
+std::vector<Point2> tape_of(const Stage& stage, int body, double ground) {
+  std::vector<Point2> points;
+  for (const MeshActor& actor : stage.meshes) {
+    if (actor.body != body) continue;
+    for (std::size_t i = 0; i + 2 < actor.mesh->positions.size(); i += 3) {
+      const float* p = &actor.mesh->positions[i];
+      const Vec3 q = actor.X_BM * Vec3(p[0], p[1], p[2]);
+      points.emplace_back(q.x(), q.z());
+    }
+  }
+  const std::vector<Point2> hull = convex_hull(points);
+  if (hull.size() < 3) return {};
+  // counter-clockwise, x forward and z up: from the foremost point upwards and backwards
+  const auto top = std::max_element(hull.begin(), hull.end(), [](const Point2& a, const Point2& b) { return a.y() < b.y(); });
+  const auto front = std::max_element(hull.begin(), hull.end(), [](const Point2& a, const Point2& b) { return a.x() < b.x(); });
+  std::vector<Point2> tape{{front->x(), ground}};
+  for (auto at = front;; at = at + 1 == hull.end() ? hull.begin() : at + 1) {
+    tape.push_back(*at);
+    if (at == top) break;
+  }
+  return tape;
+}
+
+/// Length along the tape to the place on it nearest to p.
+double along_tape(const std::vector<Point2>& tape, const Point2& p) {
+  double best = 1e300, length = 0, answer = 0;
+  for (std::size_t i = 1; i < tape.size(); ++i) {
+    const Point2 side = tape[i] - tape[i - 1];
+    const double s = std::clamp((p - tape[i - 1]).dot(side) / std::max(side.squaredNorm(), 1e-12), 0.0, 1.0);
+    const double distance = (tape[i - 1] + s * side - p).norm();
+    if (distance < best) {
+      best = distance;
+      answer = length + s * side.norm();
+    }
+    length += side.norm();
+  }
+  return answer;
+}
+
+std::vector<Touch> touches(const engine::Recording& recording, const std::vector<Point2>& tape, int body) {
+  std::vector<Touch> out;
+  for (const engine::Snapshot& s : recording.snapshots)
+    for (const engine::ContactRecord& c : s.contacts) {
+      if (c.kind != engine::ContactKind::vehicle || c.body_b != body || c.impulse.norm() < kLeast) continue;
+      const Pose& X = s.bodies[static_cast<std::size_t>(body)].X_WB;
+      const Vec3 p = X.q.conjugate() * (c.point - X.p);
+      const Touch touch{part_of(recording.body_names[static_cast<std::size_t>(c.body_a)]), along_tape(tape, {p.x(), p.z()}), p.y(),
+                        s.time, c.impulse.norm()};
+      const auto same = std::find_if(out.begin(), out.end(), [&](const Touch& t) {
+        return t.part == touch.part && std::hypot(t.along - touch.along, t.across - touch.across) < kCell;
+      });
+      if (same == out.end())
+        out.push_back(touch);
+      else if (touch.impulse > same->impulse)
+        *same = touch;
+    }
+  // the largest first, so that small ones are not covered
+  std::stable_sort(out.begin(), out.end(), [](const Touch& a, const Touch& b) { return a.impulse > b.impulse; });
+  return out;
+}
+
+struct Scales {
+  double length, half_width;  // [m] shown
+  double x(double along) const { return kLeft + (kRight - kLeft) * along / length; }
+  double y(double across) const { return (kTop + kBottom) / 2 - (kRight - kLeft) * across / length; }
+};
+
+void draw_grid(cairo_t* c, const Scales& s, const std::vector<Point2>& tape, double half_width) {
+  cairo_set_line_width(c, 0.15);
+  for (double v = 0; v <= s.length + 1e-9; v += 0.5) {
+    grey(c, 0.75);
+    draw_line(c, s.x(v), s.y(s.half_width), s.x(v), s.y(-s.half_width));
+    grey(c, 0);
+    draw_text(c, s.x(v), s.y(-s.half_width) + 4.5, fmt::format("{:.1f}", v), 2.9, Align::centre);
+  }
+  for (double v = -std::floor(2 * s.half_width) / 2; v <= s.half_width + 1e-9; v += 0.5) {
+    grey(c, 0.75);
+    draw_line(c, s.x(0), s.y(v), s.x(s.length), s.y(v));
+    grey(c, 0);
+    draw_text(c, s.x(0) - 2, s.y(v) + 1, fmt::format("{:.1f}", v), 2.9, Align::right);
+  }
+  draw_text(c, s.x(s.length / 2), s.y(-s.half_width) + 10, "along the vehicle, tape from the ground over its front, m", 3.2,
+            Align::centre);
+  cairo_save(c);
+  cairo_translate(c, s.x(0) - 14, s.y(0));
+  cairo_rotate(c, -M_PI / 2);
+  draw_text(c, 0, 0, "across, to the left, m", 3.2, Align::centre);
+  cairo_restore(c);
+  // the vehicle's sides, and where its front begins
+  grey(c, 0.2);
+  cairo_set_line_width(c, 0.4);
+  const double start = (tape[1] - tape[0]).norm();
+  cairo_rectangle(c, s.x(start), s.y(half_width), s.x(s.length) - s.x(start), s.y(-half_width) - s.y(half_width));
+  cairo_stroke(c);
+}
+
+void draw_key(cairo_t* c, const std::vector<Touch>& marks, double first, double last) {
+  double y = kTop + 6;
+  const double x = kRight + 16;
+  grey(c, 0);
+  draw_text(c, x, y, "part (shape)", 3.2);
+  for (int part = 0; part < 6; ++part) {
+    if (std::none_of(marks.begin(), marks.end(), [part](const Touch& t) { return t.part == part; })) continue;
+    y += 6;
+    grey(c, 0.8);
+    draw_mark(c, part, x + 3, y - 1.1, 1.6);
+    draw_text(c, x + 8, y, name_of_part(part), 3.0);
+  }
+  y += 10;
+  draw_text(c, x, y, "time (lightness)", 3.2);
+  for (const double share : {0.0, 0.5, 1.0}) {
+    y += 6;
+    const Float4 k = colour_of_share(share);
+    cairo_set_source_rgb(c, k[0], k[1], k[2]);
+    draw_mark(c, 0, x + 3, y - 1.1, 1.6);
+    draw_text(c, x + 8, y, fmt::format("{:.3f} s", first + share * (last - first)), 3.0);
+  }
+  y += 10;
+  draw_text(c, x, y, "impulse (size)", 3.2);
+  for (const double impulse : {1.0, 10.0, 50.0}) {
+    y += 7;
+    grey(c, 0.8);
+    draw_mark(c, 0, x + 3, y - 1.1, 0.6 + 0.42 * std::sqrt(impulse));
+    draw_text(c, x + 8, y, fmt::format("{:g} N s", impulse), 3.0);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> contact_map(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
+  const auto struck =
+      std::find_if(job.persons.begin(), job.persons.end(), [](const PersonFacts& p) { return p.vehicle_body >= 0; });
+  if (struck == job.persons.end()) return {};
+  const int body = struck->vehicle_body;
+  const double ground = stage.road.height - recording.snapshots.front().bodies[static_cast<std::size_t>(body)].X_WB.p.z();
+  const std::vector<Point2> tape = tape_of(stage, body, ground);
+  if (tape.size() < 3) return {};
+  const std::vector<Touch> marks = touches(recording, tape, body);
+  if (marks.empty()) return {};
+  double half_width = 0.5, first = 1e9, last = 0, farthest = 0;
+  for (const MeshActor& actor : stage.meshes)
+    if (actor.body == body)
+      for (std::size_t i = 1; i < actor.mesh->positions.size(); i += 3)
+        half_width = std::max(half_width, std::abs(static_cast<double>(actor.mesh->positions[i])));
+  for (const Touch& t : marks) {
+    first = std::min(first, t.time);
+    last = std::max(last, t.time);
+    farthest = std::max(farthest, t.along);
+  }
+  const double shown = std::ceil(2 * half_width + 0.2) / 2;
+  Scales scales{std::max(std::ceil(2 * farthest + 0.6) / 2, 2.0), shown};
+  // as long as it must be to keep the width on the paper
+  scales.length = std::max(scales.length, std::ceil(2 * 2 * shown * (kRight - kLeft) / (kBottom - kTop)) / 2);
+  return write_sheets(job.folder, "contact_map", "Contact map: " + stage.title, [&](cairo_t* c) {
+    draw_frame_of_sheet(
+        c, stage, "Contact map of " + recording.body_names[static_cast<std::size_t>(body)] + ", unrolled, with " + struck->name);
+    draw_grid(c, scales, tape, half_width);
+    for (const Touch& t : marks) {
+      const Float4 k = colour_of_share(last > first ? (t.time - first) / (last - first) : 0);
+      cairo_set_source_rgb(c, k[0], k[1], k[2]);
+      draw_mark(c, t.part, scales.x(t.along), scales.y(t.across), 0.6 + 0.42 * std::sqrt(std::min(t.impulse, 60.0)));
+    }
+    draw_key(c, marks, first, last);
+  });
+}
+
+}  // namespace render

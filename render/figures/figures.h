@@ -1,0 +1,47 @@
+// Report figures: vector drawings to scale and over time (PDF and SVG), stills made of several moments (PNG). Every one reads in
+// black and white: what colour tells, shape, dashes or lightness tell too.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/recording.h"
+#include "render/renderer.h"
+#include "render/stage.h"
+
+namespace render {
+
+/// What a recording alone does not tell of a person: masses, and the times between which its throw is measured.
+struct PersonFacts {
+  std::string name;
+  std::vector<int> bodies;                                 // root first
+  std::vector<double> masses;                              // [kg] of each
+  std::optional<double> hit, landed, rest;                 // [s]
+  std::optional<double> released;                          // [s] last touch of the vehicle before landing
+  int vehicle_body = -1;                                   // that struck
+  std::vector<std::pair<std::string, double>> dimensions;  // [m] "throw distance", "airborne", ... as measured
+};
+
+struct FigureJob {
+  std::filesystem::path folder;
+  int width = 1920, height = 1080;  // of stills
+  Quality quality = Quality::standard;
+  std::vector<PersonFacts> persons;
+  std::map<std::string, std::string> metadata;
+};
+
+/// Each returns the files it wrote: none where the run has nothing to show. Throws RenderError.
+std::vector<std::string> site_diagram(const Stage&, const engine::Recording&, const FigureJob&);
+std::vector<std::string> contact_map(const Stage&, const engine::Recording&, const FigureJob&);
+std::vector<std::string> time_histories(const Stage&, const engine::Recording&, const FigureJob&);
+std::vector<std::string> stroboscopic_still(const Stage&, const engine::Recording&, const FigureJob&);
+std::vector<std::string> contact_sheet(const Stage&, const engine::Recording&, const FigureJob&);
+
+/// Centre of mass of a person at a time.
+Vec3 centre_of_mass(const PersonFacts&, const engine::Recording&, double time);
+
+}  // namespace render

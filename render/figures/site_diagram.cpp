@@ -1,0 +1,314 @@
+// The site from above at a round scale: road, vehicle and person at impact, landing and rest, their paths, skid marks, and the
+// throw with its parts as dimensions.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/figures/figures.h"
+#include "render/figures/outline.h"
+#include "render/figures/sheet.h"
+
+namespace render {
+namespace {
+
+constexpr double kLeft = kMargin, kTop = 28, kRight = kSheetWidth - kMargin, kBottom = kSheetHeight - 22;  // [mm] of the plan
+constexpr double kAround = 1.2;  // [m] kept free around what moves
+constexpr double kSkids = 0.3;   // [m/s] slip that leaves a mark
+
+/// World to paper: x right, y up, one scale.
+struct Plan {
+  double denominator = 100;  // of the scale
+  Point2 middle{0, 0};
+  double x(double wx) const { return (kLeft + kRight) / 2 + 1000 * (wx - middle.x()) / denominator; }
+  double y(double wy) const { return (kTop + kBottom) / 2 - 1000 * (wy - middle.y()) / denominator; }
+  Point2 at(const Vec3& p) const { return {x(p.x()), y(p.y())}; }
+};
+
+/// The largest usual scale at which the box fits the sheet.
+Plan plan_for(const Point2& lower, const Point2& upper) {
+  constexpr std::array kScales{20, 25, 50, 75, 100, 125, 150, 200, 250, 300, 400, 500, 750, 1000, 1500, 2000, 5000};
+  Plan plan;
+  plan.middle = 0.5 * (lower + upper);
+  for (const int scale : kScales) {
+    plan.denominator = scale;
+    if (1000 * (upper.x() - lower.x()) / scale <= kRight - kLeft && 1000 * (upper.y() - lower.y()) / scale <= kBottom - kTop) break;
+  }
+  return plan;
+}
+
+struct Site {
+  const Stage& stage;
+  const engine::Recording& recording;
+  const FigureJob& job;
+  Plan plan;
+};
+
+const engine::Pose& pose(const engine::Snapshot& s, int body) {
+  return s.bodies[static_cast<std::size_t>(body)].X_WB;
+}
+
+std::vector<double> times_of_interest(const PersonFacts& p, const engine::Recording& r) {
+  std::vector<double> out;
+  if (p.hit) out.push_back(*p.hit);
+  if (p.landed) out.push_back(*p.landed);
+  out.push_back(p.rest.value_or(r.end_time()));
+  return out;
+}
+
+void path(cairo_t* c, const std::vector<Point2>& polygon, const Plan& plan) {
+  for (const Point2& p : polygon) cairo_line_to(c, plan.x(p.x()), plan.y(p.y()));
+  cairo_close_path(c);
+}
+
+void draw_road(cairo_t* c, const Site& site) {
+  const RoadLook& road = site.stage.road;
+  if (!road.road) return;
+  const double lower = road.centre_y - road.width / 2;
+  for (int lane = 0; lane <= road.lanes; ++lane) {
+    const bool edge = lane == 0 || lane == road.lanes;
+    const double y = site.plan.y(lower + lane * road.width / road.lanes);
+    if (y < kTop || y > kBottom) continue;
+    grey(c, 0.55);
+    cairo_set_line_width(c, edge ? 0.5 : 0.35);
+    const double dash[] = {1000 * 3 / site.plan.denominator, 1000 * 6 / site.plan.denominator};
+    cairo_set_dash(c, dash, edge ? 0 : 2, 0);
+    draw_line(c, kLeft, y, kRight, y);
+  }
+  cairo_set_dash(c, nullptr, 0, 0);
+}
+
+void draw_vehicles(cairo_t* c, const Site& site, double time, bool end) {
+  const engine::Snapshot s = site.recording.at(time);
+  for (const MeshActor& actor : site.stage.meshes) {
+    if (actor.body < 0) continue;
+    path(c, seen_from_above(*actor.mesh, pose(s, actor.body) * actor.X_BM), site.plan);
+    grey(c, end ? 0.90 : 0.97);
+    cairo_fill_preserve(c);
+    grey(c, 0.25);
+    cairo_set_line_width(c, 0.3);
+    set_dashes(c, end ? 0 : 1);
+    cairo_stroke(c);
+    set_dashes(c, 0);
+  }
+}
+
+void draw_person(cairo_t* c, const Site& site, const PersonFacts& facts, double time, double lightness) {
+  const engine::Snapshot s = site.recording.at(time);
+  for (const PersonActor& person : site.stage.persons) {
+    if (person.name != facts.name) continue;
+    for (const PersonActor::Segment& segment : person.segments) {
+      path(c, seen_from_above(segment.shape, pose(s, segment.body)), site.plan);
+      grey(c, lightness);
+      cairo_fill_preserve(c);
+      grey(c, 0);
+      cairo_set_line_width(c, 0.15);
+      cairo_stroke(c);
+    }
+  }
+}
+
+void draw_skids(cairo_t* c, const Site& site) {
+  grey(c, 0.6);
+  cairo_set_line_width(c, std::max(0.3, 1000 * 0.18 / site.plan.denominator));
+  const auto& snapshots = site.recording.snapshots;
+  for (std::size_t w = 0; w < snapshots.front().wheels.size(); ++w) {
+    bool open = false;
+    for (const engine::Snapshot& s : snapshots) {
+      const engine::WheelRecord& wheel = s.wheels[w];
+      const bool skids = wheel.slip > kSkids && wheel.load > 0;
+      const Point2 p = site.plan.at(wheel.contact);
+      if (skids && open)
+        cairo_line_to(c, p.x(), p.y());
+      else if (skids)
+        cairo_move_to(c, p.x(), p.y());
+      open = skids;
+    }
+    cairo_stroke(c);
+  }
+}
+
+void draw_path(cairo_t* c, const Site& site, const PersonFacts& facts) {
+  grey(c, 0);
+  cairo_set_line_width(c, 0.35);
+  set_dashes(c, 4);
+  const double end = facts.rest.value_or(site.recording.end_time());
+  for (const engine::Snapshot& s : site.recording.snapshots) {
+    if (s.time < facts.hit.value_or(0) || s.time > end) continue;
+    const Point2 p = site.plan.at(centre_of_mass(facts, site.recording, s.time));
+    cairo_line_to(c, p.x(), p.y());
+  }
+  cairo_stroke(c);
+  set_dashes(c, 0);
+}
+
+/// A dimension line beside its two points, `offset` [mm] below them on the paper.
+void draw_dimension(cairo_t* c, const Site& site, const Vec3& from, const Vec3& to, const std::string& label, double offset) {
+  const Point2 a = site.plan.at(from), b = site.plan.at(to);
+  const double length = (to - from).head<2>().norm();
+  if ((b - a).norm() < 0.5) return;
+  const Point2 along = (b - a).normalized();
+  Point2 down(-along.y(), along.x());
+  if (down.y() < 0 || (down.y() == 0 && down.x() < 0)) down = -down;
+  const Point2 p = a + offset * down, q = b + offset * down;
+  grey(c, 0.45);
+  cairo_set_line_width(c, 0.15);
+  draw_line(c, a.x(), a.y(), p.x() + 1.5 * down.x(), p.y() + 1.5 * down.y());
+  draw_line(c, b.x(), b.y(), q.x() + 1.5 * down.x(), q.y() + 1.5 * down.y());
+  grey(c, 0);
+  cairo_set_line_width(c, 0.25);
+  draw_line(c, p.x(), p.y(), q.x(), q.y());
+  for (const Point2& end : {p, q}) {  // the draughtsman's oblique strokes
+    const Point2 stroke = (along - down).normalized();
+    draw_line(c, end.x() - 1.4 * stroke.x(), end.y() - 1.4 * stroke.y(), end.x() + 1.4 * stroke.x(), end.y() + 1.4 * stroke.y());
+  }
+  const std::string text = fmt::format("{} {:.2f} m", label, length);
+  const Point2 middle = 0.5 * (p + q);
+  cairo_save(c);
+  cairo_translate(c, middle.x(), middle.y());
+  const double angle = std::atan2(along.y(), along.x());
+  cairo_rotate(c, std::abs(angle) > M_PI / 2 ? angle + M_PI : angle);
+  // white behind the number: it may stand on a line of the plan
+  const double width = text_width(c, text, 3.2);
+  cairo_set_source_rgb(c, 1, 1, 1);
+  cairo_rectangle(c, -width / 2 - 0.8, -4.6, width + 1.6, 4.0);
+  cairo_fill(c);
+  grey(c, 0);
+  draw_text(c, 0, -1.4, text, 3.2, Align::centre);
+  cairo_restore(c);
+}
+
+void draw_dimensions(cairo_t* c, const Site& site, const PersonFacts& facts) {
+  if (!facts.hit) return;
+  auto com = [&](double t) { return centre_of_mass(facts, site.recording, t); };
+  const double end = facts.rest.value_or(site.recording.end_time());
+  // the parts above, the whole below them
+  if (facts.landed && facts.released) draw_dimension(c, site, com(*facts.released), com(*facts.landed), "airborne", 16);
+  if (facts.landed) draw_dimension(c, site, com(*facts.landed), com(end), "slide", 16);
+  draw_dimension(c, site, com(*facts.hit), com(end), facts.rest ? "throw distance" : "so far", 28);
+}
+
+/// A number in a circle beside each place of the person, explained in the key.
+void draw_numbers(cairo_t* c, const Site& site, const PersonFacts& facts) {
+  int number = 0;
+  for (const double t : times_of_interest(facts, site.recording)) {
+    const Point2 p = site.plan.at(centre_of_mass(facts, site.recording, t)) + Point2(0, -11);
+    cairo_set_source_rgb(c, 1, 1, 1);
+    cairo_arc(c, p.x(), p.y(), 2.6, 0, 2 * M_PI);
+    cairo_fill_preserve(c);
+    grey(c, 0);
+    cairo_set_line_width(c, 0.3);
+    cairo_stroke(c);
+    draw_text(c, p.x(), p.y() + 1.2, fmt::format("{}", ++number), 3.4, Align::centre);
+  }
+}
+
+void draw_key(cairo_t* c, const Site& site) {
+  double y = kMargin + 3;
+  const double x = kSheetWidth - kMargin;
+  grey(c, 0);
+  for (const PersonFacts& facts : site.job.persons) {
+    const std::vector<double> times = times_of_interest(facts, site.recording);
+    std::string text = facts.name + ":";
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const bool last = i + 1 == times.size();
+      const char* what = last ? (facts.rest ? "rest" : "end of run") : i == 0 && facts.hit ? "struck" : "on the ground";
+      text += fmt::format("  {} {} {:.2f} s", i + 1, what, times[i]);
+    }
+    draw_text(c, x, y, text, 2.9, Align::right);
+    y += 4.4;
+    text.clear();
+    for (const auto& [name, value] : facts.dimensions) text += fmt::format("{}{} {:.2f} m", text.empty() ? "" : ", ", name, value);
+    draw_text(c, x, y, text, 2.9, Align::right);
+    y += 4.4;
+  }
+}
+
+void draw_scale(cairo_t* c, const Site& site) {
+  const double metre = 1000 / site.plan.denominator;
+  const double length = metre >= 15 ? 2 : metre >= 6 ? 5 : metre >= 3 ? 10 : 50;  // [m]
+  const double x = kMargin, y = kSheetHeight - 15;
+  for (int i = 0; i < 4; ++i) {  // black and white by turns
+    cairo_rectangle(c, x + i * length * metre / 4, y, length * metre / 4, 1.6);
+    grey(c, i % 2 == 0 ? 0 : 1);
+    cairo_fill_preserve(c);
+    grey(c, 0);
+    cairo_set_line_width(c, 0.2);
+    cairo_stroke(c);
+  }
+  draw_text(c, x + length * metre + 2, y + 1.8, fmt::format("{:g} m    scale 1:{:g} on A4", length, site.plan.denominator), 3.2);
+  // north, or the x axis where nobody has said where north is
+  const double angle = site.stage.north.value_or(0);
+  const Point2 at(kSheetWidth - kMargin - 9, kSheetHeight - 19), along(std::cos(angle), -std::sin(angle));
+  const Point2 tail = at - 5 * along, tip = at + 5 * along, side(-along.y(), along.x());
+  cairo_set_line_width(c, 0.4);
+  draw_line(c, tail.x(), tail.y(), tip.x(), tip.y());
+  cairo_move_to(c, tip.x(), tip.y());
+  for (const double s : {1.0, -1.0}) {
+    const Point2 wing = tip - 2.6 * along + s * 1.1 * side;
+    cairo_line_to(c, wing.x(), wing.y());
+  }
+  cairo_fill(c);
+  const Point2 name = tip + 2.4 * along;
+  draw_text(c, name.x(), name.y() + 1.1, site.stage.north ? "N" : "x", 3.2, Align::centre);
+}
+
+}  // namespace
+
+Vec3 centre_of_mass(const PersonFacts& person, const engine::Recording& recording, double time) {
+  const engine::Snapshot s = recording.at(time);
+  Vec3 sum = Vec3::Zero();
+  double mass = 0;
+  for (std::size_t i = 0; i < person.bodies.size(); ++i) {
+    sum += person.masses[i] * pose(s, person.bodies[i]).p;
+    mass += person.masses[i];
+  }
+  return sum / mass;
+}
+
+std::vector<std::string> site_diagram(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
+  Point2 lower(1e9, 1e9), upper(-1e9, -1e9);
+  auto take = [&](const Point2& p) {
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
+  };
+  double hit = 0;
+  for (const PersonFacts& p : job.persons) {
+    if (p.hit) hit = *p.hit;
+    for (const engine::Snapshot& s : recording.snapshots)
+      if (s.time >= p.hit.value_or(0)) take(centre_of_mass(p, recording, s.time).head<2>());
+  }
+  for (const double time : {hit, recording.end_time()})
+    for (const MeshActor& actor : stage.meshes)
+      if (actor.body >= 0)
+        for (const Point2& p : seen_from_above(*actor.mesh, pose(recording.at(time), actor.body) * actor.X_BM)) take(p);
+  for (const EllipsoidActor& actor : stage.ellipsoids)
+    for (const engine::Snapshot& s : recording.snapshots) take(pose(s, actor.body).p.head<2>());
+  if (lower.x() > upper.x()) return {};
+  const Point2 around(kAround, kAround);
+  const Site site{stage, recording, job, plan_for(lower - around, upper + around)};
+  return write_sheets(job.folder, "site_diagram", "Site diagram: " + stage.title, [&](cairo_t* c) {
+    draw_frame_of_sheet(c, stage, "Site diagram");
+    cairo_save(c);
+    cairo_rectangle(c, kLeft, kTop, kRight - kLeft, kBottom - kTop);
+    cairo_clip(c);
+    draw_road(c, site);
+    draw_skids(c, site);
+    draw_vehicles(c, site, hit, false);
+    draw_vehicles(c, site, recording.end_time(), true);
+    for (const PersonFacts& p : job.persons) {
+      const std::vector<double> times = times_of_interest(p, recording);
+      for (std::size_t i = 0; i < times.size(); ++i)
+        draw_person(c, site, p, times[i], 0.92 - 0.42 * static_cast<double>(i + 1) / static_cast<double>(times.size()));
+      draw_path(c, site, p);
+      draw_dimensions(c, site, p);
+      draw_numbers(c, site, p);
+    }
+    cairo_restore(c);
+    draw_key(c, site);
+    draw_scale(c, site);
+  });
+}
+
+}  // namespace render

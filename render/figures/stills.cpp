@@ -1,0 +1,154 @@
+// Stills made of several moments: the stroboscopic one from the side of the throw, and a sheet of the film's instants.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/figures/figures.h"
+#include "render/image/png.h"
+#include "render/painter.h"
+#include "render/text/labels.h"
+
+namespace render {
+namespace {
+
+constexpr double kFigures = 9;          // stroboscopic ones
+constexpr int kColumns = 3, kRows = 3;  // of the contact sheet
+constexpr double kAspectOfFilm = 16.0 / 9.0;
+
+std::vector<std::string> write(const FigureJob& job, const std::string& name, const Image& image) {
+  const std::filesystem::path file = job.folder / name;
+  write_png(file, image, TextChunks(job.metadata.begin(), job.metadata.end()));
+  return {file.string()};
+}
+
+/// What moves after `from`: persons, else free bodies.
+std::vector<Vec3> places(const Stage& stage, const engine::Recording& recording, const FigureJob& job, double from) {
+  std::vector<Vec3> out;
+  for (const engine::Snapshot& s : recording.snapshots) {
+    if (s.time < from) continue;
+    for (const PersonFacts& p : job.persons) out.push_back(s.bodies[static_cast<std::size_t>(p.bodies.front())].X_WB.p);
+    for (const EllipsoidActor& actor : stage.ellipsoids) out.push_back(s.bodies[static_cast<std::size_t>(actor.body)].X_WB.p);
+  }
+  return out;
+}
+
+/// A long lens square to the way of what moves, far enough to see all of it, from its right.
+Camera beside(const std::vector<Vec3>& points, double aspect) {
+  const Vec3 first = points.front(), last = points.back();
+  Vec3 way = last - first;
+  way.z() = 0;
+  way = way.norm() > 0.2 ? Vec3(way.normalized()) : Vec3(Vec3::UnitX());
+  const Vec3 side(way.y(), -way.x(), 0);
+  double low = 1e9, high = -1e9, tallest = 0;
+  for (const Vec3& p : points) {
+    low = std::min(low, (p - first).dot(way));
+    high = std::max(high, (p - first).dot(way));
+    tallest = std::max(tallest, p.z());
+  }
+  Camera camera;
+  camera.name = "stroboscopic";
+  camera.vertical_fov = 0.35;
+  const double width = high - low + 4, height = std::max(tallest + 1.2, width / aspect);  // [m] seen, a person's length around
+  const double distance = height / 2 / std::tan(camera.vertical_fov / 2);
+  camera.target = first + 0.5 * (low + high) * way;
+  camera.target.z() = 0.8 + 0.04 * height;  // a little above what lies on the road: the caption stands in the lower part
+  camera.position = camera.target + distance * (side + Vec3(0, 0, 0.12));
+  return camera;
+}
+
+/// Goes along with a person, square to the way from where it is struck to where it ends.
+Camera beside_person(const PersonFacts& p, const engine::Recording& recording) {
+  Vec3 way = centre_of_mass(p, recording, recording.end_time()) - centre_of_mass(p, recording, p.hit.value_or(0));
+  way.z() = 0;
+  way = way.norm() > 0.2 ? Vec3(way.normalized()) : Vec3(Vec3::UnitX());
+  Camera camera;
+  camera.name = "beside";
+  camera.kind = CameraKind::follow;
+  camera.follow = p.name;
+  camera.vertical_fov = 0.5;
+  camera.target = Vec3(0, 0, 0.9);
+  camera.position = 7.5 * Vec3(way.y(), -way.x(), 0) + Vec3(0, 0, 2.1);
+  return camera;
+}
+
+}  // namespace
+
+std::vector<std::string> stroboscopic_still(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
+  double from = 0, to = recording.end_time();
+  for (const PersonFacts& p : job.persons) {
+    from = p.hit.value_or(from);
+    to = p.rest.value_or(to);
+  }
+  const std::vector<Vec3> points = places(stage, recording, job, from);
+  if (points.empty()) return {};
+  Stage scene = stage;
+  scene.cameras.insert(scene.cameras.begin(), beside(points, static_cast<double>(job.width) / job.height));
+  double way = 0;
+  for (std::size_t i = job.persons.size() + stage.ellipsoids.size(), n = i; i < points.size(); i += n)
+    way += (points[i] - points[i - n]).norm();
+  // equal ways, not equal times: a figure at rest would otherwise be drawn over and over
+  scene.overlays.ghost_distance = std::max(way / kFigures, 0.3);
+  scene.overlays.ghost_interval = 0;
+  scene.overlays.traces = true;
+  scene.overlays.contacts = scene.overlays.forces = false;
+  scene.overlays.speed_chart = scene.overlays.energy_chart = scene.overlays.legend = false;
+  Painter painter(job.width, job.height, job.quality);
+  Image image;
+  painter.paint(scene, recording, {to, "stroboscopic", 1}, image);
+  return write(job, "stroboscopic.png", image);
+}
+
+std::vector<std::string> contact_sheet(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
+  // dense where something happens: half of the instants between first touch and landing
+  double hit = 0, landed = recording.end_time();
+  for (const PersonFacts& p : job.persons) {
+    hit = p.hit.value_or(hit);
+    landed = p.landed.value_or(landed);
+  }
+  std::vector<double> times;
+  for (int i = 0; i < 6; ++i) times.push_back(hit + (landed - hit) * i / 5.0);
+  for (int i = 1; i <= 3; ++i) times.push_back(landed + (recording.end_time() - landed) * i / 3.0);
+  std::sort(times.begin(), times.end());
+
+  const int w = job.width / kColumns, h = static_cast<int>(std::lround(w / kAspectOfFilm));
+  Stage scene = stage;
+  if (!job.persons.empty()) scene.cameras.insert(scene.cameras.begin(), beside_person(job.persons.front(), recording));
+  scene.overlays.contacts = scene.overlays.forces = false;  // their labels would be too small to read
+  scene.overlays.contact_history = true;
+  scene.overlays.disclaimer = scene.overlays.caption = scene.overlays.legend = false;
+  scene.overlays.speed_chart = scene.overlays.energy_chart = false;
+  Painter painter(w, h, job.quality);
+  Image sheet, still;
+  sheet.width = w * kColumns;
+  sheet.height = h * kRows;
+  sheet.rgba.resize(static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height) * 4);
+  for (int i = 0; i < kColumns * kRows; ++i) {
+    const double t = times[static_cast<std::size_t>(i)];
+    painter.paint(scene, recording, {t, scene.cameras.front().name, 1}, still);
+    DrawList list;
+    LabelItem time;
+    time.lines = {fmt::format("{}   t = {:.3f} s", i + 1, t)};
+    time.sizes = {52};
+    time.colours = {{1, 1, 1, 1}};
+    time.anchor = {0.02f, 0.03f};
+    list.labels.push_back(time);
+    draw_labels(list, still);
+    for (int y = 0; y < h; ++y)
+      std::copy_n(&still.rgba[static_cast<std::size_t>(4 * y * w)], 4 * w,
+                  &sheet.rgba[static_cast<std::size_t>(4 * ((i / kColumns * h + y) * sheet.width + i % kColumns * w))]);
+  }
+  // one foot for all
+  DrawList foot;
+  LabelItem label;
+  label.lines = {"Simulation, not footage   " + stage.provenance};
+  label.sizes = {16};
+  label.colours = {{1, 1, 1, 1}};
+  label.anchor = {0.992f, 0.99f};
+  label.pivot = {1, 1};
+  foot.labels.push_back(label);
+  draw_labels(foot, sheet);
+  return write(job, "contact_sheet.png", sheet);
+}
+
+}  // namespace render

@@ -1,0 +1,191 @@
+// Speeds, impulses and energies over time, one panel each, with the events as upright lines. Curves differ in dashes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "render/figures/figures.h"
+#include "render/figures/sheet.h"
+#include "render/overlays/overlay.h"
+
+namespace render {
+namespace {
+
+constexpr double kLeft = 30, kRight = 222, kTop = 30, kBottom = kSheetHeight - 24, kGap = 9;  // [mm]
+
+constexpr double kEventLine = 4.2;  // [mm]
+
+struct Curve {
+  std::string name;
+  std::vector<double> values;  // one a snapshot
+};
+
+struct Panel {
+  std::string title;  // with its unit
+  std::vector<Curve> curves;
+};
+
+template <typename Value>
+Curve curve(const std::string& name, const engine::Recording& recording, Value value) {
+  Curve out{name, {}};
+  for (const engine::Snapshot& s : recording.snapshots) out.values.push_back(value(s));
+  return out;
+}
+
+Panel speeds(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
+  Panel panel{"speed, km/h", {}};
+  auto add = [&](const std::string& name, int body) {
+    panel.curves.push_back(curve(name, recording, [b = static_cast<std::size_t>(body)](const engine::Snapshot& s) {
+      return 3.6 * s.bodies[b].V_WB.v.norm();
+    }));
+  };
+  for (const auto& [body, name] : stage.speeds) {
+    const bool person =
+        std::any_of(job.persons.begin(), job.persons.end(), [&n = name](const PersonFacts& p) { return p.name == n; });
+    add(person ? name + ", hips" : name, body);
+  }
+  for (std::size_t b = 0; b < recording.body_names.size(); ++b)
+    if (recording.body_names[b].ends_with("/head"))
+      add(recording.body_names[b].substr(0, recording.body_names[b].size() - 5) + ", head", static_cast<int>(b));
+  return panel;
+}
+
+/// What vehicles and ground have given to the persons so far.
+Panel impulses(const engine::Recording& recording) {
+  Panel panel{"impulse on persons, N s, summed", {}};
+  for (const engine::ContactKind kind : {engine::ContactKind::vehicle, engine::ContactKind::ground}) {
+    double sum = 0;
+    panel.curves.push_back(curve(
+        kind == engine::ContactKind::vehicle ? "from vehicles" : "from the ground", recording, [&](const engine::Snapshot& s) {
+          for (const engine::ContactRecord& c : s.contacts)
+            if (c.kind == kind && recording.body_names[static_cast<std::size_t>(c.body_a)].find('/') != std::string::npos)
+              sum += c.impulse.norm();
+          return sum;
+        }));
+  }
+  return panel;
+}
+
+Panel energies(const engine::Recording& recording) {
+  Panel panel{"energy, kJ", {}};
+  panel.curves.push_back(curve("kinetic", recording, [](const engine::Snapshot& s) { return s.energies.kinetic / 1000; }));
+  panel.curves.push_back(curve("dissipated", recording, [](const engine::Snapshot& s) {
+    return std::accumulate(s.energies.dissipated.begin(), s.energies.dissipated.end(), 0.0) / 1000;
+  }));
+  const double least = std::min_element(recording.snapshots.begin(), recording.snapshots.end(), [](const auto& a, const auto& b) {
+                         return a.energies.potential < b.energies.potential;
+                       })->energies.potential;
+  panel.curves.push_back(curve("potential above its least", recording,
+                               [least](const engine::Snapshot& s) { return (s.energies.potential - least) / 1000; }));
+  return panel;
+}
+
+/// Distance between the numbers of an axis: 1, 2 or 5 times a power of ten, six numbers at most.
+double spacing(double range) {
+  const double least = std::max(range, 1e-9) / 6, power = std::pow(10, std::floor(std::log10(least)));
+  for (const double m : {1.0, 2.0, 5.0})
+    if (m * power >= least) return m * power;
+  return 10 * power;
+}
+
+struct Box {
+  double top, bottom, end, ceiling;
+  double x(double t) const { return kLeft + (kRight - kLeft) * t / end; }
+  double y(double v) const { return bottom - (bottom - top) * v / ceiling; }
+};
+
+void draw_axes(cairo_t* c, const Panel& panel, const Box& box, bool last) {
+  cairo_set_line_width(c, 0.12);
+  const double dv = spacing(box.ceiling), dt = spacing(box.end);
+  for (double v = 0; v <= box.ceiling * (1 + 1e-9); v += dv) {
+    grey(c, 0.8);
+    draw_line(c, kLeft, box.y(v), kRight, box.y(v));
+    grey(c, 0);
+    draw_text(c, kLeft - 2, box.y(v) + 1, fmt::format("{:g}", v), 2.8, Align::right);
+  }
+  for (double t = 0; t <= box.end * (1 + 1e-9); t += dt) {
+    grey(c, 0.8);
+    draw_line(c, box.x(t), box.top, box.x(t), box.bottom);
+    grey(c, 0);
+    if (last) draw_text(c, box.x(t), box.bottom + 4.2, fmt::format("{:g}", std::round(t / dt) * dt), 2.8, Align::centre);
+  }
+  if (last) draw_text(c, (kLeft + kRight) / 2, box.bottom + 9, "time, s", 3.2, Align::centre);
+  cairo_save(c);
+  cairo_translate(c, kLeft - 14, (box.top + box.bottom) / 2);
+  cairo_rotate(c, -M_PI / 2);
+  draw_text(c, 0, 0, panel.title, panel.title.size() > 20 ? 2.7 : 3.2, Align::centre);
+  cairo_restore(c);
+}
+
+void draw_panel(cairo_t* c, const Panel& panel, const Box& box, const engine::Recording& recording, bool last) {
+  draw_axes(c, panel, box, last);
+  double key = box.top + 3;
+  for (std::size_t i = 0; i < panel.curves.size(); ++i) {
+    const int style = static_cast<int>(i);
+    grey(c, i % 2 == 0 ? 0 : 0.3);
+    cairo_set_line_width(c, i % 2 == 0 ? 0.45 : 0.35);
+    set_dashes(c, style);
+    for (std::size_t k = 0; k < panel.curves[i].values.size(); ++k)
+      cairo_line_to(c, box.x(recording.snapshots[k].time), box.y(panel.curves[i].values[k]));
+    cairo_stroke(c);
+    draw_line(c, kRight + 5, key - 1, kRight + 17, key - 1);
+    set_dashes(c, 0);
+    grey(c, 0);
+    draw_text(c, kRight + 19, key, panel.curves[i].name, 2.8);
+    key += 5;
+  }
+}
+
+/// What happened when: an upright line through all panels and its number in the list at the right, from `key` down to `lowest`.
+void draw_events(cairo_t* c, const engine::Recording& recording, double end, double key, double lowest) {
+  const Box box{kTop, kBottom, end, 1};
+  double taken = -10;
+  int number = 0;
+  for (const engine::Event& e : recording.events) {
+    if (e.kind == "release" || key > lowest) continue;
+    ++number;
+    grey(c, 0.45);
+    cairo_set_line_width(c, 0.2);
+    set_dashes(c, 2);
+    draw_line(c, box.x(e.time), kTop, box.x(e.time), kBottom);
+    set_dashes(c, 0);
+    grey(c, 0);
+    // numbers of events close in time stand side by side
+    taken = std::max(taken + 3.4, box.x(e.time));
+    draw_text(c, taken, kTop - 1.5, fmt::format("{}", number), 3, Align::centre);
+    std::string text = fmt::format("{}  {:.3f} s {}", number, e.time, e.kind);
+    std::replace(text.begin(), text.end(), '_', ' ');
+    if (e.body_a >= 0) text += ", " + readable(recording.body_names[static_cast<std::size_t>(e.body_a)]);
+    draw_text(c, kRight + 5, key, text, 2.5);
+    key += kEventLine;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> time_histories(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
+  std::vector<Panel> panels{speeds(stage, recording, job), impulses(recording), energies(recording)};
+  std::erase_if(panels, [](const Panel& p) {
+    return std::all_of(p.curves.begin(), p.curves.end(),
+                       [](const Curve& k) { return *std::max_element(k.values.begin(), k.values.end()) <= 0; });
+  });
+  const double end = recording.end_time();
+  if (panels.empty() || end <= 0) return {};
+  return write_sheets(job.folder, "time_histories", "Time histories: " + stage.title, [&](cairo_t* c) {
+    draw_frame_of_sheet(c, stage, "Time histories");
+    const double height = (kBottom - kTop - kGap * static_cast<double>(panels.size() - 1)) / static_cast<double>(panels.size());
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      double highest = 0;
+      for (const Curve& k : panels[i].curves) highest = std::max(highest, *std::max_element(k.values.begin(), k.values.end()));
+      const double step = spacing(highest), top = kTop + static_cast<double>(i) * (height + kGap);
+      draw_panel(c, panels[i], {top, top + height, end, std::ceil(highest / step - 1e-9) * step}, recording,
+                 i + 1 == panels.size());
+    }
+    const double key = kTop + 3 + 5 * static_cast<double>(panels[0].curves.size()) + 4;
+    draw_events(c, recording, end, key, (panels.size() > 1 ? kTop + height + kGap : kBottom) - 2);
+  });
+}
+
+}  // namespace render

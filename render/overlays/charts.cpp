@@ -1,0 +1,77 @@
+// Speed and energy over time, drawn as far as the film has come. The axes are those of the whole run and never jump.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "render/overlays/overlay.h"
+
+namespace render {
+namespace {
+
+constexpr std::size_t kPoints = 300;  // of a curve: one a pixel of its width
+
+/// The next round number, one whose half is short too.
+double round_up(double x) {
+  if (!(x > 0)) return 1;
+  const double power = std::pow(10, std::floor(std::log10(x)));
+  for (const double m : {1.0, 1.2, 1.6, 2.0, 2.4, 3.0, 4.0, 5.0, 6.0, 8.0})
+    if (x <= m * power * (1 + 1e-12)) return m * power;
+  return 10 * power;
+}
+
+/// Adds a curve of `value` over the run and raises the ceiling to hold all of it; its points end now.
+template <typename Value>
+void add_series(const Frame& frame, ChartItem& chart, const std::string& name, const Float4& colour, Value value) {
+  ChartItem::Series series{name, colour, {}};
+  const auto& snapshots = frame.recording.snapshots;
+  const std::size_t stride = std::max<std::size_t>(1, snapshots.size() / kPoints);
+  double highest = 0;
+  for (std::size_t i = 0; i < snapshots.size(); ++i) {
+    const double y = value(snapshots[i]);
+    highest = std::max(highest, y);
+    if (i % stride == 0 && snapshots[i].time <= frame.now.time)
+      series.points.push_back({static_cast<float>(snapshots[i].time), static_cast<float>(y)});
+  }
+  series.points.push_back({static_cast<float>(frame.now.time), static_cast<float>(value(frame.now))});
+  chart.ceiling = std::max(chart.ceiling, round_up(highest));
+  chart.series.push_back(std::move(series));
+}
+
+ChartItem empty_chart(const Frame& frame, const std::string& title, std::size_t place) {
+  ChartItem chart;
+  chart.title = title;
+  chart.end = std::max(frame.recording.end_time(), 1e-3);
+  chart.ceiling = 0;
+  chart.now = frame.now.time;
+  chart.anchor = {0.016f, 0.028f + 0.235f * static_cast<float>(place)};
+  return chart;
+}
+
+void add(const Frame& frame, DrawList& list) {
+  const Overlays& o = frame.stage.overlays;
+  if (o.speed_chart && !frame.stage.speeds.empty()) {
+    ChartItem chart = empty_chart(frame, "speed, km/h", list.charts.size());
+    constexpr Float4 kColours[] = {{1, 0.70f, 0.25f, 1}, {0.45f, 0.85f, 1, 1}, {0.62f, 0.92f, 0.40f, 1}, {0.95f, 0.55f, 0.90f, 1}};
+    for (const auto& [body, name] : frame.stage.speeds)
+      add_series(frame, chart, name, kColours[chart.series.size() % 4],
+                 [b = static_cast<std::size_t>(body)](const engine::Snapshot& s) { return 3.6 * s.bodies[b].V_WB.v.norm(); });
+    list.charts.push_back(std::move(chart));
+  }
+  if (o.energy_chart) {
+    ChartItem chart = empty_chart(frame, "energy, kJ", list.charts.size());
+    add_series(frame, chart, "kinetic", {0.45f, 0.85f, 1, 1}, [](const engine::Snapshot& s) { return s.energies.kinetic / 1000; });
+    add_series(frame, chart, "dissipated", {1, 0.50f, 0.35f, 1}, [](const engine::Snapshot& s) {
+      return std::accumulate(s.energies.dissipated.begin(), s.energies.dissipated.end(), 0.0) / 1000;
+    });
+    list.charts.push_back(std::move(chart));
+  }
+}
+
+}  // namespace
+
+const Overlay kCharts{"charts", [](const Frame& f) { return f.stage.overlays.speed_chart || f.stage.overlays.energy_chart; }, add,
+                      true};
+
+}  // namespace render

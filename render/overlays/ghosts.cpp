@@ -1,0 +1,62 @@
+// Stroboscopic figures: where persons and free bodies were, at equal times or equal distances, pale against what is there now.
+#include <algorithm>
+
+#include "render/matrix.h"
+#include "render/overlays/overlay.h"
+
+namespace render {
+namespace {
+
+constexpr std::size_t kMost = 60;  // figures of one person: more are a smear
+constexpr float kPale = 0.55f;     // [-] share of white paper in a ghost's colour
+constexpr double kClear = 0.12;    // [m] a ghost nearer than this to the present figure only thickens it
+
+Material pale(Material m) {
+  for (float& c : m.colour) c = (1 - kPale) * c + kPale * 0.75f;
+  m.kind = MaterialKind::matte;
+  return m;
+}
+
+/// Instants before now at which `body` leaves a ghost.
+std::vector<const engine::Snapshot*> instants(const Frame& frame, int body) {
+  const Overlays& o = frame.stage.overlays;
+  const auto b = static_cast<std::size_t>(body);
+  const Vec3 here = frame.now.bodies[b].X_WB.p;
+  std::vector<const engine::Snapshot*> out;
+  double travelled = 0, due_distance = 0, due_time = 0;
+  const engine::Snapshot* before = nullptr;
+  for (const engine::Snapshot& s : frame.recording.snapshots) {
+    if (s.time > frame.now.time || out.size() == kMost) break;
+    if (before) travelled += (s.bodies[b].X_WB.p - before->bodies[b].X_WB.p).norm();
+    before = &s;
+    const bool due = (o.ghost_interval > 0 && s.time >= due_time - 1e-9) || (o.ghost_distance > 0 && travelled >= due_distance);
+    if (!due) continue;
+    if (o.ghost_interval > 0) due_time += o.ghost_interval;
+    if (o.ghost_distance > 0) due_distance = travelled + o.ghost_distance;
+    if ((s.bodies[b].X_WB.p - here).norm() > kClear) out.push_back(&s);
+  }
+  return out;
+}
+
+void add_shape(DrawList& list, const engine::HyperEllipsoid& shape, const Pose& X, const Material& material) {
+  list.ellipsoids.push_back({shape, to_gl(rigid(X)), pale(material), false, static_cast<std::uint32_t>(list.ellipsoids.size())});
+}
+
+void add(const Frame& frame, DrawList& list) {
+  for (const PersonActor& person : frame.stage.persons) {
+    if (person.segments.empty()) continue;
+    for (const engine::Snapshot* s : instants(frame, person.segments.front().body))
+      for (const PersonActor::Segment& segment : person.segments)
+        add_shape(list, segment.shape, s->bodies[static_cast<std::size_t>(segment.body)].X_WB, segment.material);
+  }
+  for (const EllipsoidActor& actor : frame.stage.ellipsoids)
+    for (const engine::Snapshot* s : instants(frame, actor.body))
+      add_shape(list, actor.shape, s->bodies[static_cast<std::size_t>(actor.body)].X_WB, actor.material);
+}
+
+}  // namespace
+
+const Overlay kGhosts{
+    "ghosts", [](const Frame& f) { return f.stage.overlays.ghost_interval > 0 || f.stage.overlays.ghost_distance > 0; }, add};
+
+}  // namespace render

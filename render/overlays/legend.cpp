@@ -1,0 +1,60 @@
+// What the colours and lengths of arrows, traces and marks mean. Only what the picture shows is named.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "render/overlays/overlay.h"
+
+namespace render {
+namespace {
+
+const Float4 kWhite{1, 1, 1, 1}, kPale{0.80f, 0.85f, 0.90f, 1};
+
+void line(LabelItem& label, const std::string& text, const Float4& colour) {
+  label.lines.push_back(text);
+  label.sizes.push_back(17);
+  label.colours.push_back(colour);
+}
+
+/// The parts of a person, once each: one body stands for all that share its colour.
+void add_parts(const Frame& frame, LabelItem& label) {
+  if (frame.stage.persons.empty()) return;
+  for (const auto& [name, part] :
+       {std::pair{"head, neck", "head"}, {"trunk", "torso"}, {"arms", "arm"}, {"thighs", "thigh"}, {"lower legs, feet", "calf"}})
+    line(label, std::string("\u25a0 ") + name, colour_of_part(part));
+}
+
+void add_history(const Frame& frame, LabelItem& label) {
+  const bool by_time = frame.stage.overlays.contact_colour == ContactColour::time;
+  double last = 0, strongest = 0;
+  for (const engine::Snapshot& s : frame.recording.snapshots)
+    for (const engine::ContactRecord& c : s.contacts) {
+      if (c.kind != engine::ContactKind::vehicle || c.body_b < 0 || c.impulse.norm() < 0.2) continue;
+      last = s.time;
+      strongest = std::max(strongest, c.impulse.norm());
+    }
+  line(label, by_time ? "marks: time of touch" : "marks: impulse of touch", kWhite);
+  for (const double share : {0.0, 0.5, 1.0})
+    line(label, "\u25cf " + (by_time ? fmt::format("{:.2f} s", share * last) : fmt::format("{:.0f} N s", share * strongest)),
+         colour_of_share(share));
+}
+
+void add(const Frame& frame, DrawList& list) {
+  const Overlays& o = frame.stage.overlays;
+  LabelItem label;
+  label.anchor = {0.984f, 0.028f};
+  label.pivot = {1, 0};
+  if (o.forces || o.traces) add_parts(frame, label);
+  if (o.forces) line(label, fmt::format("force: 1 m of arrow = {:g} kN", o.newtons_per_metre / 1000), kPale);
+  if (o.velocities) line(label, fmt::format("velocity: 1 m of arrow = {:g} km/h", 3.6 * o.velocity_scale), kPale);
+  if (o.contact_history) add_history(frame, label);
+  if (o.ghost_interval > 0) line(label, fmt::format("pale figures every {:g} s", o.ghost_interval), kPale);
+  if (o.ghost_distance > 0) line(label, fmt::format("pale figures every {:g} m", o.ghost_distance), kPale);
+  if (!label.lines.empty()) list.labels.push_back(label);
+}
+
+}  // namespace
+
+const Overlay kLegend{"legend", [](const Frame& f) { return f.stage.overlays.legend; }, add, true};
+
+}  // namespace render

@@ -1,0 +1,86 @@
+#include "render/text/charts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace render {
+namespace {
+
+constexpr double kText = 15;  // pixels at 1080 lines
+
+void text(cairo_t* c, const std::string& what, double x, double y, double align) {
+  cairo_text_extents_t extents;
+  cairo_text_extents(c, what.c_str(), &extents);
+  cairo_move_to(c, std::round(x - align * extents.x_advance), std::round(y));
+  cairo_show_text(c, what.c_str());
+}
+
+void set(cairo_t* c, const Float4& k) {
+  cairo_set_source_rgba(c, k[0], k[1], k[2], k[3]);
+}
+
+}  // namespace
+
+std::array<double, 4> chart_box(const ChartItem& chart, int width, int height) {
+  const double scale = height / 1080.0;
+  const double w = std::min<double>(chart.width * scale, width), h = std::min<double>(chart.height * scale, height);
+  const double x = chart.anchor[0] * static_cast<float>(width) - chart.pivot[0] * static_cast<float>(w);
+  const double y = chart.anchor[1] * static_cast<float>(height) - chart.pivot[1] * static_cast<float>(h);
+  return {std::clamp(x, 0.0, width - w), std::clamp(y, 0.0, height - h), w, h};
+}
+
+void draw_chart(cairo_t* c, const ChartItem& chart, int width, int height) {
+  const double scale = height / 1080.0;
+  const auto [x0, y0, w, h] = chart_box(chart, width, height);
+  cairo_save(c);
+  cairo_rectangle(c, x0, y0, w, h);
+  cairo_clip(c);
+  cairo_set_source_rgba(c, 0.08, 0.09, 0.10, 0.72);
+  cairo_paint(c);
+  cairo_select_font_face(c, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(c, kText * scale);
+  const double left = x0 + 52 * scale, right = x0 + w - 16 * scale, top = y0 + 60 * scale, bottom = y0 + h - 30 * scale;
+  auto px = [&](double t) { return left + (right - left) * t / chart.end; };
+  auto py = [&](double v) { return bottom - (bottom - top) * v / chart.ceiling; };
+
+  // frame: title, names in their colours, axes with numbers at both ends
+  cairo_set_source_rgba(c, 1, 1, 1, 0.95);
+  text(c, chart.title, x0 + 12 * scale, y0 + 20 * scale, 0);
+  double at = x0 + 12 * scale;
+  for (const ChartItem::Series& s : chart.series) {
+    set(c, s.colour);
+    const std::string name = "\u25a0 " + s.name;
+    text(c, name, at, y0 + 40 * scale, 0);
+    cairo_text_extents_t extents;
+    cairo_text_extents(c, name.c_str(), &extents);
+    at += extents.x_advance + 16 * scale;
+  }
+  cairo_set_source_rgba(c, 0.8, 0.85, 0.9, 0.9);
+  for (const double share : {0.0, 0.5, 1.0})
+    text(c, fmt::format("{:g}", share * chart.ceiling), left - 6 * scale, py(share * chart.ceiling) + 5 * scale, 1);
+  text(c, "0", px(0), bottom + 18 * scale, 0.5);
+  text(c, fmt::format("{:.2g} s", chart.end), right, bottom + 18 * scale, 1);
+  cairo_set_line_width(c, std::max(1.0, 1 * scale));
+  cairo_set_source_rgba(c, 1, 1, 1, 0.25);
+  for (const double share : {0.0, 0.5, 1.0}) {
+    cairo_move_to(c, left, py(share * chart.ceiling));
+    cairo_line_to(c, right, py(share * chart.ceiling));
+  }
+  cairo_stroke(c);
+
+  for (const ChartItem::Series& s : chart.series) {
+    set(c, s.colour);
+    cairo_set_line_width(c, 2.4 * scale);
+    cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
+    for (const auto& p : s.points) cairo_line_to(c, px(p[0]), py(p[1]));
+    cairo_stroke(c);
+    if (s.points.empty()) continue;
+    cairo_arc(c, px(s.points.back()[0]), py(s.points.back()[1]), 4 * scale, 0, 2 * M_PI);
+    cairo_fill(c);
+  }
+  cairo_restore(c);
+}
+
+}  // namespace render

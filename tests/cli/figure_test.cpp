@@ -1,0 +1,55 @@
+// The figure command: which files a run gives, that they are whole, and that drawings keep their scale.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "tests/cli/program.h"
+
+using namespace cli_tests;
+using testing::HasSubstr;
+
+namespace {
+
+const std::string kFlagship = std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/sedan_pedestrian_40kmh.toml";
+
+TEST(Figure, OfAStruckPersonIsFiveFiguresEachWhole) {
+  const Folder folder;
+  const Result result = run(folder, {"figure", kFlagship, "-o", "fig", "--size", "480x270", "--quality", "draft", "--quiet"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  for (const std::string name : {"site_diagram", "contact_map", "time_histories"}) {
+    const std::string pdf = contents(folder / ("fig/" + name + ".pdf")), svg = contents(folder / ("fig/" + name + ".svg"));
+    EXPECT_EQ(pdf.substr(0, 5), "%PDF-") << name;
+    EXPECT_THAT(pdf.substr(pdf.size() - 8), HasSubstr("%%EOF")) << name;
+    EXPECT_THAT(svg, HasSubstr("</svg>")) << name;
+    // A4, landscape, in points
+    EXPECT_TRUE(std::regex_search(svg.substr(0, 400), std::regex("viewBox=\"0 0 841\\.8[0-9]* 595\\.2"))) << svg.substr(0, 300);
+  }
+  for (const std::string name : {"stroboscopic", "contact_sheet"})
+    EXPECT_THAT(contents(folder / ("fig/" + name + ".png")), HasSubstr("scene_sha256")) << name << " carries its provenance";
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "fig")) EXPECT_NE(entry.path().extension(), ".part");
+}
+
+TEST(Figure, OfAScenePersonsAreNotInLeavesOutWhatItCannotShow) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  const Result result = run(folder, {"figure", "ball.toml", "-o", "fig", "--size", "160x90", "--quality", "draft"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "fig/contact_map.pdf"));
+  EXPECT_THAT(result.err, HasSubstr("contact_map: the run has nothing to show there"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "fig/time_histories.pdf"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "fig/site_diagram.svg"));
+}
+
+TEST(Figure, RefusesToReplaceUnlessAsked) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  std::filesystem::create_directory(folder / "fig");
+  folder.write("fig/site_diagram.svg", "mine");
+  const Result result = run(folder, {"figure", "ball.toml", "-o", "fig"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--overwrite"));
+  EXPECT_EQ(contents(folder / "fig/site_diagram.svg"), "mine");
+}
+
+}  // namespace

@@ -1,0 +1,261 @@
+// Cameras, shots, cards, panes and overlays on numbers: no GL.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/arrange.h"
+#include "render/cameras.h"
+#include "render/matrix.h"
+#include "render/overlays/overlay.h"
+#include "render/painter.h"
+#include "render/text/charts.h"
+#include "render/text/labels.h"
+#include "render/video/story.h"
+
+namespace render {
+namespace {
+
+/// A body that runs along x at 2 m/s for a second, turned by 90 degrees to the left; one touch at 0.5 s.
+engine::Recording run() {
+  engine::Recording r;
+  r.body_names = {"car", "ann/hips", "ann/head"};
+  r.interval = 0.1;
+  for (int i = 0; i <= 10; ++i) {
+    engine::Snapshot s;
+    s.time = 0.1 * i;
+    s.bodies.resize(3);
+    s.bodies[0].X_WB.p = Vec3(2 * s.time, 0, 1);
+    s.bodies[0].X_WB.q = engine::Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitZ()));
+    s.bodies[0].V_WB.v = Vec3(2, 0, 0);
+    if (i == 5) {
+      engine::ContactRecord c;
+      c.kind = engine::ContactKind::vehicle;
+      c.body_a = 1;
+      c.body_b = 0;
+      c.point = Vec3(1, 0.5, 1);
+      c.impulse = Vec3(0, 10, 0);
+      s.contacts.push_back(c);
+    }
+    s.energies.kinetic = 1000 - 100 * i;
+    r.snapshots.push_back(s);
+  }
+  r.events.push_back({0.5, "first_contact", 1, 0, Vec3::Zero(), 2.0});
+  return r;
+}
+
+Stage stage() {
+  Stage s;
+  s.title = "test";
+  Camera side;
+  side.name = "side";
+  s.cameras.push_back(side);
+  s.speeds.emplace_back(0, "car");
+  return s;
+}
+
+/// Where a world point falls, -1..1.
+Vec3 in_clip(const View& view, const Vec3& p) {
+  const Eigen::Vector4d c = from_gl(view.eye_to_clip) * from_gl(view.world_to_eye) * Eigen::Vector4d(p.x(), p.y(), p.z(), 1);
+  return c.head<3>() / c.w();
+}
+
+constexpr double kFloat = 1e-5;  // matrices are handed over in single precision, lengths of some metres
+
+TEST(Camera, AnEyeSharesTheMotionOfItsBody) {
+  Camera eye;
+  eye.kind = CameraKind::eye;
+  eye.follow = "car";
+  eye.position = Vec3(1, 0, 0.5);  // ahead in the body, which faces +y of the world
+  eye.target = Vec3(5, 0, 0.5);
+  const View view = view_of(eye, run(), 0.5, 1);
+  EXPECT_NEAR(view.eye[0], 1, kFloat);
+  EXPECT_NEAR(view.eye[1], 1, kFloat);
+  EXPECT_NEAR(view.eye[2], 1.5, kFloat);
+  const Vec3 ahead = in_clip(view, Vec3(1, 9, 1.5));
+  EXPECT_NEAR(ahead.x(), 0, kFloat);
+  EXPECT_NEAR(ahead.y(), 0, kFloat);
+}
+
+TEST(Camera, APersonsEyeIsCarriedByTheHead) {
+  Camera eye;
+  eye.kind = CameraKind::eye;
+  eye.follow = "ann";
+  eye.position = Vec3(0.1, 0, 0);
+  engine::Recording r = run();
+  for (auto& s : r.snapshots) s.bodies[2].X_WB.p = Vec3(0, 0, 1.6);
+  EXPECT_NEAR(view_of(eye, r, 0.3, 1).eye[2], 1.6, kFloat);
+}
+
+TEST(Camera, APathMeetsItsKnotsAndRunsSmoothlyBetween) {
+  Camera moving;
+  moving.kind = CameraKind::path;
+  moving.path = {{0, Vec3(0, -5, 1), Vec3(0, 0, 1)}, {0.5, Vec3(2, -5, 1), Vec3(0, 0, 1)}, {1, Vec3(4, -4, 2), Vec3(0, 0, 1)}};
+  const engine::Recording r = run();
+  EXPECT_NEAR(view_of(moving, r, 0, 1).eye[0], 0, kFloat);
+  EXPECT_NEAR(view_of(moving, r, 0.5, 1).eye[0], 2, kFloat);
+  EXPECT_NEAR(view_of(moving, r, 2, 1).eye[2], 2, kFloat) << "beyond the last knot it stands";
+  // no jump and no kink at the middle knot: the speeds on both sides agree to the curvature times the step
+  constexpr double h = 0.01;
+  const double before = view_of(moving, r, 0.5, 1).eye[0] - view_of(moving, r, 0.5 - h, 1).eye[0];
+  const double after = view_of(moving, r, 0.5 + h, 1).eye[0] - view_of(moving, r, 0.5, 1).eye[0];
+  EXPECT_NEAR(before, after, 0.05 * before + 10 * kFloat);
+  EXPECT_GT(before, 0);
+}
+
+TEST(FilmOfShots, CardsFrameTheShotsAndTheClockIsThatOfTheWhole) {
+  Stage s = stage();
+  s.cards = {{"begin", {}, 0.2, false}, {"end", {}, 0.1, true}};
+  s.shots = {{"side", 0, 1, 0.5, 0}, {"side", 0.4, 0.4, 0, 0.3}};
+  const auto moments = film(s, run(), 10);
+  ASSERT_EQ(moments.size(), 2u + 20u + 3u + 1u);
+  EXPECT_EQ(moments[0].card, 0);
+  EXPECT_EQ(moments[2].card, -1);
+  EXPECT_NEAR(moments[3].time, 0.05, 1e-12) << "half speed";
+  EXPECT_EQ(moments[23].speed, 0);
+  EXPECT_NEAR(moments[23].time, 0.4, 1e-12) << "frozen";
+  EXPECT_EQ(moments.back().card, 1);
+}
+
+TEST(StoryOfAFilm, HasAChapterAShotAndASubtitleWhereAnEventIsPassed) {
+  Stage s = stage();
+  s.shots = {{"side", 0, 1, 1, 0}, {"side", 0, 1, 1, 0}};
+  s.shots[0].title = "first look";
+  const Story story = story_of(s, run(), film(s, run(), 10), 10);
+  ASSERT_EQ(story.chapters.size(), 2u);
+  EXPECT_EQ(story.chapters[0].text, "first look");
+  EXPECT_EQ(story.chapters[1].text, "side");
+  EXPECT_DOUBLE_EQ(story.chapters[0].to, story.chapters[1].from);
+  EXPECT_DOUBLE_EQ(story.chapters[1].to, 2.0);
+  ASSERT_EQ(story.subtitles.size(), 2u) << "once a shot";
+  EXPECT_NEAR(story.subtitles[0].from, 0.5, 0.1 + 1e-9) << "a frame at most from the event";
+  EXPECT_LE(story.subtitles[0].to, story.subtitles[1].from);
+  EXPECT_NE(story.subtitles[0].text.find("first contact: hips and car, 2.0 m/s"), std::string::npos);
+}
+
+TEST(Panes, LieInTheFrameAndSplitOnesDoNotOverlap) {
+  for (const auto& [w, h] : {std::pair{1280, 720}, {64, 64}, {7680, 4320}, {641, 361}})
+    for (const Layout layout : {Layout::single, Layout::split, Layout::stacked, Layout::inset}) {
+      const auto panes = panes_of(layout, w, h);
+      for (const Pane& p : panes) {
+        EXPECT_GE(p.x, 0);
+        EXPECT_GE(p.y, 0);
+        EXPECT_GT(p.width, 0);
+        EXPECT_GT(p.height, 0);
+        EXPECT_LE(p.x + p.width, w);
+        EXPECT_LE(p.y + p.height, h);
+      }
+      if (layout == Layout::split) {
+        EXPECT_LT(panes[0].x + panes[0].width, panes[1].x);
+      }
+      if (layout == Layout::stacked) {
+        EXPECT_LT(panes[0].y + panes[0].height, panes[1].y);
+      }
+    }
+}
+
+TEST(OverlayNumbers, VelocityArrowsAreAsLongAsTheSpeedBidsThem) {
+  Stage s = stage();
+  s.overlays.velocities = true;
+  s.overlays.velocity_scale = 4;
+  const DrawList list = arrange(s, run(), {0.5, "side", 1}, 1.5);
+  ASSERT_EQ(list.arrows.size(), 1u);
+  EXPECT_NEAR(list.arrows[0].to[0] - list.arrows[0].from[0], 2.0 / 4, kFloat);
+}
+
+TEST(OverlayNumbers, ADimensionCountsTheWayOfItsBody) {
+  Stage s = stage();
+  s.overlays.dimensions = {{"way", 0, 0.2}};
+  const DrawList list = arrange(s, run(), {0.7, "side", 1}, 1.5);
+  bool told = false;
+  for (const LabelItem& label : list.labels) told |= label.lines[0] == "way 1.00 m";
+  EXPECT_TRUE(told);
+}
+
+TEST(OverlayNumbers, AMarkStaysOnBothWhereTheyTouched) {
+  Stage s = stage();
+  s.overlays.contact_history = true;
+  EXPECT_TRUE(arrange(s, run(), {0.4, "side", 1}, 1.5).lines.empty()) << "not yet touched";
+  const DrawList list = arrange(s, run(), {1.0, "side", 1}, 1.5);
+  ASSERT_EQ(list.lines.size(), 2u) << "one on the person, one on the car";
+  // the car has moved on by a metre since and taken its mark along; marks stand 5 cm off towards the eye
+  float farthest = 0;
+  for (const LineItem& mark : list.lines) farthest = std::max(farthest, mark.points[0][0]);
+  EXPECT_NEAR(farthest, 2, 0.05);
+}
+
+TEST(OverlayNumbers, GhostsAreWhereTheBodyWasAtEqualTimesOrWays) {
+  Stage s = stage();
+  EllipsoidActor ball;
+  ball.body = 0;
+  ball.shape = {Vec3::Constant(0.1), 2};
+  s.ellipsoids.push_back(ball);
+  s.overlays.ghost_interval = 0.3;
+  EXPECT_EQ(arrange(s, run(), {1.0, "side", 1}, 1.5).ellipsoids.size(), 1u + 4u) << "0, 0.3, 0.6, 0.9 s";
+  s.overlays.ghost_interval = 0;
+  s.overlays.ghost_distance = 0.8;
+  const DrawList list = arrange(s, run(), {1.0, "side", 1}, 1.5);
+  ASSERT_EQ(list.ellipsoids.size(), 1u + 3u) << "0, 0.8, 1.6 m";
+  EXPECT_NEAR(list.ellipsoids[2].model[12] - list.ellipsoids[1].model[12], 0.8, kFloat);
+}
+
+TEST(OverlayNumbers, AChartEndsNowAndItsAxesAreThoseOfTheWholeRun) {
+  Stage s = stage();
+  s.overlays.speed_chart = s.overlays.energy_chart = true;
+  const DrawList early = arrange(s, run(), {0.25, "side", 1}, 1.5), late = arrange(s, run(), {1, "side", 1}, 1.5);
+  ASSERT_EQ(early.charts.size(), 2u);
+  EXPECT_NEAR(early.charts[0].series[0].points.back()[0], 0.25, kFloat);
+  EXPECT_NEAR(early.charts[0].series[0].points.back()[1], 7.2, 1e-4);
+  EXPECT_EQ(early.charts[1].ceiling, late.charts[1].ceiling);
+  EXPECT_GE(early.charts[1].ceiling, 1.0);
+}
+
+TEST(OverlayNumbers, AnEyeSeesNothingThatIsDrawnOver) {
+  Stage s = stage();
+  s.cameras[0].kind = CameraKind::eye;
+  s.overlays.velocities = s.overlays.contact_history = true;
+  const DrawList list = arrange(s, run(), {1, "side", 1}, 1.5);
+  EXPECT_TRUE(list.arrows.empty());
+  EXPECT_TRUE(list.lines.empty());
+  EXPECT_FALSE(list.labels.empty()) << "caption and disclaimer stay";
+}
+
+TEST(Labels, NeverCoverEachOtherNorLeaveTheFrame) {
+  Stage s = stage();
+  s.overlays.velocities = s.overlays.legend = s.overlays.contact_history = s.overlays.speed_chart = s.overlays.energy_chart = true;
+  s.overlays.dimensions = {
+      {"way", 0, 0.2}, {"", -1, 0, Vec3(0, 0, 0), Vec3(1, 0, 0)}, {"", -1, 0, Vec3(0, 0, 0), Vec3(1, 0.01, 0)}};
+  for (const auto& [w, h] : {std::pair{1280, 720}, {640, 640}, {320, 180}, {64, 64}}) {
+    const DrawList list = arrange(s, run(), {0.7, "side", 1}, static_cast<double>(w) / h);
+    std::vector<PanelBox> boxes = place_labels(list, w, h);
+    for (const ChartItem& chart : list.charts) {
+      const auto [x, y, cw, ch] = chart_box(chart, w, h);
+      boxes.push_back({x, y, cw, ch, true});
+    }
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const PanelBox& a = boxes[i];
+      if (!a.shown) continue;
+      EXPECT_GE(a.x, 0);
+      EXPECT_GE(a.y, 0);
+      EXPECT_LE(a.x + a.width, w + 1e-9);
+      EXPECT_LE(a.y + a.height, h + 1e-9);
+      for (std::size_t k = 0; k < i; ++k) {
+        const PanelBox& b = boxes[k];
+        const bool apart = a.x >= b.x + b.width || b.x >= a.x + a.width || a.y >= b.y + b.height || b.y >= a.y + a.height;
+        EXPECT_TRUE(!b.shown || apart) << w << "x" << h << " " << i << " " << k;
+      }
+    }
+  }
+}
+
+TEST(ColourRamp, OnlyGetsLighter) {
+  double last = 0;
+  for (int i = 0; i <= 50; ++i) {
+    const Float4 c = colour_of_share(i / 50.0);
+    const double lightness = 0.2126 * std::pow(c[0], 2.2) + 0.7152 * std::pow(c[1], 2.2) + 0.0722 * std::pow(c[2], 2.2);
+    EXPECT_GT(lightness, last) << i;
+    last = lightness;
+  }
+}
+
+}  // namespace
+}  // namespace render
