@@ -143,4 +143,78 @@ TEST_F(Encoder, OddSizesAndMissingFoldersAreRefusedAndAnAbandonedFilmLeavesNoFil
   EXPECT_TRUE(fs::is_empty(folder));
 }
 
+TEST_F(Encoder, ALosslessFilmComesBackToTheLastBit) {
+  const fs::path path = folder / "film.mkv";
+  Image noise = plain(0, 0, 0, 63);  // an odd side is no matter here
+  std::uint32_t state = 12345;
+  for (std::size_t i = 0; i < noise.rgba.size(); ++i)
+    if (i % 4 != 3) noise.rgba[i] = static_cast<std::uint8_t>((state = state * 1664525u + 1013904223u) >> 24);
+  {
+    VideoEncoder encoder(path, 63, 63, 25, {{"title", "a test"}});
+    for (int i = 0; i < 2; ++i) encoder.append(noise.rgba.data());
+    encoder.finish();
+  }
+  AVFormatContext* in = nullptr;
+  ASSERT_EQ(avformat_open_input(&in, path.c_str(), nullptr, nullptr), 0);
+  ASSERT_GE(avformat_find_stream_info(in, nullptr), 0);
+  AVCodecContext* codec = avcodec_alloc_context3(avcodec_find_decoder(in->streams[0]->codecpar->codec_id));
+  ASSERT_GE(avcodec_parameters_to_context(codec, in->streams[0]->codecpar), 0);
+  ASSERT_EQ(avcodec_open2(codec, nullptr, nullptr), 0);
+  AVPacket* packet = av_packet_alloc();
+  AVFrame* frame = av_frame_alloc();
+  int frames = 0, wrong = 0;
+  while (av_read_frame(in, packet) >= 0) {
+    ASSERT_EQ(avcodec_send_packet(codec, packet), 0);
+    av_packet_unref(packet);
+    for (; avcodec_receive_frame(codec, frame) == 0; ++frames) {
+      ASSERT_EQ(frame->format, AV_PIX_FMT_BGR0);
+      for (int y = 0; y < 63; ++y)
+        for (int x = 0; x < 63; ++x)
+          for (int c = 0; c < 3; ++c)
+            wrong += frame->data[0][y * frame->linesize[0] + 4 * x + 2 - c] !=
+                     noise.rgba[static_cast<std::size_t>(4 * (63 * y + x) + c)];
+    }
+  }
+  EXPECT_EQ(frames, 2);
+  EXPECT_EQ(wrong, 0);
+  av_frame_free(&frame);
+  av_packet_free(&packet);
+  avcodec_free_context(&codec);
+  avformat_close_input(&in);
+}
+
+TEST_F(Encoder, ChaptersAndSubtitlesAreInEitherContainer) {
+  render::Story story;
+  story.chapters = {{0, 0.08, "first"}, {0.08, 0.2, "second"}};
+  story.subtitles = {{0.04, 0.12, "something happens"}};
+  for (const std::string name : {"film.mp4", "film.mkv"}) {
+    {
+      VideoEncoder encoder(folder / name, kSize, kSize, 25, {}, story);
+      const std::vector<std::uint8_t> picture(kSize * kSize * 4, 128);
+      for (int i = 0; i < kFrames; ++i) encoder.append(picture.data());
+      encoder.finish();
+    }
+    AVFormatContext* in = nullptr;
+    ASSERT_EQ(avformat_open_input(&in, (folder / name).c_str(), nullptr, nullptr), 0);
+    ASSERT_GE(avformat_find_stream_info(in, nullptr), 0);
+    ASSERT_EQ(in->nb_chapters, 2u) << name;
+    EXPECT_STREQ(av_dict_get(in->chapters[1]->metadata, "title", nullptr, 0)->value, "second");
+    EXPECT_EQ(av_rescale_q(in->chapters[1]->start, in->chapters[1]->time_base, {1, 1000}), 80) << name;
+    int subtitles = 0;
+    AVPacket* packet = av_packet_alloc();
+    while (av_read_frame(in, packet) >= 0) {
+      const AVStream* stream = in->streams[packet->stream_index];
+      const std::string text(reinterpret_cast<const char*>(packet->data), static_cast<std::size_t>(packet->size));
+      if (stream->codecpar->codec_type == AVMEDIA_TYPE_SUBTITLE && text.find("something happens") != std::string::npos) {
+        ++subtitles;
+        EXPECT_EQ(av_rescale_q(packet->pts, stream->time_base, {1, 1000}), 40) << name;
+      }
+      av_packet_unref(packet);
+    }
+    EXPECT_EQ(subtitles, 1) << name;
+    av_packet_free(&packet);
+    avformat_close_input(&in);
+  }
+}
+
 }  // namespace
