@@ -92,25 +92,25 @@ void settle_reference(Judgement& judgement, const std::vector<Level>& levels, co
 }
 
 /// Errors of every series against the reference. Off the ladder the uncertainty is the error itself and what the reference lacks.
-/// What reading a measure off recorded instants leaves open at the scene's own settings: its change when more are recorded; and a
-/// moment that is one of them may be another.
-double reading_of(const Study& study, const std::string& quantity) {
+/// What the settings besides the step leave open: the change when the solver is asked for more, when more instants are recorded. A
+/// moment that is one of those recorded may as well be its neighbour.
+double besides_the_step(const Study& study, const std::string& quantity) {
+  double sum = 0;
   for (const SeriesResult& series : study.series) {
-    if (series.series.varies != "interval") continue;
+    if (series.series.own_fineness <= 0) continue;
     const Answer* finest = answer_of(series.settings.back(), quantity);
-    if (!finest) continue;
     double most = 0;
-    const double interval = study.interval;
     for (const SettingResult& result : series.settings)
-      if (const Answer* a = answer_of(result, quantity); a && result.setting.fineness <= 1.0001 * interval)
+      if (const Answer* a = answer_of(result, quantity);
+          a && finest && result.setting.fineness <= 1.0001 * series.series.own_fineness)
         most = std::max(most, std::abs(a->value - finest->value));
-    return quantity.starts_with("rest_s") || quantity.starts_with("head_impact_s") || quantity.starts_with("first_")
-               ? std::max(most, interval)
-               : most;
+    sum += most;
   }
-  return 0;
+  const bool moment = quantity.starts_with("rest_s") || quantity.starts_with("head_impact_s") || quantity.starts_with("first_");
+  return moment ? std::max(sum, study.interval) : sum;
 }
 
+/// Errors of every series against the reference. Off the ladder the uncertainty is the error itself and what the reference lacks.
 void fill_errors(Study& study, const Judgement& judgement, const std::vector<std::size_t>& at) {
   const double reference_band = judgement.convergence.band.back();
   for (std::size_t s = 0; s < study.series.size(); ++s)
@@ -119,13 +119,13 @@ void fill_errors(Study& study, const Judgement& judgement, const std::vector<std
       if (found == result.answers.end()) continue;
       Answer& a = found->second;
       a.error = (judgement.cloud && result.setting.members > 0 ? a.middle : a.value) - judgement.reference;
-      a.uncertainty = std::abs(a.error) + judgement.reading +
+      a.uncertainty = std::abs(a.error) + judgement.besides +
                       (judgement.error_kind == "closed_form" || judgement.error_kind == "exact_zero" ? 0 : reference_band);
     }
   for (std::size_t i = 0; i < at.size(); ++i)
     study.series[0].settings[at[i]].answers[judgement.quantity].uncertainty =
         is_defect(judgement.quantity) ? std::abs(study.series[0].settings[at[i]].answers[judgement.quantity].value)
-                                      : judgement.convergence.band[i] + judgement.reading;
+                                      : judgement.convergence.band[i] + judgement.besides;
 }
 
 }  // namespace
@@ -191,7 +191,7 @@ void judge(Study& study, const std::map<std::string, double>& closed_form) {
     if (levels.size() < 2) continue;
     judgement.convergence = converge(levels);
     ask_second_scheme(study, judgement);
-    judgement.reading = judgement.cloud || is_defect(name) ? 0 : reading_of(study, name);
+    judgement.besides = judgement.cloud || is_defect(name) ? 0 : besides_the_step(study, name);
     settle_reference(judgement, levels, closed_form);
     fill_errors(study, judgement, at);
     study.judgements.push_back(std::move(judgement));

@@ -45,7 +45,7 @@ struct Judgement {
   double reference = 0;
   Convergence convergence;  // of the scene's own ladder
   bool cloud = false;       // minute changes are amplified so far that only percentiles mean anything
-  double reading = 0;       // half width that reading it off recorded instants leaves open
+  double besides = 0;       // half width that solver tolerance and recorded instants leave open
   bool schemes_agree = true;
   std::string second_scheme;  // that was asked, empty: there is none
 };

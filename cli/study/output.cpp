@@ -53,7 +53,7 @@ Json judgement_json(const Judgement& j) {
           {"limit", number_json(c.limit)},
           {"estimated_errors", c.error},
           {"bands", c.band},
-          {"reading", j.reading},
+          {"besides_the_step", j.besides},
           {"cloud", j.cloud},
           {"second_scheme", j.second_scheme.empty() ? Json(nullptr) : Json(j.second_scheme)},
           {"schemes_agree", j.second_scheme.empty() ? Json(nullptr) : Json(j.schemes_agree)}};

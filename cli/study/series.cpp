@@ -124,6 +124,7 @@ Series solver_tolerances(const scenes::Scene& scene, const StudyOptions&) {
                                std::pow(10.0, -k),
                                0,
                                false});
+  series.own_fineness = scene.model.settings.solver_tolerance;
   return series;
 }
 
@@ -146,6 +147,7 @@ Series recorded_instants(const scenes::Scene& scene, const StudyOptions&) {
   for (const int k : {16, 8, 4, 2, 1})
     series.settings.push_back(
         {"recorded every " + in_ms(k * s.step), {"simulation.record_interval=" + in_ms(k * s.step)}, k * s.step, 0, false});
+  series.own_fineness = study_interval(s);
   return series;
 }
 

@@ -26,6 +26,7 @@ struct Series {
   bool steps = false;      // a ladder of steps: its limit is an answer of its own
   bool other_law = false;  // another law of contact: its difference is modelling, not numerics
   std::vector<Setting> settings;
+  double own_fineness = 0;  // of the scene, for series that vary something besides the step; 0: none of them is its own
 };
 
 struct StudyOptions {

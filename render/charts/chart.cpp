@@ -1,0 +1,275 @@
+#include "render/charts/chart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace render::charts {
+namespace {
+
+constexpr double kTitleSize = 9, kTextSize = 7.2;  // [pt] readable on paper
+constexpr double kMarkerSize = 5.5;
+
+/// The span of one axis, and where on the paper it lies.
+struct Axis {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  bool log = false;
+  double from = 0, to = 0;  // paper
+
+  void take(double v) {
+    if (!std::isfinite(v) || (log && v <= 0)) return;
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+  bool empty() const { return !(high >= low); }
+  void widen() {
+    if (log) {
+      const double room = std::max(1.12, std::pow(high / low, 0.06));
+      low /= room;
+      high *= room;
+    } else {
+      const double room = high > low ? 0.08 * (high - low) : std::max(1e-9, 0.01 * std::abs(high));
+      low -= room;
+      high += room;
+    }
+  }
+  double at(double v) const {
+    const double share = log ? std::log(std::max(v, low * 1e-9) / low) / std::log(high / low) : (v - low) / (high - low);
+    return from + share * (to - from);
+  }
+};
+
+void span(const Chart& chart, Axis& x, Axis& y) {
+  x.log = chart.log_x;
+  y.log = chart.log_y;
+  for (const Band& band : chart.bands)
+    for (const Point& p : band.points) {
+      x.take(p.x);
+      y.take(p.low);
+      y.take(p.high);
+    }
+  for (const Line& line : chart.lines)
+    for (const Point& p : line.points) {
+      x.take(p.x);
+      y.take(p.y);
+      if (p.low != p.high) {
+        y.take(p.low);
+        y.take(p.high);
+      }
+    }
+  for (const Mark& level : chart.levels) y.take(level.y);
+}
+
+void draw_axes(const Pen& pen, const Chart& chart, const Box& plot, const Axis& x, const Axis& y) {
+  const std::vector<double> across = ticks(x.low, x.high, 6, x.log), up = ticks(y.low, y.high, 5, y.log);
+  const auto spacing = [](const std::vector<double>& at, bool log) { return log || at.size() < 2 ? 0 : at[1] - at[0]; };
+  for (const double t : across) {
+    pen.black(0.13);
+    pen.line(x.at(t), plot.y, x.at(t), plot.bottom(), 0.4);
+    pen.black();
+    pen.text(tick_text(t, spacing(across, x.log)), x.at(t), plot.bottom() + 2, kTextSize, Align::centre);
+  }
+  for (const double t : up) {
+    pen.black(0.13);
+    pen.line(plot.x, y.at(t), plot.right(), y.at(t), 0.4);
+    pen.black();
+    const std::string word = tick_text(t, spacing(up, y.log));
+    pen.text(word, plot.x - 4, y.at(t) - pen.measure(word, kTextSize).height / 2, kTextSize, Align::right);
+  }
+  pen.black();
+  pen.frame(plot, 0.7);
+  pen.text(chart.x_label, plot.x + plot.width / 2, plot.bottom() + 13, kTextSize, Align::centre);
+}
+
+void draw_band(const Pen& pen, const Band& band, const Axis& x, const Axis& y) {
+  cairo_t* c = pen.cairo();
+  if (band.points.empty()) return;
+  cairo_new_path(c);
+  for (const Point& p : band.points) cairo_line_to(c, x.at(p.x), y.at(p.high));
+  for (auto p = band.points.rbegin(); p != band.points.rend(); ++p) cairo_line_to(c, x.at(p->x), y.at(p->low));
+  cairo_close_path(c);
+  pen.black(0.14);
+  cairo_fill(c);
+}
+
+void draw_line(const Pen& pen, const Line& line, int style, const Axis& x, const Axis& y) {
+  cairo_t* c = pen.cairo();
+  pen.ink(style);
+  if (line.joined) {
+    pen.dash(style);
+    cairo_set_line_width(c, line.emphasised ? 1.6 : 0.9);
+    cairo_new_path(c);
+    for (const Point& p : line.points) cairo_line_to(c, x.at(p.x), y.at(p.y));
+    cairo_stroke(c);
+    cairo_set_dash(c, nullptr, 0, 0);
+  }
+  for (const Point& p : line.points) {
+    if (p.low != p.high) {
+      pen.line(x.at(p.x), y.at(p.low), x.at(p.x), y.at(p.high), 0.8);
+      for (const double end : {p.low, p.high}) pen.line(x.at(p.x) - 2.5, y.at(end), x.at(p.x) + 2.5, y.at(end), 0.8);
+    }
+    pen.marker(style, x.at(p.x), y.at(p.y), line.emphasised ? 1.2 * kMarkerSize : kMarkerSize);
+  }
+}
+
+/// Below the plot, in as many rows as it takes. Returns the height it needs; draws only when `y` is not negative.
+double legend(const Pen& pen, const Chart& chart, double left, double width, double y) {
+  const double row = 10.5;
+  double x = left, rows = 1;
+  const bool draw = y >= 0;
+  const auto entry = [&](const std::string& label, auto&& sample) {
+    if (label.empty()) return;
+    const double need = 24 + pen.measure(label, kTextSize).width + 10;
+    if (x > left && x + need > left + width) {
+      x = left;
+      ++rows;
+    }
+    if (draw) {
+      const double middle = y + (rows - 1) * row + 4.5;
+      sample(x, middle);
+      pen.black();
+      pen.text(label, x + 22, middle - 4.6, kTextSize);
+    }
+    x += need;
+  };
+  for (std::size_t i = 0; i < chart.lines.size(); ++i)
+    entry(chart.lines[i].label, [&](double at, double middle) {
+      const int style = static_cast<int>(i);
+      pen.ink(style);
+      pen.dash(style);
+      if (chart.lines[i].joined) pen.line(at, middle, at + 18, middle, chart.lines[i].emphasised ? 1.6 : 0.9);
+      cairo_set_dash(pen.cairo(), nullptr, 0, 0);
+      pen.marker(style, at + 9, middle, kMarkerSize);
+    });
+  for (const Band& band : chart.bands)
+    entry(band.label, [&](double at, double middle) {
+      pen.black(0.14);
+      cairo_rectangle(pen.cairo(), at, middle - 4, 18, 8);
+      cairo_fill(pen.cairo());
+    });
+  return rows * row;
+}
+
+}  // namespace
+
+void draw_chart(const Pen& pen, const Chart& chart, const Box& box) {
+  if (chart.title.empty()) return;
+  pen.black();
+  const double head = pen.text(chart.title, box.x, box.y, kTitleSize, Align::left, true, box.width).height + 3;
+  pen.text(chart.y_label, box.x, box.y + head, kTextSize);
+  Axis x, y;
+  span(chart, x, y);
+  Box plot{box.x + 44, box.y + head + 13, box.width - 52, 0};
+  if (x.empty() || y.empty()) {
+    plot.height = box.height - head - 20;
+    pen.frame(plot, 0.7);
+    pen.text(chart.empty, plot.x + plot.width / 2, plot.y + plot.height / 2, kTextSize, Align::centre);
+    return;
+  }
+  const double below = 26 + legend(pen, chart, plot.x, plot.width, -1);
+  plot.height = box.bottom() - below - plot.y;
+  x.widen();
+  y.widen();
+  x.from = plot.x;
+  x.to = plot.right();
+  y.from = plot.bottom();
+  y.to = plot.y;
+  draw_axes(pen, chart, plot, x, y);
+  cairo_save(pen.cairo());
+  cairo_rectangle(pen.cairo(), plot.x, plot.y, plot.width, plot.height);
+  cairo_clip(pen.cairo());
+  for (const Band& band : chart.bands) draw_band(pen, band, x, y);
+  for (const Mark& level : chart.levels) {
+    pen.black(0.8);
+    pen.dash(2);
+    pen.line(plot.x, y.at(level.y), plot.right(), y.at(level.y), 0.8);
+    cairo_set_dash(pen.cairo(), nullptr, 0, 0);
+    pen.text(level.text, plot.x + 4, y.at(level.y) - 10, kTextSize);
+  }
+  for (std::size_t i = chart.lines.size(); i-- > 0;) draw_line(pen, chart.lines[i], static_cast<int>(i), x, y);
+  for (const Mark& mark : chart.marks) {
+    pen.black();
+    cairo_set_line_width(pen.cairo(), 1.2);
+    cairo_arc(pen.cairo(), x.at(mark.x), y.at(mark.y), 7, 0, 2 * M_PI);
+    cairo_stroke(pen.cairo());
+    const bool left = x.at(mark.x) > plot.x + 0.6 * plot.width;
+    pen.text(mark.text, x.at(mark.x) + (left ? -10 : 10), y.at(mark.y) - 13, kTextSize, left ? Align::right : Align::left, true);
+  }
+  cairo_restore(pen.cairo());
+  legend(pen, chart, plot.x, plot.width, plot.bottom() + 25);
+}
+
+void draw_bars(const Pen& pen, const Bars& bars, const Box& box) {
+  if (bars.rows.empty()) return;
+  pen.black();
+  double y = box.y + pen.text(bars.title, box.x, box.y, kTitleSize, Align::left, true, box.width).height + 5;
+  double label = 0, value = 0, longest = 0;
+  for (const Bar& bar : bars.rows) {
+    label = std::max(label, pen.measure(bar.label, kTextSize).width);
+    value = std::max(value, pen.measure(bar.value, kTextSize).width);
+    double sum = 0;
+    for (const double part : bar.parts) sum += std::abs(part);
+    longest = std::max(longest, sum);
+  }
+  label = std::min(label, 0.45 * box.width);
+  const double room = box.width - label - value - 14;
+  const double row = std::clamp((box.bottom() - y - 14) / static_cast<double>(bars.rows.size()), 9.0, 18.0);
+  for (const Bar& bar : bars.rows) {
+    if (y + row > box.bottom() - 12) break;
+    pen.black();
+    pen.text(bar.label, box.x, y + row / 2 - 4.6, kTextSize);
+    double x = box.x + label + 6;
+    for (std::size_t i = 0; i < bar.parts.size(); ++i) {
+      const double width = longest > 0 ? room * std::abs(bar.parts[i]) / longest : 0;
+      if (width > 0.2) pen.hatch(static_cast<int>(i), {x, y + 0.18 * row, width, 0.64 * row});
+      x += width;
+    }
+    pen.black();
+    pen.text(bar.value, x + 5, y + row / 2 - 4.6, kTextSize);
+    y += row;
+  }
+  double x = box.x;
+  for (std::size_t i = 0; i < bars.parts.size(); ++i) {
+    pen.hatch(static_cast<int>(i), {x, y + 4, 16, 7});
+    x += 20 + pen.text(bars.parts[i], x + 20, y + 3, kTextSize).width + 10;
+  }
+}
+
+void draw_table(const Pen& pen, const Table& table, const Box& box) {
+  if (table.rows.empty()) return;
+  pen.black();
+  double y = box.y + pen.text(table.title, box.x, box.y, kTitleSize, Align::left, true, box.width).height + 4;
+  const std::size_t columns = table.head.size();
+  std::vector<double> width(columns, 0);
+  const auto grow = [&](const std::vector<std::string>& row, bool bold) {
+    for (std::size_t k = 0; k < columns && k < row.size(); ++k)
+      width[k] = std::max(width[k], pen.measure(row[k], kTextSize, bold).width);
+  };
+  grow(table.head, true);
+  for (std::size_t r = 0; r < table.rows.size(); ++r) grow(table.rows[r], static_cast<int>(r) == table.emphasised);
+  double sum = 0;
+  for (const double w : width) sum += w;
+  const double gap = columns > 1 ? std::clamp((box.width - sum) / static_cast<double>(columns - 1), 4.0, 26.0) : 0;
+  const double row_height = 11.2;
+  const auto draw_row = [&](const std::vector<std::string>& row, bool bold) {
+    double x = box.x;
+    for (std::size_t k = 0; k < columns && k < row.size(); ++k) {
+      // the first column is words, the others are numbers
+      if (k == 0)
+        pen.text(row[k], x, y, kTextSize, Align::left, bold);
+      else
+        pen.text(row[k], x + width[k], y, kTextSize, Align::right, bold);
+      x += width[k] + gap;
+    }
+    y += row_height;
+  };
+  draw_row(table.head, true);
+  pen.line(box.x, y - 0.5, box.right(), y - 0.5, 0.7);
+  y += 2;
+  for (std::size_t r = 0; r < table.rows.size() && y + row_height < box.bottom(); ++r)
+    draw_row(table.rows[r], static_cast<int>(r) == table.emphasised);
+  if (!table.note.empty()) pen.text(table.note, box.x, y + 3, kTextSize, Align::left, false, box.width);
+}
+
+}  // namespace render::charts

@@ -1,0 +1,13 @@
+// Draws one chart, one bar picture or one table into a box.
+#pragma once
+
+#include "render/charts/page.h"
+#include "render/charts/pen.h"
+
+namespace render::charts {
+
+void draw_chart(const Pen&, const Chart&, const Box&);
+void draw_bars(const Pen&, const Bars&, const Box&);
+void draw_table(const Pen&, const Table&, const Box&);
+
+}  // namespace render::charts

@@ -1,0 +1,106 @@
+// The page's layout, and its three files from one drawing.
+#include "render/charts/page.h"
+
+#include <cairo/cairo-pdf.h>
+#include <cairo/cairo-svg.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <system_error>
+
+#include "render/charts/chart.h"
+#include "render/error.h"
+
+namespace render::charts {
+namespace {
+
+constexpr double kWidth = 841.89, kHeight = 595.28;  // [pt] A4, landscape
+constexpr double kMargin = 34;
+constexpr double kDotsPerPoint = 200.0 / 72;  // of the PNG
+
+struct SurfaceDeleter {
+  void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
+};
+struct CairoDeleter {
+  void operator()(cairo_t* c) const { cairo_destroy(c); }
+};
+using SurfacePtr = std::unique_ptr<cairo_surface_t, SurfaceDeleter>;
+using CairoPtr = std::unique_ptr<cairo_t, CairoDeleter>;
+
+void draw(const Page& page, cairo_t* c) {
+  const Pen pen(c);
+  cairo_set_source_rgb(c, 1, 1, 1);
+  cairo_paint(c);
+  pen.black();
+  const double width = kWidth - 2 * kMargin;
+  double y = kMargin - 6;
+  y += pen.text(page.title, kMargin, y, 14, Align::left, true, width).height + 2;
+  y += pen.text(page.subtitle, kMargin, y, 8.5, Align::left, false, width).height + 5;
+  for (const std::string& finding : page.findings)
+    y += pen.text("\u2022 " + finding, kMargin, y, 8.5, Align::left, false, width).height + 1.5;
+  y += 7;
+  const double bottom = kHeight - kMargin - 6;
+  const bool charts = !page.left.title.empty();
+  const double split = charts ? y + 0.60 * (bottom - y) : y;
+  const double gap = 26, half = (width - gap) / 2;
+  draw_chart(pen, page.left, {kMargin, y, half, split - y - 8});
+  draw_chart(pen, page.right, {kMargin + half + gap, y, half, split - y - 8});
+  const double left = 0.46 * width;
+  draw_bars(pen, page.bars, {kMargin, split + 4, left, bottom - split - 8});
+  draw_table(pen, page.table, {kMargin + left + gap, split + 4, width - left - gap, bottom - split - 8});
+  pen.black(0.5);
+  pen.line(kMargin, bottom + 4, kWidth - kMargin, bottom + 4, 0.5);
+  pen.black();
+  pen.text(page.footer, kMargin, bottom + 8, 6.5, Align::left, false, width);
+}
+
+void check(cairo_status_t status, const std::filesystem::path& file) {
+  if (status != CAIRO_STATUS_SUCCESS)
+    throw RenderError(fmt::format("writing the figure {}: {}", file.string(), cairo_status_to_string(status)));
+}
+
+/// Draws into FILE.part and gives it its name when it is whole.
+template <typename Make, typename Finish>
+std::string write(const Page& page, const std::filesystem::path& file, double scale, const Make& make, const Finish& finish) {
+  const std::filesystem::path part = file.string() + ".part";
+  {
+    const SurfacePtr surface(make(part.c_str()));
+    check(cairo_surface_status(surface.get()), file);
+    const CairoPtr cairo(cairo_create(surface.get()));
+    cairo_scale(cairo.get(), scale, scale);
+    draw(page, cairo.get());
+    check(cairo_status(cairo.get()), file);
+    check(finish(surface.get(), part.c_str()), file);
+  }
+  std::error_code problem;
+  std::filesystem::rename(part, file, problem);
+  if (problem) throw RenderError(fmt::format("naming the figure {}: {}", file.string(), problem.message()));
+  return file.string();
+}
+
+cairo_status_t finished(cairo_surface_t* surface, const char*) {
+  cairo_surface_finish(surface);
+  return cairo_surface_status(surface);
+}
+
+}  // namespace
+
+std::vector<std::string> write_page(const Page& page, const std::filesystem::path& base) {
+  const auto pdf = [&page](const char* file) {
+    cairo_surface_t* surface = cairo_pdf_surface_create(file, kWidth, kHeight);
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, page.title.c_str());
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_SUBJECT, page.footer.c_str());
+    return surface;
+  };
+  const auto svg = [](const char* file) { return cairo_svg_surface_create(file, kWidth, kHeight); };
+  const auto png = [](const char*) {
+    return cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(kWidth * kDotsPerPoint)),
+                                      static_cast<int>(std::lround(kHeight * kDotsPerPoint)));
+  };
+  const auto save = [](cairo_surface_t* surface, const char* file) { return cairo_surface_write_to_png(surface, file); };
+  return {write(page, base.string() + ".pdf", 1, pdf, finished), write(page, base.string() + ".svg", 1, svg, finished),
+          write(page, base.string() + ".png", kDotsPerPoint, png, save)};
+}
+
+}  // namespace render::charts

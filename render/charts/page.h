@@ -1,0 +1,81 @@
+// Figures for print: a page of charts as plain data, drawn by one code path to PDF, SVG and PNG. Told apart by marker, dash and
+// hatching first and by colour second, so that a black-and-white copy says the same.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace render::charts {
+
+struct Point {
+  double x = 0, y = 0;
+  double low = 0, high = 0;  // ends of an upright bar; equal: none
+};
+
+struct Line {
+  std::string label;
+  std::vector<Point> points;
+  bool joined = true;  // a line through the points
+  bool emphasised = false;
+};
+
+/// Shaded between low and high.
+struct Band {
+  std::string label;
+  std::vector<Point> points;  // x, low, high
+};
+
+struct Mark {
+  double x = 0, y = 0;
+  std::string text;
+};
+
+struct Chart {
+  std::string title, x_label, y_label;
+  bool log_x = false, log_y = false;
+  std::vector<Band> bands;
+  std::vector<Line> lines;
+  std::vector<Mark> marks;          // ringed points with a word
+  std::vector<Mark> levels;         // horizontal lines at y with a word; x is not used
+  std::string empty = "no values";  // shown when there is nothing to draw
+};
+
+/// One row of a bar picture: parts side by side, or a signed value.
+struct Bar {
+  std::string label, value;   // left of and right of the bar
+  std::vector<double> parts;  // lengths from the left, in the order of Bars::parts
+};
+struct Bars {
+  std::string title, unit;
+  std::vector<std::string> parts;  // names of the parts
+  std::vector<Bar> rows;
+};
+
+struct Table {
+  std::string title;
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> rows;
+  int emphasised = -1;  // row in bold
+  std::string note;
+};
+
+/// A4, landscape. Two charts above, bars and table below; empty ones leave their place.
+struct Page {
+  std::string title, subtitle;
+  std::vector<std::string> findings;  // sentences between the title and the charts
+  Chart left, right;
+  Bars bars;
+  Table table;
+  std::string footer;
+};
+
+/// Writes BASE.pdf, BASE.svg and BASE.png, each whole or not at all. Returns their names. Throws RenderError.
+std::vector<std::string> write_page(const Page&, const std::filesystem::path& base);
+
+/// Round values from `low` to `high`, about `count` of them; powers of ten (with 2 and 5 if there are few) when `logarithmic`.
+std::vector<double> ticks(double low, double high, int count, bool logarithmic);
+/// A tick as it is written: "0.5", "20", "1e-05"; with the digits that tell it from one `spacing` away.
+std::string tick_text(double value, double spacing = 0);
+
+}  // namespace render::charts
