@@ -118,7 +118,8 @@ struct Failure {
   std::string message;
 };
 
-/// Acceleration of the centre of a person's head, a sample a step: what head injury criteria integrate. Only with the compliant law.
+/// Acceleration of the centre of a person's head, a sample a step: what head injury criteria integrate. Only with the compliant
+/// law.
 struct HeadMotion {
   int person = 0;
   std::vector<double> time;          // [s]

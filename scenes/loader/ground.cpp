@@ -20,8 +20,8 @@ const Key kKeys[] = {
     {"friction", Type::schedule, Dimension::none, "1",
      "Coulomb coefficient of the ground. Of two objects the smaller acts, so 1 leaves it to the other.", kNotNegative},
     {"restitution", Type::schedule, Dimension::none, "0", "Restitution of the ground. Of two objects the larger acts.", kShare},
-    {"stiffness", Type::schedule, Dimension::stiffness, "'1000 MN/m'", "S of the compliant contact law; two surfaces act in series.",
-     kPositive},
+    {"stiffness", Type::schedule, Dimension::stiffness, "'1000 MN/m'",
+     "S of the compliant contact law; two surfaces act in series.", kPositive},
     {"patch", Type::tables, Dimension::none, "", "Where the road is wet or icy.", kAny, {}, &kPatchSection},
     {"terrain", Type::path, Dimension::none, "", "A mesh file in world axes (z up), besides or in place of the plane."},
 };

@@ -130,10 +130,11 @@ TEST_P(BadCommandIsRefused, WithItsMessageAndExitCode) {
 INSTANTIATE_TEST_SUITE_P(
     Commands, BadCommandIsRefused,
     testing::Values(
-        BadCommand{"no_command",
-                   {},
-                   kAuthor,
-                   ": no command given; take one of render, simulate, plan, study, check, compare, library, schema, version"},
+        BadCommand{
+            "no_command",
+            {},
+            kAuthor,
+            ": no command given; take one of render, simulate, plan, study, figure, check, compare, library, schema, version"},
         BadCommand{"unknown_command", {"rendr"}, kAuthor, ": unknown command rendr; did you mean render?"},
         BadCommand{"unknown_option",
                    {"render", "ball.toml", "--siz", "64x64"},
@@ -181,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"unknown_ending",
                    {"render", "ball.toml", "-o", "a.avi"},
                    kAuthor,
-                   ": -o is \"a.avi\", must end in .mp4 or .png, or name a folder"},
+                   ": -o is \"a.avi\", must end in .mp4, .mkv or .png, or name a folder"},
         BadCommand{"wild_pattern",
                    {"render", "ball.toml", "-o", "a%s%n.png"},
                    kAuthor,
@@ -221,7 +222,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"frames_reversed",
                    {"render", "ball.toml", "--frames", "9:3"},
                    kAuthor,
-                   ": --frames is \"9:3\", must be FIRST:LAST, like 10:20, counted from 0, both drawn"}),
+                   ": --frames is \"9:3\", must be frames counted from 0: 7, 10-20, 10-20x5 (every fifth), 10-, -20, or a list of "
+                   "these with commas"}),
     [](const auto& command) { return command.param.name; });
 
 TEST(BadInput, ExistingResultsAreLeftAloneWithoutOverwrite) {

@@ -75,8 +75,10 @@ void quantity(std::string_view bytes) {
 void frames(std::string_view bytes) {
   const std::string text(bytes);
   try {
-    const auto [first, last] = cli::parse_frames("--frames", text);
-    demand(first >= -1 && last >= -1 && (last < 0 || first <= last), "frames are counted from 0, first to last");
+    for (const auto& [first, last, step] : cli::parse_frames("--frames", text)) {
+      demand(first >= 0 && (last < 0 || first <= last), "frames are counted from 0, first to last");
+      demand(step >= 1, "frames go forward");
+    }
   } catch (const cli::UsageError&) {
   }
   try {
