@@ -23,6 +23,9 @@ class Arguments {
   /// May be given several times, one value each.
   void repeatable(const std::string& names, std::vector<std::string>& target, const std::string& value_name,
                   const std::string& help);
+  /// May stand alone or with any number of values; says whether it was given.
+  void list(const std::string& names, bool& given, std::vector<std::string>& target, const std::string& value_name,
+            const std::string& help);
   void choice(const std::string& names, std::string& target, const std::vector<std::string>& choices, const std::string& help);
   void flag(const std::string& names, bool& target, const std::string& help);
 

@@ -20,6 +20,7 @@ std::function<int()> declare_study(Arguments&);
 std::function<int()> declare_figure(Arguments&);
 std::function<int()> declare_check(Arguments&);
 std::function<int()> declare_compare(Arguments&);
+std::function<int()> declare_snapshot(Arguments&);
 std::function<int()> declare_library(Arguments&);
 std::function<int()> declare_schema(Arguments&);
 std::function<int()> declare_version(Arguments&);
@@ -34,6 +35,7 @@ constexpr Command kCommands[] = {
     {"figure", "report figures: site diagram, contact map, time histories, stroboscopic still, contact sheet", declare_figure},
     {"check", "read scenes and report every error", declare_check},
     {"compare", "compare two pictures", declare_compare},
+    {"snapshot", "test the pictures and measures of a folder of scenes against their baselines", declare_snapshot},
     {"library", "list the persons, poses, vehicles and other entries a scene can name", declare_library},
     {"schema", "print the JSON Schema of the scene format, for editors", declare_schema},
     {"version", "print the version, the build, the libraries and the GL renderer", declare_version},
@@ -99,6 +101,16 @@ void Arguments::repeatable(const std::string& names, std::vector<std::string>& t
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false);
+}
+
+void Arguments::list(const std::string& names, bool& given, std::vector<std::string>& target, const std::string& value_name,
+                     const std::string& help) {
+  const auto take = [&given, &target](const std::vector<std::string>& values) {
+    given = true;
+    for (const std::string& value : values)
+      if (!value.empty() && value != "{}") target.push_back(value);  // what CLI11 puts where no value stands
+  };
+  app_.add_option_function<std::vector<std::string>>(names, take, help)->type_name(value_name)->expected(0, 1 << 20);
 }
 
 void Arguments::choice(const std::string& names, std::string& target, const std::vector<std::string>& choices,

@@ -19,11 +19,6 @@ using render::Container;
 constexpr double kLargestRate = 1000;  // [1/s] frames
 constexpr int kMostWorkers = 256;
 
-render::Quality quality_of(const std::string& name) {
-  if (name == "draft") return render::Quality::draft;
-  return name == "fine" ? render::Quality::fine : render::Quality::standard;
-}
-
 /// Where the pictures go is read off the name: OUT.mp4, a pattern, one PNG, a folder.
 void choose_container(const FilmArguments& wish, const scenes::Scene& scene, FilmPlan& plan) {
   const bool stills = !plan.stills.empty();
@@ -203,6 +198,11 @@ fs::path still_file(const FilmPlan& plan, double time) {
   if (plan.stills.size() == 1) return plan.job.output;
   const fs::path& output = plan.job.output;
   return output.parent_path() / fmt::format("{}_{:.3f}s{}", output.stem().string(), time, output.extension().string());
+}
+
+render::Quality quality_of(const std::string& name) {
+  if (name == "draft") return render::Quality::draft;
+  return name == "fine" ? render::Quality::fine : render::Quality::standard;
 }
 
 }  // namespace cli

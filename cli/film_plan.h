@@ -59,6 +59,8 @@ Selection frames_of(const FilmPlan&, const render::Stage&, const engine::Recordi
 
 /// The moment of a still: seen as the film would show that time.
 render::Moment still_of(const FilmPlan&, const render::Stage&, double time);
+/// "draft", "standard" or "fine".
+render::Quality quality_of(const std::string& name);
 /// The file of one still: the output itself, or with the time in its name where there are several.
 std::filesystem::path still_file(const FilmPlan&, double time);
 

@@ -18,7 +18,31 @@ struct Output {
   int height = 720;
   double fps = 30;
   std::string quality = "standard";
-  std::vector<std::pair<double, std::string>> stills;  // [s], camera: what snapshot tests draw
+  std::vector<std::pair<double, std::string>> stills;  // [s], camera (empty: the shot's): what snapshot tests draw
+};
+
+/// A rectangle of pixels that is not compared.
+struct SnapshotMask {
+  std::string camera;  // empty: every camera
+  int left = 0, top = 0, width = 0, height = 0;
+};
+
+/// A measure the run must give.
+struct Expectation {
+  std::string metric;  // as in summary.json, which says the unit
+  std::string object;  // empty: the only one that has it
+  double value = 0;
+  double tolerance = 0;
+  std::string written;  // "12.3 m +- 0.1 m"
+};
+
+/// How `crashreel snapshot` tests the scene; its pictures are the stills of Output.
+struct SnapshotTest {
+  int width = 320;
+  int height = 180;
+  std::map<std::string, double> limits;  // by the name of the measure; those not given have their defaults
+  std::vector<SnapshotMask> masks;
+  std::vector<Expectation> expectations;
 };
 
 struct Scene {
@@ -30,6 +54,7 @@ struct Scene {
   engine::Model model;
   render::Stage stage;
   Output output;
+  SnapshotTest snapshot;
   std::vector<std::string> warnings;          // file:line:column: what looked odd but loads
   std::map<std::string, double> closed_form;  // expected measures the scene carries, SI, by metric key
 };

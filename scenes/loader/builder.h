@@ -40,10 +40,12 @@ void read_impact(Builder&, Reader);
 void read_person(Builder&, Reader);
 void read_vehicle(Builder&, Reader);
 void read_film(Builder&, Reader& scene);  // camera, shot, overlays, output, road, sky
+void read_snapshot(Builder&, std::optional<Reader> snapshot, std::optional<Reader> expect);
 
 extern const Section kSimulationSection, kGroundSection, kBodySection, kJointSection, kImpactSection, kPersonSection,
     kVehicleSection;
 extern const Section kCameraSection, kShotSection, kCardSection, kOverlaysSection, kOutputSection, kRoadSection, kSkySection;
+extern const Section kSnapshotSection, kExpectSection;
 
 // Shared by several sections.
 

@@ -39,6 +39,8 @@ const Key kSceneKeys[] = {
     {"output", Type::table, Dimension::none, "", "Size and rate of pictures.", kAny, {}, &kOutputSection},
     {"road", Type::table, Dimension::none, "", "What the ground looks like.", kAny, {}, &kRoadSection},
     {"sky", Type::table, Dimension::none, "", "Sun and air.", kAny, {}, &kSkySection},
+    {"snapshot", Type::table, Dimension::none, "", "How its pictures are tested.", kAny, {}, &kSnapshotSection},
+    {"expect", Type::table, Dimension::none, "", "Measures that are tested.", kAny, {}, &kExpectSection},
     {"closed_form", Type::table, Dimension::none, "", "Answers known in closed form.", kAny, {}, &kClosedFormSection},
 };
 const Section kSceneSection{"", "(top of the file)", "A scene.", kSceneKeys};
@@ -141,6 +143,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   for (Reader& joint : r.tables("joint")) read_joint(builder, joint);
   for (Reader& impact : r.tables("impact")) read_impact(builder, impact);
   read_film(builder, r);
+  read_snapshot(builder, r.table("snapshot"), r.table("expect"));
   read_closed_form(builder, r.table("closed_form"));
 
   if (!builder.errors.empty()) throw SceneErrors(builder.errors.lines());

@@ -1,0 +1,207 @@
+// crashreel snapshot DIR: do the scenes of a folder still look and measure as their baselines say? Says no with exit code 1.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/command.h"
+#include "cli/exit.h"
+#include "cli/output/whole_file.h"
+#include "cli/parse.h"
+#include "cli/progress.h"
+#include "cli/snapshot/baselines.h"
+#include "cli/snapshot/check.h"
+#include "cli/snapshot/report.h"
+#include "render/image/png.h"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kReport = "report.json";
+
+struct SnapshotWish {
+  std::string folder;
+  std::string report = "snapshot-report";
+  bool update = false;
+  std::vector<std::string> names;
+  std::string jobs;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// A report replaces an earlier one, and nothing else.
+void prepare_report(const fs::path& folder) {
+  make_writable_folder(folder);
+  if (!fs::is_empty(folder) && !fs::exists(folder / kReport))
+    throw UsageError(fmt::format("{} is not empty and holds no report; give another --report", folder.string()));
+  fs::remove_all(folder / "pictures");
+  for (const char* file : {"report.html", "junit.xml", kReport}) fs::remove(folder / file);
+  make_writable_folder(folder / "pictures");
+}
+
+/// Baselines below the folder that no scene names. Those of a scene that could not be read are left alone.
+Json orphans_of(const fs::path& root, const Json& scenes) {
+  Json out = Json::array();
+  if (!fs::is_directory(root)) return out;  // one scene knows nothing of its neighbours'
+  std::map<fs::path, std::set<std::string>> named;
+  std::map<fs::path, std::vector<std::string>> unread;
+  for (const Json& scene : scenes) {
+    const fs::path file = root / scene["scene"].get<std::string>();
+    const fs::path folder = baseline_folder(file).lexically_normal();
+    for (const Json& name : scene["names"]) named[folder].insert(name.get<std::string>());
+    if (scene["names"].empty() && !scene["errors"].empty()) unread[folder].push_back(file.stem().string() + "_");
+  }
+  std::set<fs::path> folders;
+  for (const auto& entry : fs::recursive_directory_iterator(root))
+    if (entry.is_directory() && entry.path().filename() == "snapshots") folders.insert(entry.path().lexically_normal());
+  for (const fs::path& folder : folders)
+    for (const std::string& name : kept(folder)) {
+      const auto of_it = [&name](const std::string& stem) { return name.starts_with(stem); };
+      if (named[folder].contains(name) || std::any_of(unread[folder].begin(), unread[folder].end(), of_it)) continue;
+      out.push_back({{"name", name}, {"file", (folder / (name + ".png")).string()}});
+    }
+  return out;
+}
+
+/// Asks on the terminal, one thing at a time: nothing is replaced that was not looked at.
+bool asked(const std::string& what, bool& enough) {
+  if (enough) return false;
+  fmt::print(stderr, "{}? [y/N/q] ", what);
+  std::string answer;
+  if (!std::getline(std::cin, answer) || answer == "q") enough = true;
+  return answer == "y" || answer == "yes";
+}
+
+void relist(const fs::path& folder, const std::string& name, bool is_kept) {
+  std::set<std::string> names = listed(folder);
+  if (is_kept ? names.insert(name).second : names.erase(name) > 0) write_list(folder, names);
+}
+
+/// Replaces the baselines that were named, or to which somebody says yes; removes orphans the same way.
+void update(const SnapshotWish& wish, Json& report) {
+  bool enough = false;
+  const bool by_name = !wish.names.empty();
+  for (Json& scene : report["scenes"])
+    for (Json& picture : scene["pictures"]) {
+      const std::string name = picture["name"], verdict = picture["verdict"];
+      const fs::path baseline = picture["baseline"].get<std::string>();
+      if (by_name) relist(baseline.parent_path(), name, verdict == "same" || listed(baseline.parent_path()).contains(name));
+      if (!picture.contains("actual")) continue;
+      const auto seen = [&](const char* kind) { return (fs::path(wish.report) / picture[kind].get<std::string>()).string(); };
+      const std::string why = picture["why"];
+      const std::string question =
+          fmt::format("{}: {}{}{}\n  look at {}\n  keep the actual picture as baseline", verdict, name, why.empty() ? "" : ": ",
+                      why, seen(picture.contains("side_by_side") ? "side_by_side" : "actual"));
+      if (!by_name && !asked(question, enough)) continue;
+      make_writable_folder(baseline.parent_path());
+      render::write_png(baseline, render::read_png(seen("actual")), {}, render::PngEffort::small);
+      relist(baseline.parent_path(), name, true);
+      picture["verdict"] = "updated";
+    }
+  Json left = Json::array();
+  for (const Json& orphan : report["orphans"]) {
+    const std::string name = orphan["name"];
+    const fs::path file = orphan["file"].get<std::string>();
+    const bool remove =
+        by_name ? fits(name, wish.names) : asked(fmt::format("orphaned: no scene names {}\n  remove it", file.string()), enough);
+    if (!remove) {
+      left.push_back(orphan);
+      continue;
+    }
+    fs::remove(file);
+    relist(file.parent_path(), name, false);
+    fmt::print(stderr, "removed {}\n", file.string());
+  }
+  report["orphans"] = left;
+}
+
+void tell(const Json& report, const fs::path& folder) {
+  for (const Json& scene : report["scenes"]) {
+    const std::string name = scene["scene"];
+    for (const Json& error : scene["errors"]) fmt::print("error      {}: {}\n", name, error.get<std::string>());
+    for (const char* list : {"measures", "pictures"})
+      for (const Json& item : scene[list]) {
+        if (item["verdict"] == "same") continue;
+        const std::string why = item["why"];
+        fmt::print("{:<10} {}: {}{}{}\n", item["verdict"].get<std::string>(), name,
+                   item[item.contains("metric") ? "metric" : "name"].get<std::string>(), why.empty() ? "" : ": ", why);
+        if (item.contains("side_by_side"))
+          fmt::print("           see {}\n", (folder / item["side_by_side"].get<std::string>()).string());
+      }
+    if (const std::string cause = cause_of(scene); !cause.empty()) fmt::print("           {}: {}\n", name, cause);
+  }
+  for (const Json& orphan : report["orphans"]) fmt::print("orphaned   no scene names {}\n", orphan["file"].get<std::string>());
+  std::string counts;
+  for (const auto& [verdict, count] : report["counts"].items())
+    if (count != 0 || verdict == "same") counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count.get<int>(), verdict);
+  fmt::print("{}; {}\n", counts, (folder / "report.html").string());
+}
+
+void write_whole(const fs::path& path, const std::string& text) {
+  WholeFile file(path);
+  file.write(text);
+  file.close();
+  file.publish();
+}
+
+int snapshot(const SnapshotWish& wish) {
+  if (wish.update && wish.names.empty() && isatty(STDIN_FILENO) == 0)
+    throw UsageError(
+        "--update asks before it replaces anything, and there is no terminal to ask on; name what you have looked at: "
+        "--update pose_cat_side_0s 'puck_*'");
+  const fs::path root = wish.folder;
+  const std::vector<fs::path> files = find_scenes(root);
+  CheckJob job;
+  job.root = fs::is_directory(root) ? root : root.parent_path();
+  job.pictures = fs::path(wish.report) / "pictures";
+  job.only = wish.names;
+  job.workers = wish.jobs.empty() ? 0 : parse_integer("--jobs", wish.jobs, 1, 256);
+  prepare_report(wish.report);
+
+  const double start = clock_seconds();
+  Progress progress("check", "scenes", static_cast<double>(files.size()),
+                    wish.quiet ? ShowProgress::never : ShowProgress::automatic);
+  Json report = {{"schema", 1}, {"version", CRASHREEL_VERSION}, {"folder", job.root.string()}};
+  report["scenes"] = check_scenes(files, job, [&progress](int done) { progress.at(done); });
+  progress.finish(static_cast<double>(files.size()));
+  report["orphans"] = orphans_of(root, report["scenes"]);
+  report["wall_s"] = clock_seconds() - start;
+  if (wish.update) update(wish, report);
+  count_verdicts(report);
+
+  write_whole(fs::path(wish.report) / "report.html", report_html(report, wish.report));
+  write_whole(fs::path(wish.report) / "junit.xml", junit_xml(report));
+  write_whole(fs::path(wish.report) / kReport, report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (wish.json) {
+    fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
+    tell(report, wish.report);
+  }
+  return report["same"] ? kDone : kComparisonSaysNo;
+}
+
+}  // namespace
+
+std::function<int()> declare_snapshot(Arguments& arguments) {
+  const auto wish = std::make_shared<SnapshotWish>();
+  arguments.positional("DIR", wish->folder, "folder of scenes (looked through with its folders), or one scene");
+  arguments.list("--update", wish->update, wish->names, "NAME",
+                 "replace baselines: those of the scenes or pictures named (* and ? allowed), or after asking for each");
+  arguments.option("--report", wish->report, "OUT",
+                   "folder for report.html, junit.xml, report.json and pictures; default: snapshot-report");
+  arguments.option("-j,--jobs", wish->jobs, "N", "scenes at once, each in a process; default: one a core");
+  arguments.flag("--json", wish->json, "print report.json");
+  arguments.flag("-q,--quiet", wish->quiet, "no progress");
+  return [wish] { return snapshot(*wish); };
+}
+
+}  // namespace cli

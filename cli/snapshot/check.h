@@ -1,0 +1,34 @@
+// Scenes are run, drawn and compared, each in a process of its own.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+struct CheckJob {
+  std::filesystem::path root;      // names of scenes are told from here
+  std::filesystem::path pictures;  // where actual, difference and side-by-side pictures go
+  std::vector<std::string> only;   // patterns of scene or picture names (* and ?); empty: everything
+  int workers = 0;                 // 0: one a core
+};
+
+/// What was found of one scene; these keys are those of report.json:
+/// {"scene", "title", "names": [all its pictures], "errors": [...], "wall_s",
+///  "pictures": [{"name", "baseline", "camera", "time_s", "verdict", "why", "figures", "limits", "actual", "difference",
+///                "side_by_side"}],
+///  "measures": [{"metric", "expected", "found", "verdict", "why"}]}
+/// Verdicts of pictures: same, different, new, missing, unreadable; of measures: same, different, missing.
+using SceneReport = nlohmann::ordered_json;
+
+/// One report a scene, in the scenes' order whatever the number of workers. A scene whose process dies reports that as its error.
+std::vector<SceneReport> check_scenes(const std::vector<std::filesystem::path>& scenes, const CheckJob&,
+                                      const std::function<void(int done)>& progress);
+
+/// Whether a name fits one of the patterns, with or without ".png".
+bool fits(const std::string& name, const std::vector<std::string>& patterns);
+
+}  // namespace cli
