@@ -106,6 +106,7 @@ void update(const SnapshotWish& wish, Json& report) {
       render::write_png(baseline, render::read_png(seen("actual")), {}, render::PngEffort::small);
       relist(baseline.parent_path(), name, true);
       picture["verdict"] = "updated";
+      picture["why"] = "";
     }
   Json left = Json::array();
   for (const Json& orphan : report["orphans"]) {
