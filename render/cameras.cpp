@@ -9,7 +9,7 @@ namespace render {
 
 int body_of_name(const engine::Recording& recording, const std::string& name) {
   const auto& names = recording.body_names;
-  for (const std::string& candidate : {name, name + "/hips", name + "/torso"}) {
+  for (const std::string& candidate : {name, name + "/hips", name + "/waist", name + "/torso"}) {
     const auto at = std::find(names.begin(), names.end(), candidate);
     if (at != names.end()) return static_cast<int>(at - names.begin());
   }

@@ -126,8 +126,8 @@ int part_of(const std::string& name) {
   if (has("head") || has("neck")) return 0;
   if (has("torso") || has("hips") || has("waist")) return 1;
   if (has("arm") || has("hand")) return 2;
-  if (has("thigh")) return 3;
-  if (has("calf") || has("foot") || has("leg")) return 4;
+  if (has("thigh") || has("femur")) return 3;
+  if (has("calf") || has("foot") || has("knee") || has("leg")) return 4;
   return 5;
 }
 

@@ -11,7 +11,7 @@ constexpr double kSpacing = 0.02;  // [s] between points
 
 bool wanted(const Frame& frame, const std::string& body) {
   const auto& named = frame.stage.overlays.trace_bodies;
-  if (named.empty()) return body.ends_with("/head") || body.ends_with("/hips");
+  if (named.empty()) return body.ends_with("/head") || body.ends_with("/hips") || body.ends_with("/waist");
   return std::find(named.begin(), named.end(), body) != named.end();
 }
 

@@ -5,7 +5,7 @@
 // 1, so R_FpFc = M^T A, which is 1 in the middle. Its swing (x, y) and twist (z) then stay far from 180 deg: with the shoulder's
 // ranges of 240 and 210 deg the corner of the limits lies at 162 deg. A flexed and abducted arm also twists, seen from the middle,
 // so the limits are not the anatomical half ranges; they are the smallest box that holds the motion through each angle's whole
-// range with the other angles at zero (or their nearest value), and the pose at the start.
+// range with the other angles at zero (or their nearest value), and the pose at the start. A universal joint needs none of this.
 #include <algorithm>
 #include <cmath>
 
@@ -58,6 +58,26 @@ Quat articulation(const FigureJoint& joint, const std::vector<double>& angles) {
   return out;
 }
 
+namespace {
+
+/// Cardan cross of flexion (about y) and side (about x): each engine angle is the anatomical one from the middle of its range, up
+/// to its sense of turn, so the limits are the ranges themselves.
+void make_universal(const FigureJoint& joint, engine::Joint& out) {
+  out.kind = engine::JointKind::universal;
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    const AnatomicalAngle& angle = joint.angles[k];
+    const int axis = k == 0 ? 1 : 0;
+    const double sense = angle.axis[axis];
+    const double middle = sense * (angle.lower + angle.upper) / 2;
+    const double half = (angle.upper - angle.lower) / 2;
+    out.angles[static_cast<std::size_t>(axis)] = {-half, half, joint.stiffness, -middle, joint.damping, joint.friction_torque};
+    engine::Quat& q = k == 0 ? out.X_PF.q : out.X_CF.q;
+    q = Eigen::AngleAxisd(k == 0 ? middle : -middle, Vec3::Unit(axis));
+  }
+}
+
+}  // namespace
+
 engine::Joint engine_joint(const Figure& figure, const FigureJoint& joint, const std::vector<double>& start_angles) {
   engine::Joint out;
   out.name = joint.name;
@@ -66,6 +86,10 @@ engine::Joint engine_joint(const Figure& figure, const FigureJoint& joint, const
   out.X_PF = {joint.at - figure.segments[static_cast<std::size_t>(joint.parent)].centre, q_mid};
   out.X_CF = {joint.at - figure.segments[static_cast<std::size_t>(joint.child)].centre, Quat::Identity()};
 
+  if (joint.angles.size() == 2) {
+    make_universal(joint, out);
+    return out;
+  }
   const Vec3 start = swing_twist(q_mid.conjugate() * articulation(joint, start_angles));
   const Vec3 standing = swing_twist(q_mid.conjugate());
   Vec3 lower = start;

@@ -17,9 +17,10 @@ const Key kSegmentKeys[] = {
     {"centre", Type::vector3, Dimension::length, kRequired, "Centre when standing, x forward, y left, z above the soles."},
     {"axes", Type::vector3, Dimension::length, kRequired, "Semi-axes.", kPositive},
     {"exponent", Type::number, Dimension::none, "2", "Exponent n.", between(2, 100), {}, nullptr, "a hyper-ellipsoid needs n >= 2"},
-    {"mass_male", Type::numbers, Dimension::none, kRequired,
-     "[b0, b1, b2]: mass in kg = b0 + b1 mass/kg + b2 stature/cm, scaled to the sum."},
-    {"mass_female", Type::numbers, Dimension::none, kRequired, "The same for women."},
+    {"mass_male", Type::numbers, Dimension::none, "",
+     "[b0, b1, b2]: mass in kg = b0 + b1 mass/kg + b2 stature/cm; all parts are then scaled to the person's mass."},
+    {"mass_female", Type::numbers, Dimension::none, "", "The same for women; left out: as for men."},
+    {"mass_share", Type::number, Dimension::none, "", "Share of the person's mass, in place of a regression.", kPositive},
     {"lengthwise", Type::boolean, Dimension::none, "false", "Its x axis grows with stature, like a foot."},
     {"cloth", Type::colour, Dimension::none, "'#808080'", "Colour."},
 };
@@ -30,6 +31,8 @@ const Key kAngleKeys[] = {
     {"about", Type::choice, Dimension::none, kRequired, "Axis of the standing person that a positive angle turns about.", kAny,
      "+x|-x|+y|-y|+z|-z"},
     {"range", Type::range, Dimension::angle, kRequired, "Range of motion."},
+    {"word", Type::text, Dimension::none, "''",
+     "Another word for poses. Angles of several joints that have one in common take an even part of it each."},
 };
 const Section kAngleSection{"figure.joint.angle", "[[joint.angle]]", "In a person's library file: one angle of a joint.",
                             kAngleKeys};
@@ -44,7 +47,7 @@ const Key kJointKeys[] = {
      Type::tables,
      Dimension::none,
      kRequired,
-     "One angle about y makes a revolute joint, three about y, x, z a ragdoll joint.",
+     "About y: a revolute joint. About y and x: a universal joint. About y, x and z: a ragdoll joint.",
      kAny,
      {},
      &kAngleSection},
@@ -59,6 +62,8 @@ const Key kFigureKeys[] = {
     {"title", Type::text, Dimension::none, "''", "What it is."},
     {"stature", Type::number, Dimension::length, kRequired, "Stature the figures are for.", kPositive},
     {"mass", Type::number, Dimension::mass, kRequired, "Mass the figures are for.", kPositive},
+    {"statures", Type::range, Dimension::length, "", "Statures it may be sized to. Left out: any."},
+    {"masses", Type::range, Dimension::mass, "", "Masses it may be sized to. Left out: any."},
     {"root", Type::text, Dimension::none, kRequired, "The part all others hang on."},
     {"segment", Type::tables, Dimension::none, kRequired, "Parts.", kAny, {}, &kSegmentSection},
     {"joint", Type::tables, Dimension::none, kRequired, "Joints.", kAny, {}, &kJointSectionOfFigure},
@@ -72,8 +77,11 @@ struct Scaling {
   PersonSize size;
 };
 
-double regression(Reader& r, const PersonSize& size) {
-  const char* key = size.female ? "mass_female" : "mass_male";
+/// Mass of a part before all are scaled to the person's [kg].
+double part_mass(Reader& r, const PersonSize& size) {
+  if (r.has("mass_share") == r.has("mass_male")) r.fail_here("must have either mass_male or mass_share");
+  if (r.has("mass_share")) return r.number("mass_share") * size.mass;
+  const char* key = size.female && r.has("mass_female") ? "mass_female" : "mass_male";
   const std::vector<double> b = r.numbers(key);
   if (b.size() != 3) {
     r.fail(key, "must be three numbers [b0, b1, b2]");
@@ -89,7 +97,7 @@ void read_segment(Reader& r, const Scaling& scale, std::vector<Segment>& out) {
   const engine::Vec3 grow{lengthwise ? scale.along : scale.across, scale.across, scale.along};
   s.centre = r.vector("centre").cwiseProduct(grow);
   s.shape = {r.vector("axes").cwiseProduct(grow), std::max(2.0, r.number("exponent"))};
-  s.mass = regression(r, scale.size);
+  s.mass = part_mass(r, scale.size);
   const auto colour = r.colour("cloth");
   // bare parts are lit as skin: their red clearly above their blue, and light
   const bool bare = colour[0] > 0.4f && colour[0] > 1.6f * colour[2];
@@ -111,12 +119,14 @@ std::vector<AnatomicalAngle> read_angles(Reader& r) {
   for (Reader& angle : r.tables("angle")) {
     const int about = angle.choice("about");
     const auto [lower, upper] = angle.range("range");
-    out.push_back({angle.text("name"), engine::Vec3::Unit(about / 2) * (about % 2 == 0 ? 1 : -1), lower, upper});
+    out.push_back(
+        {angle.text("name"), engine::Vec3::Unit(about / 2) * (about % 2 == 0 ? 1 : -1), lower, upper, angle.text("word")});
+    if (out.back().word.empty()) out.back().word = r.text("name") + "_" + out.back().name;
   }
-  const bool revolute = out.size() == 1 && std::abs(out[0].axis.y()) == 1;
-  const bool ragdoll =
-      out.size() == 3 && std::abs(out[0].axis.y()) == 1 && std::abs(out[1].axis.x()) == 1 && std::abs(out[2].axis.z()) == 1;
-  if (!revolute && !ragdoll) r.fail_here("must have one angle about y, or three about y, x and z in this order");
+  constexpr int kOrder[] = {1, 0, 2};
+  bool ordered = !out.empty() && out.size() <= 3;
+  for (std::size_t i = 0; ordered && i < out.size(); ++i) ordered = std::abs(out[i].axis[kOrder[i]]) == 1;
+  if (!ordered) r.fail_here("must have one to three angles, about y, x and z in this order");
   return out;
 }
 
@@ -132,7 +142,7 @@ int segment_index(Reader& r, const std::vector<Segment>& segments, std::string_v
 
 void read_joint_of_figure(Reader& r, const Scaling& scale, Figure& figure) {
   FigureJoint j;
-  j.angles = read_angles(r);
+  const std::vector<AnatomicalAngle> angles = read_angles(r);
   j.damping = r.number("damping");
   j.friction_torque = r.number("friction_torque");
   j.stiffness = r.number("stiffness");
@@ -144,6 +154,9 @@ void read_joint_of_figure(Reader& r, const Scaling& scale, Figure& figure) {
     j.parent = segment_index(r, figure.segments, "parent", sides ? side : "");
     j.child = segment_index(r, figure.segments, "child", sides ? side : "");
     j.at = right ? at.cwiseProduct(kMirror) : at;
+    j.angles = angles;
+    if (sides)
+      for (AnatomicalAngle& angle : j.angles) angle.word = side + angle.word;
     // the mirror image of a turn about x or z has the other sense, about y the same
     if (right)
       for (AnatomicalAngle& angle : j.angles) angle.axis = angle.axis.cwiseProduct(engine::Vec3{-1, 1, -1});
@@ -184,7 +197,28 @@ void sort_tree(Reader& r, Figure& figure) {
 const Section kFigureSection{"figure", "scenes/library/persons/NAME.toml",
                              "A person as data; a scene's own lies beside it or in its folder persons/.", kFigureKeys};
 
-Figure read_figure(Builder& builder, Reader& person, const PersonSize& size) {
+namespace {
+
+/// The person's size, within what the figure is made for.
+PersonSize read_size(Builder& builder, Reader& person, Reader& figure) {
+  PersonSize size{figure.number("stature"), figure.number("mass"), person.choice("sex") == 1};
+  auto read = [&](std::string_view key, std::string_view limits, const char* unit, double& value) {
+    if (!person.has(key)) return;
+    value = person.number(key);
+    if (!figure.has(limits)) return;
+    const auto [lower, upper] = figure.range(limits);
+    if (value >= lower && value <= upper) return;
+    person.fail(key, fmt::format("must lie in {:.4g}..{:.4g} {} for the figure {}; the library of persons has {}", lower, upper,
+                                 unit, person.text("figure"), fmt::join(library_names(builder, "persons"), ", ")));
+  };
+  read("stature", "statures", "m", size.stature);
+  read("mass", "masses", "kg", size.mass);
+  return size;
+}
+
+}  // namespace
+
+Figure read_figure(Builder& builder, Reader& person, PersonSize& size) {
   const std::string name = person.text("figure");
   const auto file = library_file(builder, "persons", name);
   if (file.empty()) {
@@ -197,6 +231,8 @@ Figure read_figure(Builder& builder, Reader& person, const PersonSize& size) {
   const std::size_t errors_before = builder.errors.count();
   const Value tree = parse_file(file);
   Reader r(tree, kFigureSection, name, builder.errors);
+  size = read_size(builder, person, r);
+  if (!(size.stature > 0) || !(size.mass > 0) || builder.errors.count() != errors_before) return {};
   const double along = size.stature / r.number("stature");
   const Scaling scale{along, std::sqrt(size.mass / r.number("mass") / along), size};
 

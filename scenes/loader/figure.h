@@ -16,6 +16,7 @@ struct AnatomicalAngle {
   engine::Vec3 axis;  // unit, positive turn in the sense of the word
   double lower = 0;   // [rad]
   double upper = 0;   // [rad]
+  std::string word;   // of poses: "left_knee_flexion"; angles of several joints that share one take an even part each
 };
 
 struct Segment {
@@ -32,7 +33,7 @@ struct FigureJoint {
   int parent = 0;    // segments
   int child = 0;
   engine::Vec3 at;                      // [m] standing
-  std::vector<AnatomicalAngle> angles;  // one: revolute; three: ragdoll; applied in this order
+  std::vector<AnatomicalAngle> angles;  // one: revolute; two: universal; three: ragdoll; applied in this order
   double damping = 0;                   // [N m s/rad]
   double friction_torque = 0;           // [N m]
   double stiffness = 0;                 // [N m/rad]
@@ -49,8 +50,9 @@ struct PersonSize {
   bool female = false;
 };
 
-/// Reads scenes/library/persons/NAME.toml (or the scene's own) and sizes it. An empty figure after an error, which is collected.
-Figure read_figure(Builder&, Reader& person, const PersonSize&);
+/// Reads scenes/library/persons/NAME.toml (or the scene's own) and sizes it by the person's stature, mass and sex; what of them is
+/// left out is the file's own. An empty figure after an error, which is collected.
+Figure read_figure(Builder&, Reader& person, PersonSize&);
 
 extern const Section kFigureSection, kPoseSection, kAnglesSection;
 

@@ -37,16 +37,9 @@ const Key kKeys[] = {
     {"name", Type::text, Dimension::none, kRequired, "Name; its parts are NAME/head, NAME/left_thigh ..."},
     {"figure", Type::text, Dimension::none, "'person-14'", "A person of the library or of the scene's folder."},
     {"sex", Type::choice, Dimension::none, "'male'", "Which regression gives the masses of the parts.", kAny, "male|female"},
-    {"stature",
-     Type::number,
-     Dimension::length,
-     "'1.75 m'",
-     "Height standing.",
-     between(1.3, 2.3),
-     {},
-     nullptr,
-     "smaller persons need a figure with a child's proportions"},
-    {"mass", Type::number, Dimension::mass, "'78 kg'", "Mass of the whole person.", between(25, 250)},
+    {"stature", Type::number, Dimension::length, "",
+     "Height standing, within what the figure is made for. Left out: the figure's own.", kPositive},
+    {"mass", Type::number, Dimension::mass, "", "Mass of the whole person. Left out: the figure's own.", kPositive},
     {"pose", Type::text, Dimension::none, "'standing'", "A pose of the library or of the scene's folder."},
     {"angles", Type::table, Dimension::none, "", "Changes to the pose.", kAny, {}, &kAnglesSection},
     {"position", Type::vector2, Dimension::length, "'0 0 m'", "World x, y of the centre of the hips."},
@@ -233,12 +226,12 @@ void hold_on(Builder& builder, Reader& r, int mount, engine::Person& person) {
     const std::string name = part.name.substr(part.name.find('/') + 1);
     const auto& shape = std::get<engine::HyperEllipsoid>(part.shape);
     engine::Joint joint;
-    if (name.ends_with("forearm")) {
+    if (name.ends_with("forearm") || name.ends_with("lower_arm")) {
       joint.breaking_force = r.number("grip_force");
       joint.X_CF.p.z() = -0.88 * shape.semi_axes.z();  // the palm
     } else if (name.ends_with("foot")) {
       joint.breaking_force = r.number("pedal_force");
-    } else if (name == "hips") {
+    } else if (index == person.bodies.front()) {
       joint.breaking_force = r.number("seat_force");
       joint.X_CF.p.z() = -shape.semi_axes.z();
     } else {
@@ -265,8 +258,7 @@ void read_person(Builder& builder, Reader r) {
   if (person.name.empty() || person.name.find('/') != std::string::npos) r.fail("name", "must be a name without a slash");
   for (const engine::Person& other : model.persons)
     if (other.name == person.name) r.fail("name", "is taken; every person needs a name of its own");
-  const PersonSize size{r.number("stature"), r.number("mass"), r.choice("sex") == 1};
-  if (!(size.stature > 0) || !(size.mass > 0)) return;
+  PersonSize size;
   Figure figure = read_figure(builder, r, size);
   if (figure.segments.empty()) return;
 
