@@ -22,6 +22,8 @@ ContactState state_of(const Constraint& c, double gap_speed) {
 
 Recorder::Recorder(const World& world, const State& state)
     : still_since_(world.topology.trees.size(), -1),
+      halted_(world.topology.trees.size(), 0),
+      motion_(world.topology.trees.size(), 0),
       hit_vehicle_(world.model.persons.size(), 0),
       hit_head_(world.model.persons.size(), 0),
       hit_ground_(world.model.persons.size(), 0),
@@ -106,17 +108,22 @@ void Recorder::sample(const World& world, const State& state, Recording& recordi
   sampled_ = state.time;
 }
 
-void Recorder::watch_rest(const World& world, const State& state) {
+void Recorder::watch_rest(const World& world, const State& state, double since) {
   for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
-    bool still = true;
+    double motion = 0;
     for (int l = world.topology.trees[t].begin; l < world.topology.trees[t].end; ++l) {
       const Twist& V = state.V_WB[world.topology.links[l].body];
-      still = still && V.v.norm() < kStillSpeed && V.w.norm() < kStillTurn;
+      motion = std::max({motion, V.v.norm() / kStillSpeed, V.w.norm() / kStillTurn});
     }
-    if (!still)
+    if (!(motion < 1)) {
       still_since_[t] = -1;
-    else if (still_since_[t] < 0)
+    } else if (still_since_[t] < 0) {
       still_since_[t] = state.time;
+      // it slows down as it has since the instant before: that is when it stops, and not at the first instant it is slow
+      const double slowing = since > 0 ? (motion_[t] - motion) / since : 0;
+      halted_[t] = state.time + (slowing > 0 ? std::min(motion / slowing, kStillTime) : 0);
+    }
+    motion_[t] = motion;
   }
 }
 
@@ -169,7 +176,7 @@ void Recorder::snapshot(const World& world, const State& state, Recording& recor
   energy_rise_ = std::max(energy_rise_, mechanical - last_energy_);
   last_energy_ = mechanical;
   recording.snapshots.push_back(std::move(s));
-  watch_rest(world, state);
+  watch_rest(world, state, since);
 }
 
 void Recorder::finish(const World& world, const State& state, Recording& recording) {
@@ -178,7 +185,7 @@ void Recorder::finish(const World& world, const State& state, Recording& recordi
     const int root = world.topology.links[world.topology.trees[t].end - 1].body;
     const int person = world.model.bodies[root].person;
     if (person >= 0 && !state.released[person]) continue;
-    events_.push_back({still_since_[t], "rest", root, -1, state.X_WB[root].p, 0});
+    events_.push_back({std::min(halted_[t], state.time), "rest", root, -1, state.X_WB[root].p, 0});
   }
   recording.events = world.events;
   recording.events.insert(recording.events.end(), events_.begin(), events_.end());

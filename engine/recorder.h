@@ -34,11 +34,13 @@ class Recorder {
     double duration = 0;
     Vec3 impulse = Vec3::Zero();
   };
-  void watch_rest(const World&, const State&);
+  void watch_rest(const World&, const State&, double since);
   void watch_events(const World&, const Constraint&, double time);
 
   std::vector<Tally> tallies_;       // sorted by key
   std::vector<double> still_since_;  // [s] per tree, negative: moving
+  std::vector<double> halted_;       // [s] per tree: when it stopped, between recorded instants
+  std::vector<double> motion_;       // [-] per tree at the last snapshot: fastest body by what counts as still
   std::vector<Event> events_;
   std::vector<char> hit_vehicle_, hit_head_, hit_ground_;  // per person
   std::vector<char> support_;                              // per body: carried its person when that was released

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cli/study/statistics.h"
 
@@ -15,11 +16,6 @@ const Quantity* find_quantity(const Outcome& outcome, const std::string& name) {
   for (const Quantity& q : outcome.quantities)
     if (q.name == name) return &q;
   return nullptr;
-}
-
-const Answer* answer_of(const SettingResult& result, const std::string& quantity) {
-  const auto found = result.answers.find(quantity);
-  return found != result.answers.end() && result.failure.empty() ? &found->second : nullptr;
 }
 
 /// Spread of the ensembles of the ladder, against the size of the answer.
@@ -52,31 +48,59 @@ double median_of_finest(const std::vector<Level>& levels) {
   return median(finest);
 }
 
-/// Limit of the finest run of a second scheme; the first of them that has one.
-void ask_second_scheme(const Study& study, Judgement& judgement) {
+/// The limit another scheme tends to.
+struct SecondOpinion {
+  std::string scheme;
+  double limit = 0, band = 0;
+};
+
+/// Of the other schemes that take another way to the answer, the one that is surest of it. One whose finest run is that of the
+/// scene's own to the last digit has computed the same thing again: it is no second opinion.
+std::optional<SecondOpinion> second_opinion(const Study& study, const Judgement& judgement, double own_finest) {
+  std::optional<SecondOpinion> out;
   for (std::size_t s = 1; s < study.series.size(); ++s) {
     const SeriesResult& other = study.series[s];
     if (!other.series.steps) continue;
     std::vector<std::size_t> at;
     const std::vector<Level> levels = levels_of(other, judgement.quantity, judgement.cloud, at);
-    if (levels.size() < 2) continue;
-    const Convergence second = converge(levels);
-    const Convergence first = judgement.convergence;
-    judgement.second_scheme = other.series.name;
-    const double apart = std::abs(first.limit - second.limit);
-    judgement.schemes_agree = apart <= first.band.back() + second.band.back();
-    if (judgement.schemes_agree) return;
-    // they tend to different answers: no band may be narrower than what lies between them
-    judgement.convergence.trust = Trust::range;
-    for (double& band : judgement.convergence.band) band = std::max(band, apart + second.band.back());
+    if (levels.size() < 2 || (levels.back().value == own_finest && judgement.convergence.trust != Trust::exact)) continue;
+    const Convergence c = converge(levels);
+    if (!out || c.band.back() < out->band) out = SecondOpinion{other.series.name, c.limit, c.band.back()};
+  }
+  return out;
+}
+
+/// Two schemes must tend to one answer before a band is printed. Where the other one is surer, its limit is the reference.
+void ask_second_scheme(const Study& study, Judgement& judgement, const std::vector<Level>& levels) {
+  Convergence& c = judgement.convergence;
+  const auto second = second_opinion(study, judgement, levels.back().value);
+  if (!second) {
+    if (c.trust == Trust::steady) c = range_only(levels);
     return;
+  }
+  judgement.second_scheme = second->scheme;
+  const double apart = std::abs(c.limit - second->limit);
+  judgement.schemes_agree = apart <= c.band.back() + second->band;
+  if (!judgement.schemes_agree) {
+    // they tend to different answers: nothing may be narrower than what lies between them
+    c.trust = Trust::range;
+    for (double& band : c.band) band = std::max(band, apart + second->band);
+  } else if (c.trust == Trust::range && second->band < c.band.back()) {
+    judgement.error_kind = "second_scheme";
+    c.limit = second->limit;
+    double largest = 0;
+    for (std::size_t i = levels.size(); i-- > 0;) {
+      c.error[i] = levels[i].value - c.limit;
+      largest = std::max(largest, std::abs(c.error[i]));
+      c.band[i] = kSafety * largest + second->band;
+    }
   }
 }
 
 void settle_reference(Judgement& judgement, const std::vector<Level>& levels, const std::map<std::string, double>& closed_form) {
   const Convergence& c = judgement.convergence;
   judgement.reference = c.limit;
-  judgement.error_kind = c.trust == Trust::steady ? "richardson" : "finest";
+  if (judgement.error_kind.empty()) judgement.error_kind = c.trust == Trust::steady ? "richardson" : "finest";
   if (judgement.cloud) {
     judgement.reference = median_of_finest(levels);
     judgement.error_kind = "median";
@@ -91,11 +115,20 @@ void settle_reference(Judgement& judgement, const std::vector<Level>& levels, co
   }
 }
 
-/// Errors of every series against the reference. Off the ladder the uncertainty is the error itself and what the reference lacks.
+/// A solver that stops at a residual speed may leave that speed in every step, always the same way.
+double left_by_solver(const Study& study, const std::string& quantity) {
+  const SettingResult* own = study.own();
+  if (!own || study.solver_tolerance <= 0) return 0;
+  const std::string unit = unit_of(quantity);
+  if (unit == "m") return study.solver_tolerance * own->end_s;
+  return unit == "m/s" ? study.solver_tolerance : 0;
+}
+
 /// What the settings besides the step leave open: the change when the solver is asked for more, when more instants are recorded. A
 /// moment that is one of those recorded may as well be its neighbour.
-double besides_the_step(const Study& study, const std::string& quantity) {
-  double sum = 0;
+std::vector<Besides> besides_the_step(const Study& study, const std::string& quantity) {
+  const bool moment = quantity.starts_with("rest_s") || quantity.starts_with("head_impact_s") || quantity.starts_with("first_");
+  std::vector<Besides> out;
   for (const SeriesResult& series : study.series) {
     if (series.series.own_fineness <= 0) continue;
     const Answer* finest = answer_of(series.settings.back(), quantity);
@@ -104,10 +137,12 @@ double besides_the_step(const Study& study, const std::string& quantity) {
       if (const Answer* a = answer_of(result, quantity);
           a && finest && result.setting.fineness <= 1.0001 * series.series.own_fineness)
         most = std::max(most, std::abs(a->value - finest->value));
-    sum += most;
+    if (series.series.varies == "interval" && moment) most = std::max(most, study.interval);
+    if (series.series.name == kSolverSeries) most = std::max(most, left_by_solver(study, quantity));
+    if (most > 0) out.push_back({series.series.meaning, most});
   }
-  const bool moment = quantity.starts_with("rest_s") || quantity.starts_with("head_impact_s") || quantity.starts_with("first_");
-  return moment ? std::max(sum, study.interval) : sum;
+  std::stable_sort(out.begin(), out.end(), [](const Besides& a, const Besides& b) { return a.width > b.width; });
+  return out;
 }
 
 /// Errors of every series against the reference. Off the ladder the uncertainty is the error itself and what the reference lacks.
@@ -119,16 +154,21 @@ void fill_errors(Study& study, const Judgement& judgement, const std::vector<std
       if (found == result.answers.end()) continue;
       Answer& a = found->second;
       a.error = (judgement.cloud && result.setting.members > 0 ? a.middle : a.value) - judgement.reference;
-      a.uncertainty = std::abs(a.error) + judgement.besides +
+      a.uncertainty = std::abs(a.error) + judgement.beside_the_step() +
                       (judgement.error_kind == "closed_form" || judgement.error_kind == "exact_zero" ? 0 : reference_band);
     }
   for (std::size_t i = 0; i < at.size(); ++i)
     study.series[0].settings[at[i]].answers[judgement.quantity].uncertainty =
         is_defect(judgement.quantity) ? std::abs(study.series[0].settings[at[i]].answers[judgement.quantity].value)
-                                      : judgement.convergence.band[i] + judgement.besides;
+                                      : judgement.convergence.band[i] + judgement.beside_the_step();
 }
 
 }  // namespace
+
+const Answer* answer_of(const SettingResult& result, const std::string& quantity) {
+  const auto found = result.answers.find(quantity);
+  return found != result.answers.end() && result.failure.empty() ? &found->second : nullptr;
+}
 
 const Judgement* Study::find(const std::string& quantity) const {
   for (const Judgement& j : judgements)
@@ -141,6 +181,12 @@ const SettingResult* Study::own() const {
     for (const SettingResult& result : s.settings)
       if (result.setting.own) return &result;
   return nullptr;
+}
+
+double Judgement::beside_the_step() const {
+  double sum = 0;
+  for (const Besides& b : besides) sum += b.width;
+  return sum;
 }
 
 double Study::input_uncertainty(const std::string& quantity) const {
@@ -190,8 +236,8 @@ void judge(Study& study, const std::map<std::string, double>& closed_form) {
     const std::vector<Level> levels = levels_of(ladder, name, judgement.cloud, at);
     if (levels.size() < 2) continue;
     judgement.convergence = converge(levels);
-    ask_second_scheme(study, judgement);
-    judgement.besides = judgement.cloud || is_defect(name) ? 0 : besides_the_step(study, name);
+    ask_second_scheme(study, judgement, levels);
+    if (!judgement.cloud && !is_defect(name)) judgement.besides = besides_the_step(study, name);
     settle_reference(judgement, levels, closed_form);
     fill_errors(study, judgement, at);
     study.judgements.push_back(std::move(judgement));
@@ -199,7 +245,8 @@ void judge(Study& study, const std::map<std::string, double>& closed_form) {
 }
 
 std::string main_quantity(const Study& study) {
-  constexpr const char* kWishes[] = {"throw_distance_m", "delta_v_mps", "rebound_height_m", "head_impact_speed_mps", "travel_m"};
+  constexpr const char* kWishes[] = {"throw_distance_m",      "delta_v_mps", "rebound_height_m",
+                                     "head_impact_speed_mps", "travel_m",    "turned_deg"};
   for (const bool closed_form : {true, false})
     for (const char* wish : kWishes)
       for (const Judgement& j : study.judgements)

@@ -33,21 +33,31 @@ struct SettingResult {
   std::map<std::string, Answer> answers;
 };
 
+/// Null if the run diverged or does not define it.
+const Answer* answer_of(const SettingResult&, const std::string& quantity);
+
 struct SeriesResult {
   Series series;
   std::vector<SettingResult> settings;
 };
 
+/// What something besides the step leaves open.
+struct Besides {
+  std::string source;  // for the reader: "how often the motion is recorded"
+  double width = 0;    // half, in the unit of the quantity
+};
+
 /// How one quantity is judged.
 struct Judgement {
   std::string quantity;
-  std::string error_kind;  // closed_form, exact_zero, richardson, finest, median
+  std::string error_kind;  // closed_form, exact_zero, richardson, finest, second_scheme, median
   double reference = 0;
-  Convergence convergence;  // of the scene's own ladder
-  bool cloud = false;       // minute changes are amplified so far that only percentiles mean anything
-  double besides = 0;       // half width that solver tolerance and recorded instants leave open
+  Convergence convergence;       // of the scene's own ladder
+  bool cloud = false;            // minute changes are amplified so far that only percentiles mean anything
+  std::vector<Besides> besides;  // largest first
   bool schemes_agree = true;
-  std::string second_scheme;  // that was asked, empty: there is none
+  std::string second_scheme;       // that was asked, empty: there is none that takes another way
+  double beside_the_step() const;  // sum of `besides`
 };
 
 /// One end of an input's range, and what it does.
@@ -60,7 +70,8 @@ struct Study {
   std::vector<SeriesResult> series;   // the scene's own ladder first
   std::vector<Judgement> judgements;  // per quantity, measures first
   std::vector<InputRange> inputs;
-  double interval = 0;  // [s] between recorded instants in all runs but those that vary it
+  double interval = 0;          // [s] between recorded instants in all runs but those that vary it
+  double solver_tolerance = 0;  // [m/s] of the scene where the contact solver decides, else 0
   const Judgement* find(const std::string& quantity) const;
   const SettingResult* own() const;
   /// Half width of what all inputs together do, as independent errors add.

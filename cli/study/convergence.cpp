@@ -14,8 +14,7 @@ namespace {
 constexpr double kRounding = 1e-13;    // of the value: what a thousand rounded steps may add up to
 constexpr double kLowestOrder = 0.4;   // below it the limit is farther away than any level has come
 constexpr double kHighestOrder = 6.0;  // above it two answers agree by chance
-constexpr double kOrderSpread = 0.30;  // between neighbouring triples: observed orders within it count as one
-constexpr double kSafety = 1.25;       // Roache's factor where the order is known from more than two levels
+constexpr double kOrderSpread = 0.15;  // times 1 + order, between neighbouring triples: orders within it count as one
 constexpr std::size_t kFewestLevels = 4;
 
 struct Fit {
@@ -56,7 +55,7 @@ bool steady(const std::vector<Level>& levels, std::size_t first, std::size_t las
     highest = std::max(highest, order);
     if (order < kLowestOrder || order > kHighestOrder) return false;
   }
-  return highest - lowest < kOrderSpread;
+  return highest - lowest < kOrderSpread * (1 + lowest);
 }
 
 double range_of(const std::vector<Level>& levels, std::size_t first) {
@@ -128,6 +127,10 @@ Convergence converge(const std::vector<Level>& levels) {
   for (std::size_t first = earliest; first + kFewestLevels <= last + 1; ++first)
     if (steady(levels, first, last)) return by_order(levels, first, last, rounding);
   return by_range(levels, rounding);
+}
+
+Convergence range_only(const std::vector<Level>& levels) {
+  return by_range(levels, rounding_of(levels));
 }
 
 }  // namespace cli::study

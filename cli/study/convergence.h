@@ -35,5 +35,9 @@ struct Convergence {
 /// fall with one order is taken. Band: 1.25 times the error where the order is steady (Roache 1994), with the misfit added (Eca and
 /// Hoekstra 2014). Elsewhere: the range of this and all finer answers, at least the three finest, doubled for the finest ones.
 Convergence converge(const std::vector<Level>& levels);
+/// The same without an order: the range of this and all finer answers.
+Convergence range_only(const std::vector<Level>& levels);
+
+constexpr double kSafety = 1.25;  // on an estimated error: Roache's factor where the order is known from more than two levels
 
 }  // namespace cli::study

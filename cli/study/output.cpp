@@ -29,7 +29,7 @@ double step_of(const SeriesResult& series, const SettingResult& result) {
 }
 
 Json setting_json(const SeriesResult& series, const SettingResult& result, const std::string& letter) {
-  Json out = {{"setting", result.setting.label},   {"overrides", result.setting.overrides},
+  Json out = {{"setting", result.setting.label},   {"overrides", runs_with(result.setting)},
               {"own", result.setting.own},         {"step_s", step_of(series, result)},
               {"wall_s", result.wall_s},           {"wall_quartiles_s", {result.wall_low, result.wall_high}},
               {"repetitions", result.repetitions}, {"steps", result.steps},
@@ -53,7 +53,7 @@ Json judgement_json(const Judgement& j) {
           {"limit", number_json(c.limit)},
           {"estimated_errors", c.error},
           {"bands", c.band},
-          {"besides_the_step", j.besides},
+          {"besides_the_step", j.beside_the_step()},
           {"cloud", j.cloud},
           {"second_scheme", j.second_scheme.empty() ? Json(nullptr) : Json(j.second_scheme)},
           {"schemes_agree", j.second_scheme.empty() ? Json(nullptr) : Json(j.schemes_agree)}};

@@ -7,16 +7,12 @@
 
 #include "cli/study/output.h"
 #include "cli/study/perturb.h"
+#include "cli/study/words.h"
 
 namespace cli::study {
 namespace {
 
 namespace charts = render::charts;
-
-const Answer* answer(const SettingResult& result, const std::string& quantity) {
-  const auto found = result.answers.find(quantity);
-  return found == result.answers.end() || !result.failure.empty() ? nullptr : &found->second;
-}
 
 std::string label_with_unit(const std::string& quantity) {
   const std::string unit = unit_of(quantity);
@@ -33,16 +29,17 @@ charts::Chart work_precision(const Study& study, const Judgement& j) {
   chart.title = "What accuracy costs";
   chart.x_label = "computing time on one core [s]";
   chart.y_label = fmt::format("error of the {}, against {}", label_with_unit(j.quantity),
-                              j.error_kind == "closed_form"  ? "the closed form"
-                              : j.error_kind == "richardson" ? "the limit of the steps"
-                              : j.error_kind == "median"     ? "the median of the finest steps"
-                                                             : "the finest step");
+                              j.error_kind == "closed_form"     ? std::string("the closed form")
+                              : j.error_kind == "richardson"    ? "the limit of the steps"
+                              : j.error_kind == "second_scheme" ? "the limit of " + j.second_scheme
+                              : j.error_kind == "median"        ? "the median of the finest steps"
+                                                                : "the finest step");
   chart.log_x = chart.log_y = true;
   for (const SeriesResult& series : study.series) {
     if (series.series.other_law) continue;
     charts::Line line{series.series.name, {}, true, &series == &study.series.front()};
     for (std::size_t i = 0; i < series.settings.size(); ++i) {
-      const Answer* a = answer(series.settings[i], j.quantity);
+      const Answer* a = answer_of(series.settings[i], j.quantity);
       // the finest run is the reference where there is no other: its own error is not 0, it is not known
       const bool is_reference = j.error_kind == "finest" && line.emphasised && i + 1 == series.settings.size();
       // a setting whose answer happens to be the middle of the cloud is not without error
@@ -53,6 +50,10 @@ charts::Chart work_precision(const Study& study, const Judgement& j) {
     }
     if (!line.points.empty()) chart.lines.push_back(std::move(line));
   }
+  // a machine-independent scale: the steps of the scene's own ladder stand where they were paid for
+  chart.top_label = fmt::format("steps computed, {}", study.series.front().series.name);
+  for (const SettingResult& r : study.series.front().settings)
+    if (r.failure.empty()) chart.top.push_back({r.wall_s, 0, fmt::format("{}", r.steps)});
   return chart;
 }
 
@@ -67,7 +68,7 @@ charts::Chart answer_against_step(const Study& study, const Judgement& j) {
   charts::Band band{j.convergence.trust == Trust::steady ? "grid-convergence band" : "range of this and finer steps", {}};
   charts::Line cloud{"5th to 95th percentile of minute changes", {}, false, false};
   for (const SettingResult& result : ladder.settings) {
-    const Answer* a = answer(result, j.quantity);
+    const Answer* a = answer_of(result, j.quantity);
     if (!a) continue;
     const double x = (ladder.series.varies == "step" ? 1e3 : 1.0) * result.setting.fineness;
     const double centre = j.cloud ? a->middle : a->value;
@@ -87,20 +88,20 @@ charts::Chart answer_against_step(const Study& study, const Judgement& j) {
 /// Each quantity's share is told relative to its value, so that metres and seconds stand in one picture.
 charts::Bars uncertainty_bars(const Study& study) {
   charts::Bars bars;
-  bars.title = "Where the uncertainty of the scene's own run comes from (share of the answer)";
+  bars.title = "Uncertainty of the scene as it stands (\u00b1), as a share of the answer";
   bars.parts = {"numerical", "sensitivity", "input"};
   const SettingResult* own = study.own();
   if (!own) return bars;
   for (const Judgement& j : study.judgements) {
-    const Answer* a = answer(*own, j.quantity);
+    const Answer* a = answer_of(*own, j.quantity);
     if (!a || is_defect(j.quantity)) continue;
     const double input = study.input_uncertainty(j.quantity), sensitivity = (a->high - a->low) / 2;
     const double size = std::max(std::abs(a->value), 1e-9);
+    const std::string unit = unit_of(j.quantity);
     bars.rows.push_back({words_of(j.quantity),
-                         fmt::format("\u00b1 {} | {} | {}", with_unit(a->uncertainty, unit_of(j.quantity)),
-                                     with_unit(sensitivity, unit_of(j.quantity)),
-                                     study.inputs.empty() ? "not given" : with_unit(input, unit_of(j.quantity))),
-                         {a->uncertainty / size, sensitivity / size, input / size}});
+                         {a->uncertainty / size, sensitivity / size, input / size},
+                         {with_unit(a->uncertainty, unit), with_unit(sensitivity, unit),
+                          study.inputs.empty() ? "not given" : with_unit(input, unit)}});
   }
   return bars;
 }
@@ -113,9 +114,10 @@ charts::Table convergence_table(const Study& study, const Judgement& j) {
   table.title = fmt::format("Convergence of the {}", words_of(j.quantity));
   table.head = {ladder.series.varies, "answer", "change", "band \u00b1", "spread \u00b1", "contacts", "time", "steps"};
   const Answer* before = nullptr;
+  const double finest = std::max(j.convergence.band.back(), j.beside_the_step());
   for (std::size_t i = 0; i < ladder.settings.size(); ++i) {
     const SettingResult& r = ladder.settings[i];
-    const Answer* a = answer(r, j.quantity);
+    const Answer* a = answer_of(r, j.quantity);
     const std::string label = r.setting.label.substr(r.setting.label.find(' ') + 1);
     if (!a) {
       table.rows.push_back({label, r.failure.empty() ? "none" : "diverged", "", "", "", letters[i], with_unit(r.wall_s, "s"), ""});
@@ -123,9 +125,10 @@ charts::Table convergence_table(const Study& study, const Judgement& j) {
       continue;
     }
     if (r.setting.own) table.emphasised = static_cast<int>(i);
-    table.rows.push_back({label, fmt::format("{:.6g} {}", a->value, unit), before ? with_unit(a->value - before->value, unit) : "",
-                          with_unit(a->uncertainty, unit), with_unit((a->high - a->low) / 2, unit), letters[i],
-                          with_unit(r.wall_s, "s"), fmt::format("{}", r.steps)});
+    table.rows.push_back({label, fmt::format("{} {}", with_digits(a->value, finest), unit),
+                          before ? with_unit(a->value - before->value, unit) : "", with_unit(a->uncertainty, unit),
+                          with_unit((a->high - a->low) / 2, unit), letters[i], with_unit(r.wall_s, "s"),
+                          fmt::format("{}", r.steps)});
     before = a;
   }
   const bool one = std::all_of(letters.begin(), letters.end(), [](const std::string& l) { return l == "A"; });
@@ -134,103 +137,23 @@ charts::Table convergence_table(const Study& study, const Judgement& j) {
           : "Contacts: equal letters had the same bodies touch in the same order; where the letter changes, a band would be a "
             "guess and the range of the answers stands in its place.";
   if (std::isfinite(j.convergence.order)) table.note += fmt::format(" Observed order {:.2f}.", j.convergence.order);
-  if (!j.second_scheme.empty())
-    table.note += fmt::format(" The second scheme, {}, {}.", j.second_scheme,
-                              j.schemes_agree ? "tends to the same answer" : "tends to another answer: the band holds both");
+  table.note += j.second_scheme.empty()
+                    ? std::string(" No other scheme takes another way to this answer, so no band is claimed, only a range.")
+                    : fmt::format(" The second scheme, {}, tends to {}.", j.second_scheme,
+                                  j.schemes_agree ? "the same answer" : "another answer: the range holds both");
   return table;
 }
 
-/// Cheapest step of the ladder whose answers are no wider than those of the scene's own.
-const SettingResult* cheapest_as_good(const Study& study, const std::string& quantity) {
-  const SettingResult* own = study.own();
-  const Answer* wanted = own ? answer(*own, quantity) : nullptr;
-  if (!wanted) return nullptr;
-  const auto width = [](const Answer& a) { return std::max(a.uncertainty, (a.high - a.low) / 2); };
-  const SettingResult* best = own;
-  for (const SettingResult& r : study.series.front().settings)
-    if (const Answer* a = answer(r, quantity); a && width(*a) <= 1.1 * width(*wanted) && r.wall_s < best->wall_s) best = &r;
-  return best;
-}
-
-std::vector<std::string> findings(const Study& study, const Judgement& j) {
-  const SettingResult* own = study.own();
-  const Answer* a = own ? answer(*own, j.quantity) : nullptr;
-  if (!a) return {};
-  const std::string unit = unit_of(j.quantity);
-  const double spread = (a->high - a->low) / 2;
-  std::vector<std::string> out;
-  out.push_back(fmt::format(
-      "The scene's own settings ({}) give a {} of {:.6g} {}. Computing finer would change it by {} at most{}.", own->setting.label,
-      words_of(j.quantity), a->value, unit, with_unit(a->uncertainty, unit),
-      j.error_kind == "closed_form" ? fmt::format("; the true error, against the closed form, is {}", with_unit(a->error, unit))
-                                    : ""));
-  if (j.cloud)
-    out.push_back(
-        fmt::format("Changes far too small to be measured (a thousandth of a millimetre, a millionth of a speed) move it by "
-                    "\u00b1 {}: the motion itself is that sensitive, and no computer and no step takes this away. Quote the "
-                    "range {:.4g} to {:.4g} {}, not one number.",
-                    with_unit(spread, unit), a->low, a->high, unit));
-  else
-    out.push_back(
-        fmt::format("Changes far too small to be measured (a thousandth of a millimetre, a millionth of a speed) move it by "
-                    "\u00b1 {}: the answer is not chaotic.",
-                    with_unit(spread, unit)));
-  if (const SettingResult* cheap = cheapest_as_good(study, j.quantity); cheap && cheap != own)
-    out.push_back(fmt::format("A {} is as good for this question and takes {} instead of {}.", cheap->setting.label,
-                              with_unit(cheap->wall_s, "s"), with_unit(own->wall_s, "s")));
-  return out;
-}
-
-/// The first level whose band is half of the own one, or the time that the order asks for.
-double cost_of_half(const SeriesResult& ladder, const Judgement& j, std::size_t own) {
-  const Answer* wanted = answer(ladder.settings[own], j.quantity);
-  for (std::size_t i = own + 1; i < ladder.settings.size(); ++i) {
-    const Answer* a = answer(ladder.settings[i], j.quantity);
-    if (!a || a->uncertainty > wanted->uncertainty / 2) continue;
-    const double gain = std::log(wanted->uncertainty / a->uncertainty) / std::log(2.0);
-    return std::pow(ladder.settings[i].wall_s / ladder.settings[own].wall_s, 1 / gain);
-  }
-  return 0;
-}
-
 }  // namespace
-
-std::string with_unit(double value, const std::string& unit) {
-  if (unit == "m" && value != 0 && std::abs(value) < 1e-4) return fmt::format("{:.2g} \u00b5m", 1e6 * value);
-  if (unit == "m" && value != 0 && std::abs(value) < 0.1) return fmt::format("{:.2g} mm", 1e3 * value);
-  if (unit == "s" && value != 0 && std::abs(value) < 0.1) return fmt::format("{:.2g} ms", 1e3 * value);
-  return fmt::format("{:.3g} {}", value, unit);
-}
-
-std::string cost_in_words(const Study& study, const std::string& quantity) {
-  const Judgement* j = study.find(quantity);
-  const SeriesResult& ladder = study.series.front();
-  std::size_t own = 0;
-  while (own < ladder.settings.size() && !ladder.settings[own].setting.own) ++own;
-  const Answer* a = j && own < ladder.settings.size() ? answer(ladder.settings[own], quantity) : nullptr;
-  if (!a) return "the scene's own settings do not define an answer";
-  const std::string unit = unit_of(quantity);
-  const double spread = (a->high - a->low) / 2;
-  if (j->convergence.trust == Trust::exact && j->besides == 0)
-    return "every step gives the same answer; a finer one costs time for nothing";
-  if (spread > a->uncertainty && j->cloud)
-    return fmt::format("no time buys less than \u00b1 {}: minute changes move the answer that far", with_unit(spread, unit));
-  const double ratio = cost_of_half(ladder, *j, own);
-  const char* width = j->convergence.trust == Trust::steady ? "band" : "range";
-  if (ratio > 0)
-    return fmt::format("halving the {} from {} to {} costs {:.1f} times the time", width, with_unit(a->uncertainty, unit),
-                       with_unit(a->uncertainty / 2, unit), ratio);
-  return fmt::format("no finer step narrows its {} of \u00b1 {}: more time buys no better answer", width,
-                     with_unit(a->uncertainty, unit));
-}
 
 charts::Page page_of(const scenes::Scene& scene, const Study& study) {
   charts::Page page;
   const std::string quantity = main_quantity(study);
   const std::string name = scene.title.empty() ? scene.path.filename().string() : scene.title;
   page.footer = fmt::format(
-      "crashreel {}, {} | {} | scene SHA-256 {}{}{} | times: one core, warm, median | minute changes: {} m, {} of every "
-      "speed and of gravity | measures read every {} ms | simulation, not footage",
+      "crashreel {}, {} | {} | scene SHA-256 {}{}{} | times: computing on one core, warm, median | minute changes: {} m, {} of "
+      "every "
+      "speed and of gravity | measures read every {} ms",
       CRASHREEL_VERSION, CRASHREEL_BUILD, scene.path.filename().string(), scene.sha256.substr(0, 16),
       scene.overrides.empty() ? "" : " with ", fmt::join(scene.overrides, ", "), kPerturbedPosition, kPerturbedSpeed,
       1e3 * study.interval);

@@ -18,9 +18,10 @@ struct Batch {
 
   std::size_t add(const scenes::Scene& scene, const Setting& setting, double cost) {
     const std::size_t first = trials.size();
+    const std::vector<std::string> overrides = runs_with(setting);
     for (int member = 0; member <= setting.members; ++member) {
       Trial trial{scene.path, scene.overrides, member, cost, ""};
-      trial.overrides.insert(trial.overrides.end(), setting.overrides.begin(), setting.overrides.end());
+      trial.overrides.insert(trial.overrides.end(), overrides.begin(), overrides.end());
       trial.fingerprint = fingerprint_of(trial, program);
       trials.push_back(std::move(trial));
     }
@@ -68,6 +69,7 @@ Study run_study(const scenes::Scene& scene, const RunWish& wish) {
       series_for(scene, wish.options, [&scene](const std::vector<std::string>& overrides) { return accepted(scene, overrides); });
   Study study;
   study.interval = study_interval(scene.model.settings);
+  if (solver_decides(scene)) study.solver_tolerance = scene.model.settings.solver_tolerance;
   for (const std::string& input : wish.inputs) study.inputs.push_back(parse_input(input));
 
   Batch batch;
@@ -76,7 +78,7 @@ Study run_study(const scenes::Scene& scene, const RunWish& wish) {
   std::vector<Setting> ends;
   for (const InputRange& input : study.inputs)
     for (const std::string& end : {input.low, input.high})
-      ends.push_back({input.key + " " + end, {input.key + "=" + end}, 0, std::min(4, wish.options.members), false});
+      ends.push_back({input.key + " " + end, {input.key + "=" + end}, {}, 0, std::min(4, wish.options.members), false});
   for (const Setting& end : ends) batch.add(scene, end, scene.model.settings.duration / scene.model.settings.step);
 
   make_writable_folder(wish.folder / "runs");

@@ -21,8 +21,10 @@ std::vector<Setting> steps_of(const scenes::Scene& scene, const StudyOptions& op
   const double step = scene.model.settings.step;
   for (int k = 0; k <= options.halvings; ++k) {
     const double h = kCoarser * step / std::pow(2.0, k);
-    Setting setting{"step " + in_ms(h), {"simulation.step=" + in_ms(h)}, h, 0, false};
+    Setting setting{"step " + in_ms(h), {"simulation.step=" + in_ms(h)}, {}, h, 0, false};
     setting.overrides.insert(setting.overrides.end(), also.begin(), also.end());
+    // a scene cannot be recorded more often than it is computed
+    if (h > scene.model.settings.record_interval) setting.overrides.push_back("simulation.record_interval=" + in_ms(h));
     setting.members = k + 2 > options.halvings ? std::min(3, options.members) : options.members;
     setting.own = own && std::abs(h - step) < 1e-9 * step;
     out.push_back(setting);
@@ -55,6 +57,7 @@ Series own_steps(const scenes::Scene& scene, const StudyOptions& options) {
       const double tolerance = 16 * s.adaptive_tolerance / std::pow(4.0, k);
       series.settings.push_back({fmt::format("tolerance {:.3g} m", tolerance),
                                  {fmt::format("simulation.adaptive_tolerance={:.9g} m", tolerance)},
+                                 {},
                                  tolerance,
                                  options.members,
                                  k == 2});
@@ -70,7 +73,7 @@ Series other_events(const scenes::Scene& scene, const StudyOptions& options) {
   StudyOptions few = options;
   few.members = 0;
   few.halvings = options.halvings - 1;
-  return {std::string(word(scene.model.settings.scheme)) + (located ? ", events not located" : ", events located"),
+  return {std::string(word(scene.model.settings.scheme)) + (located ? kNotLocated : ", events located"),
           "step",
           "impacts at the end of the step instead of inside it",
           false,
@@ -83,7 +86,7 @@ Series scheme_steps(const scenes::Scene& scene, const StudyOptions& options, eng
   StudyOptions few = options;
   few.members = 0;
   return {
-      std::string(word(scheme)) + (located ? "" : ", events not located"),
+      std::string(word(scheme)) + (located ? "" : kNotLocated),
       "step",
       "another scheme, step halved",
       located,
@@ -108,6 +111,7 @@ Series adaptive_tolerances(const scenes::Scene& scene, const StudyOptions&) {
   for (int k = 3; k <= 9; ++k)
     series.settings.push_back({fmt::format("tolerance 1e-{} m", k),
                                {"simulation.scheme=adaptive", fmt::format("simulation.adaptive_tolerance=1e-{} m", k)},
+                               {},
                                std::pow(10.0, -k),
                                0,
                                false});
@@ -115,12 +119,12 @@ Series adaptive_tolerances(const scenes::Scene& scene, const StudyOptions&) {
 }
 
 Series solver_tolerances(const scenes::Scene& scene, const StudyOptions&) {
-  if (!has_contacts(scene)) return {};
-  Series series{
-      "solver tolerance", "tolerance", "residual at which the contact solver stops, step as in the scene", false, false, {}};
+  if (!solver_decides(scene)) return {};
+  Series series{kSolverSeries, "tolerance", "the residual at which the contact solver stops", false, false, {}};
   for (int k = 2; k <= 7; ++k)
     series.settings.push_back({fmt::format("solver tolerance 1e-{} m/s", k),
                                {fmt::format("simulation.solver_tolerance=1e-{} m/s", k)},
+                               {},
                                std::pow(10.0, -k),
                                0,
                                false});
@@ -130,9 +134,9 @@ Series solver_tolerances(const scenes::Scene& scene, const StudyOptions&) {
 
 Series mesh_details(const scenes::Scene& scene, const StudyOptions&) {
   if (scene.model.vehicles.empty()) return {};
-  Series series{"mesh detail", "bound", "collision mesh decimated within a bound, step as in the scene", false, false, {}};
+  Series series{"mesh detail", "bound", "the detail of the collision mesh", false, false, {}};
   for (const double bound : {0.04, 0.02, 0.01, 0.005, 0.0025}) {
-    Setting setting{fmt::format("mesh within {:g} mm", 1e3 * bound), {}, bound, 0, false};
+    Setting setting{fmt::format("mesh within {:g} mm", 1e3 * bound), {}, {}, bound, 0, false};
     for (const engine::Vehicle& vehicle : scene.model.vehicles)
       setting.overrides.push_back(fmt::format("vehicle.{}.mesh_tolerance={:g} mm", vehicle.name, 1e3 * bound));
     series.settings.push_back(setting);
@@ -142,11 +146,10 @@ Series mesh_details(const scenes::Scene& scene, const StudyOptions&) {
 
 Series recorded_instants(const scenes::Scene& scene, const StudyOptions&) {
   const engine::Settings& s = scene.model.settings;
-  Series series{
-      "recorded instants", "interval", "how often the motion is recorded, from which the measures are read", false, false, {}};
+  Series series{"recorded instants", "interval", "how often the motion is recorded", false, false, {}};
   for (const int k : {16, 8, 4, 2, 1})
     series.settings.push_back(
-        {"recorded every " + in_ms(k * s.step), {"simulation.record_interval=" + in_ms(k * s.step)}, k * s.step, 0, false});
+        {"recorded every " + in_ms(k * s.step), {"simulation.record_interval=" + in_ms(k * s.step)}, {}, k * s.step, 0, false});
   series.own_fineness = study_interval(s);
   return series;
 }
@@ -165,6 +168,7 @@ Series other_contact_law(const scenes::Scene& scene, const StudyOptions&) {
     const double h = scene.model.settings.step / (3 - k);
     series.settings.push_back({fmt::format("{} law, step {}", word(other), in_ms(h)),
                                {fmt::format("simulation.contact_law={}", word(other)), "simulation.step=" + in_ms(h)},
+                               {},
                                h,
                                0,
                                false});
@@ -178,9 +182,21 @@ constexpr Make kSeries[] = {own_steps,           other_events,      stepping_ste
 
 }  // namespace
 
+bool solver_decides(const scenes::Scene& scene) {
+  const engine::Settings& s = scene.model.settings;
+  const bool forces = s.contact_law == engine::ContactLaw::compliant && s.scheme != engine::Scheme::stepping;
+  return has_contacts(scene) && !forces;
+}
+
 double study_interval(const engine::Settings& s) {
   const double coarsest = kCoarser * s.step;
   return coarsest * std::max(1.0, std::round(s.record_interval / coarsest));
+}
+
+std::vector<std::string> runs_with(const Setting& setting) {
+  std::vector<std::string> out = setting.overrides;
+  out.insert(out.end(), setting.reading.begin(), setting.reading.end());
+  return out;
 }
 
 std::vector<Series> series_for(const scenes::Scene& scene, const StudyOptions& options, const Accepts& accepts) {
@@ -190,8 +206,8 @@ std::vector<Series> series_for(const scenes::Scene& scene, const StudyOptions& o
     Series series = make(scene, options);
     if (series.settings.empty()) continue;
     for (Setting& setting : series.settings)
-      if (series.varies != "interval") setting.overrides.push_back(interval);
-    if (accepts(series.settings.front().overrides)) out.push_back(std::move(series));
+      if (series.varies != "interval") setting.reading.push_back(interval);
+    if (accepts(runs_with(series.settings.front()))) out.push_back(std::move(series));
   }
   return out;
 }

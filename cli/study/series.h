@@ -14,10 +14,14 @@ namespace cli::study {
 struct Setting {
   std::string label;                   // "step 0.5 ms"
   std::vector<std::string> overrides;  // "simulation.step=0.5 ms", on top of those of the command line
+  std::vector<std::string> reading;    // how the study reads its runs, alike for all: no part of the setting
   double fineness = 0;                 // falls towards 0 along the series: step [s], tolerance ...
   int members = 0;                     // perturbed runs besides the plain one
   bool own = false;                    // what the scene says now
 };
+
+/// All overrides of a run of the study.
+std::vector<std::string> runs_with(const Setting&);
 
 struct Series {
   std::string name;        // "stepping"
@@ -36,6 +40,12 @@ struct StudyOptions {
 
 /// Tells whether the scene loads with these overrides.
 using Accepts = std::function<bool(const std::vector<std::string>&)>;
+
+inline constexpr const char* kSolverSeries = "solver tolerance";
+inline constexpr const char* kNotLocated = ", events not located";  // after the name of a scheme
+
+/// True where the contact solver, with its tolerance, decides what contacts do.
+bool solver_decides(const scenes::Scene&);
 
 /// The series that mean something for the scene; the first is the ladder of its own scheme.
 std::vector<Series> series_for(const scenes::Scene&, const StudyOptions&, const Accepts&);

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "cli/exit.h"
-#include "cli/study/page.h"
+#include "cli/study/words.h"
 
 namespace cli::study {
 namespace {

@@ -22,7 +22,7 @@ struct Trial {
 struct Outcome {
   std::vector<Quantity> quantities;
   std::vector<std::string> contacts;  // first touches in order
-  std::vector<double> wall_s;         // repetitions, warm
+  std::vector<double> wall_s;         // repetitions, warm, as on a core of its own
   double instructions = 0;            // 0: cannot be counted here
   long steps = 0;                     // with those divided to place impacts
   double end_s = 0;                   // simulated

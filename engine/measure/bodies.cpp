@@ -1,39 +1,58 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "engine/measure/metrics.h"
 
 namespace engine {
 
-void measure_body(const Model& model, const Recording& recording, int b, std::vector<Metric>& out) {
-  const std::string& name = model.bodies[b].name;
-  const auto& first = recording.snapshots.front().bodies[b];
-  const auto& last = recording.snapshots.back().bodies[b];
-  out.push_back({"travel_m", name, (last.X_WB.p - first.X_WB.p).head<2>().norm()});
-  for (const Event& e : recording.events)
-    if (e.kind == "rest" && e.body_a == b) out.push_back({"rest_s", name, e.time});
-  // first rebound: highest place between the first and the second touch of the ground
-  const auto* shape = std::get_if<HyperEllipsoid>(&model.bodies[b].shape);
-  if (!shape) return;
-  int stage = 0;  // 0 before the first touch, 1 rising, 2 past the top
-  double top = 0;
-  for (std::size_t i = 1; i < recording.snapshots.size() && stage < 2; ++i) {
-    const Snapshot& s = recording.snapshots[i];
-    const BodyState& body = s.bodies[b];
-    const bool touched = std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
+namespace {
+
+/// Highest place [m] of a body's lowest point between its first and second touch of the ground.
+std::optional<double> rebound_height(const Model& model, const Recording& recording, int b, const HyperEllipsoid& shape) {
+  const auto touched = [&](const Snapshot& s) {  // since the snapshot before
+    return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
       return c.body_a == b && (c.kind == ContactKind::ground || c.kind == ContactKind::terrain) && c.normal_impulse > 0;
     });
-    const double lowest = body.X_WB.p.z() - aabb_half_widths(*shape, body.X_WB.q).z() - model.ground.height;
-    if (stage == 0 && touched && body.V_WB.v.z() > 0.01) stage = 1;
-    if (stage != 1) continue;
-    // between snapshots the top is where the vertical velocity vanishes
-    const double g = model.settings.gravity.norm();
-    const double v = body.V_WB.v.z();
-    if (v > 0 && g > 0) top = lowest + v * v / (2 * g);
-    if (v <= 0) stage = 2;
+  };
+  const auto lowest = [&](const Snapshot& s) {
+    const BodyState& body = s.bodies[b];
+    return body.X_WB.p.z() - aabb_half_widths(shape, body.X_WB.q).z() - model.ground.height;
+  };
+  const auto& all = recording.snapshots;
+  std::size_t first = 1;  // the first snapshot in the air after a touch
+  while (first + 1 < all.size() && !(touched(all[first]) && !touched(all[first + 1]) && all[first].bodies[b].V_WB.v.z() > 0.01))
+    ++first;
+  std::size_t highest = first;
+  std::size_t last = first;  // nothing touches between the snapshots first..last
+  while (last + 1 < all.size() && !touched(all[last + 1]))
+    if (lowest(all[++last]) > lowest(all[highest])) highest = last;
+  if (highest == last) return std::nullopt;  // no bounce, or still rising at the end
+  // in the air poses between snapshots are exact: the centre flies a parabola, and the top lies beside the highest snapshot
+  double low = all[highest > first ? highest - 1 : first].time, high = all[highest + 1].time;
+  while (high - low > 1e-9) {
+    const double left = low + (high - low) / 3, right = high - (high - low) / 3;
+    if (lowest(recording.at(left)) < lowest(recording.at(right)))
+      low = left;
+    else
+      high = right;
   }
-  if (stage == 2) out.push_back({"rebound_height_m", name, top});
+  return lowest(recording.at(low));
+}
+
+}  // namespace
+
+void measure_body(const Model& model, const Recording& recording, int b, std::vector<Metric>& out) {
+  const std::string& name = model.bodies[b].name;
+  const Pose& first = recording.snapshots.front().bodies[b].X_WB;
+  const Pose& last = recording.snapshots.back().bodies[b].X_WB;
+  out.push_back({"travel_m", name, (last.p - first.p).head<2>().norm()});
+  out.push_back({"turned_deg", name, first.q.angularDistance(last.q) * 180 / std::numbers::pi});
+  for (const Event& e : recording.events)
+    if (e.kind == "rest" && e.body_a == b) out.push_back({"rest_s", name, e.time});
+  if (const auto* shape = std::get_if<HyperEllipsoid>(&model.bodies[b].shape))
+    if (const auto height = rebound_height(model, recording, b, *shape)) out.push_back({"rebound_height_m", name, *height});
 }
 
 namespace {

@@ -42,7 +42,8 @@ void measure_head(const Model&, const Recording&, int person, std::vector<Metric
 /// or has no mesh there.
 std::optional<double> wrap_around_distance(const Model&, int body, const Vec3& point_B);
 
-/// Of free bodies: distance travelled from start to end, height of the first rebound.
+/// Of free bodies: distance travelled and angle between the attitudes (0..180 deg) from start to end, time of rest, height of the
+/// first rebound (of the body's lowest point above the ground).
 void measure_body(const Model&, const Recording&, int body, std::vector<Metric>&);
 
 /// Of a vehicle: delta_v_mps, the sum of all contact impulses but those of tyres and ground over the whole run, by its mass

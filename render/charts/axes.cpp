@@ -38,6 +38,18 @@ std::vector<double> log_ticks(double low, double high, int count) {
   return out;
 }
 
+/// "10\u207b\u2076", "2\u00b710\u207b\u2076".
+std::string scientific(double value) {
+  constexpr const char* kRaised[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
+                                     "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+  const int power = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-9));
+  const std::string mantissa = fmt::format("{:.3g}", value / std::pow(10, power));
+  std::string out = mantissa == "1" ? "10" : mantissa == "-1" ? "-10" : mantissa + "\u00b710";
+  if (power < 0) out += "\u207b";
+  for (const char digit : fmt::format("{}", std::abs(power))) out += kRaised[digit - '0'];
+  return out;
+}
+
 }  // namespace
 
 std::vector<double> ticks(double low, double high, int count, bool logarithmic) {
@@ -47,7 +59,7 @@ std::vector<double> ticks(double low, double high, int count, bool logarithmic) 
 
 std::string tick_text(double value, double spacing) {
   const double size = std::abs(value);
-  if (size != 0 && (size < 1e-3 || size >= 1e5)) return fmt::format("{:.0e}", value);
+  if (size != 0 && (size < 1e-3 || size >= 1e5)) return scientific(value);
   if (spacing > 0 && size < 1e-9 * spacing) return "0";
   const int digits = spacing > 0 && size > 0 ? static_cast<int>(std::ceil(std::log10(size / spacing))) + 2 : 6;
   return fmt::format("{:.{}g}", value, std::clamp(digits, 1, 15));

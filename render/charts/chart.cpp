@@ -82,6 +82,20 @@ void draw_axes(const Pen& pen, const Chart& chart, const Box& plot, const Axis& 
   pen.text(chart.x_label, plot.x + plot.width / 2, plot.bottom() + 13, kTextSize, Align::centre);
 }
 
+void draw_top_scale(const Pen& pen, const Chart& chart, const Box& plot, const Axis& x) {
+  double right = plot.x;
+  pen.black();
+  for (const Mark& tick : chart.top) {
+    if (tick.x < x.low || tick.x > x.high) continue;
+    pen.line(x.at(tick.x), plot.y, x.at(tick.x), plot.y - 3, 0.7);
+    const double half = pen.measure(tick.text, kTextSize).width / 2;
+    if (x.at(tick.x) - half < right) continue;  // no room beside the one before
+    pen.text(tick.text, x.at(tick.x), plot.y - 12, kTextSize, Align::centre);
+    right = x.at(tick.x) + half + 4;
+  }
+  pen.text(chart.top_label, plot.right(), plot.y - 22, kTextSize, Align::right);
+}
+
 void draw_band(const Pen& pen, const Band& band, const Axis& x, const Axis& y) {
   cairo_t* c = pen.cairo();
   if (band.points.empty()) return;
@@ -160,7 +174,7 @@ void draw_chart(const Pen& pen, const Chart& chart, const Box& box) {
   pen.text(chart.y_label, box.x, box.y + head, kTextSize);
   Axis x, y;
   span(chart, x, y);
-  Box plot{box.x + 44, box.y + head + 13, box.width - 52, 0};
+  Box plot{box.x + 44, box.y + head + (chart.top.empty() ? 13 : 24), box.width - 52, 0};
   if (x.empty() || y.empty()) {
     plot.height = box.height - head - 20;
     pen.frame(plot, 0.7);
@@ -176,6 +190,7 @@ void draw_chart(const Pen& pen, const Chart& chart, const Box& box) {
   y.from = plot.bottom();
   y.to = plot.y;
   draw_axes(pen, chart, plot, x, y);
+  if (!chart.top.empty()) draw_top_scale(pen, chart, plot, x);
   cairo_save(pen.cairo());
   cairo_rectangle(pen.cairo(), plot.x, plot.y, plot.width, plot.height);
   cairo_clip(pen.cairo());
@@ -194,7 +209,13 @@ void draw_chart(const Pen& pen, const Chart& chart, const Box& box) {
     cairo_arc(pen.cairo(), x.at(mark.x), y.at(mark.y), 7, 0, 2 * M_PI);
     cairo_stroke(pen.cairo());
     const bool left = x.at(mark.x) > plot.x + 0.6 * plot.width;
-    pen.text(mark.text, x.at(mark.x) + (left ? -10 : 10), y.at(mark.y) - 13, kTextSize, left ? Align::right : Align::left, true);
+    const Extent word = pen.measure(mark.text, kTextSize, true);
+    const Box place{left ? x.at(mark.x) - 10 - word.width : x.at(mark.x) + 10, y.at(mark.y) - 14, word.width, word.height};
+    cairo_set_source_rgba(pen.cairo(), 1, 1, 1, 0.8);  // lines may pass below it
+    cairo_rectangle(pen.cairo(), place.x - 1, place.y, place.width + 2, place.height);
+    cairo_fill(pen.cairo());
+    pen.black();
+    pen.text(mark.text, place.x, place.y, kTextSize, Align::left, true);
   }
   cairo_restore(pen.cairo());
   legend(pen, chart, plot.x, plot.width, plot.bottom() + 25);
@@ -202,37 +223,53 @@ void draw_chart(const Pen& pen, const Chart& chart, const Box& box) {
 
 void draw_bars(const Pen& pen, const Bars& bars, const Box& box) {
   if (bars.rows.empty()) return;
+  constexpr double kSample = 12, kGap = 10;
   pen.black();
-  double y = box.y + pen.text(bars.title, box.x, box.y, kTitleSize, Align::left, true, box.width).height + 5;
-  double label = 0, value = 0, longest = 0;
+  double y = box.y + pen.text(bars.title, box.x, box.y, kTitleSize, Align::left, true, box.width).height + 4;
+  double label = 0, longest = 0, columns = 0;
+  std::vector<double> width;
+  for (const std::string& part : bars.parts) width.push_back(kSample + 4 + pen.measure(part, kTextSize, true).width);
   for (const Bar& bar : bars.rows) {
     label = std::max(label, pen.measure(bar.label, kTextSize).width);
-    value = std::max(value, pen.measure(bar.value, kTextSize).width);
     double sum = 0;
     for (const double part : bar.parts) sum += std::abs(part);
     longest = std::max(longest, sum);
+    for (std::size_t i = 0; i < width.size() && i < bar.values.size(); ++i)
+      width[i] = std::max(width[i], pen.measure(bar.values[i], kTextSize).width);
   }
-  label = std::min(label, 0.45 * box.width);
-  const double room = box.width - label - value - 14;
-  const double row = std::clamp((box.bottom() - y - 14) / static_cast<double>(bars.rows.size()), 9.0, 18.0);
+  for (const double w : width) columns += w + kGap;
+  label = std::min(label, 0.4 * box.width);
+  const double room = box.width - label - columns - 6;
+  const auto column = [&](std::size_t i) {
+    double right = box.right();
+    for (std::size_t k = i + 1; k < width.size(); ++k) right -= width[k] + kGap;
+    return right;
+  };
+  // the heads of the columns are the legend
+  for (std::size_t i = 0; i < bars.parts.size(); ++i) {
+    const double text = pen.measure(bars.parts[i], kTextSize, true).width;
+    pen.hatch(static_cast<int>(i), {column(i) - text - 4 - kSample, y + 1.5, kSample, 7});
+    pen.black();
+    pen.text(bars.parts[i], column(i), y, kTextSize, Align::right, true);
+  }
+  y += 11.2;
+  pen.line(box.x, y - 0.5, box.right(), y - 0.5, 0.7);
+  y += 2;
+  const double row = std::clamp((box.bottom() - y) / static_cast<double>(bars.rows.size()), 9.0, 15.0);
   for (const Bar& bar : bars.rows) {
-    if (y + row > box.bottom() - 12) break;
+    if (y + row > box.bottom() + 1) break;
     pen.black();
     pen.text(bar.label, box.x, y + row / 2 - 4.6, kTextSize);
     double x = box.x + label + 6;
     for (std::size_t i = 0; i < bar.parts.size(); ++i) {
-      const double width = longest > 0 ? room * std::abs(bar.parts[i]) / longest : 0;
-      if (width > 0.2) pen.hatch(static_cast<int>(i), {x, y + 0.18 * row, width, 0.64 * row});
-      x += width;
+      const double length = longest > 0 ? room * std::abs(bar.parts[i]) / longest : 0;
+      if (length > 0.2) pen.hatch(static_cast<int>(i), {x, y + 0.18 * row, length, 0.64 * row});
+      x += length;
     }
     pen.black();
-    pen.text(bar.value, x + 5, y + row / 2 - 4.6, kTextSize);
+    for (std::size_t i = 0; i < bar.values.size() && i < width.size(); ++i)
+      pen.text(bar.values[i], column(i), y + row / 2 - 4.6, kTextSize, Align::right);
     y += row;
-  }
-  double x = box.x;
-  for (std::size_t i = 0; i < bars.parts.size(); ++i) {
-    pen.hatch(static_cast<int>(i), {x, y + 4, 16, 7});
-    x += 20 + pen.text(bars.parts[i], x + 20, y + 3, kTextSize).width + 10;
   }
 }
 

@@ -38,17 +38,20 @@ struct Chart {
   std::vector<Line> lines;
   std::vector<Mark> marks;          // ringed points with a word
   std::vector<Mark> levels;         // horizontal lines at y with a word; x is not used
+  std::string top_label;            // of a second scale along the upper edge
+  std::vector<Mark> top;            // its ticks at x; y is not used
   std::string empty = "no values";  // shown when there is nothing to draw
 };
 
-/// One row of a bar picture: parts side by side, or a signed value.
+/// One row of a bar picture: parts side by side, each with its value in words in a column of its own.
 struct Bar {
-  std::string label, value;   // left of and right of the bar
-  std::vector<double> parts;  // lengths from the left, in the order of Bars::parts
+  std::string label;                // left of the bar
+  std::vector<double> parts;        // lengths from the left, in the order of Bars::parts
+  std::vector<std::string> values;  // right of the bar, in the same order
 };
 struct Bars {
-  std::string title, unit;
-  std::vector<std::string> parts;  // names of the parts
+  std::string title;
+  std::vector<std::string> parts;  // names of the parts, head of their columns
   std::vector<Bar> rows;
 };
 
@@ -75,7 +78,7 @@ std::vector<std::string> write_page(const Page&, const std::filesystem::path& ba
 
 /// Round values from `low` to `high`, about `count` of them; powers of ten (with 2 and 5 if there are few) when `logarithmic`.
 std::vector<double> ticks(double low, double high, int count, bool logarithmic);
-/// A tick as it is written: "0.5", "20", "1e-05"; with the digits that tell it from one `spacing` away.
+/// A tick as it is written: "0.5", "20", "10⁻⁵"; with the digits that tell it from one `spacing` away.
 std::string tick_text(double value, double spacing = 0);
 
 }  // namespace render::charts

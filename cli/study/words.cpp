@@ -1,0 +1,166 @@
+#include "cli/study/words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cli::study {
+namespace {
+
+double spread_of(const Answer& a) {
+  return (a.high - a.low) / 2;
+}
+
+/// Cheapest step of the ladder whose answers are no wider than those of the scene's own. Only where each step's own error is known:
+/// a range is shared by all steps, and would call the coarsest as good as any.
+const SettingResult* cheapest_as_good(const Study& study, const Judgement& j) {
+  const SettingResult* own = study.own();
+  const Answer* wanted = own ? answer_of(*own, j.quantity) : nullptr;
+  const bool each_known = j.cloud || j.convergence.trust != Trust::range || j.error_kind == "second_scheme";
+  if (!wanted || !each_known) return nullptr;
+  const auto width = [](const Answer& a) { return std::max(a.uncertainty, spread_of(a)); };
+  const SettingResult* best = own;
+  for (const SettingResult& r : study.series.front().settings)
+    if (const Answer* a = answer_of(r, j.quantity); a && width(*a) <= 1.1 * width(*wanted) && r.wall_s < best->wall_s) best = &r;
+  return best;
+}
+
+/// How many times the error at equal computing time when events are not located inside the step; 0 if the study cannot tell.
+double worth_of_events(const Study& study, const Judgement& j) {
+  const SettingResult* own = study.own();
+  const Answer* mine = own ? answer_of(*own, j.quantity) : nullptr;
+  const std::string name = study.series.front().series.name + kNotLocated;
+  if (!mine || j.cloud || mine->error == 0 || std::abs(mine->error) < j.convergence.band.back()) return 0;
+  for (const SeriesResult& s : study.series) {
+    if (s.series.name != name) continue;
+    for (std::size_t i = 0; i + 1 < s.settings.size(); ++i) {
+      const SettingResult &cheap = s.settings[i], &dear = s.settings[i + 1];
+      const Answer *a = answer_of(cheap, j.quantity), *b = answer_of(dear, j.quantity);
+      if (!a || !b || a->error == 0 || b->error == 0 || cheap.wall_s > own->wall_s || dear.wall_s < own->wall_s) continue;
+      const double share = std::log(own->wall_s / cheap.wall_s) / std::log(dear.wall_s / cheap.wall_s);
+      return std::pow(std::abs(a->error), 1 - share) * std::pow(std::abs(b->error), share) / std::abs(mine->error);
+    }
+  }
+  return 0;
+}
+
+/// How the numerical uncertainty is known.
+std::string grounds(const Judgement& j) {
+  if (j.convergence.trust == Trust::exact) return "Every step gives this answer.";
+  if (j.cloud) return "That is how far the middle of the answers still moves from one step to finer ones.";
+  if (!j.second_scheme.empty() && !j.schemes_agree)
+    return fmt::format(
+        "Two ways of computing, the scene's own and {}, tend to different answers: the range holds both, and no finer claim is "
+        "made.",
+        j.second_scheme);
+  if (j.convergence.trust == Trust::steady)
+    return fmt::format(
+        "With each halving of the step the answers close in on one value in a steady way, and a second way of computing, {}, tends "
+        "to the same value; this tells how far off they still are.",
+        j.second_scheme);
+  if (j.error_kind == "second_scheme")
+    return fmt::format("A second way of computing, {}, settles on one value within that distance.", j.second_scheme);
+  return "The answers at finer steps stay within that range; they do not close in on a value regularly enough to claim less.";
+}
+
+/// The first level whose band is half of the own one, or the time that the order asks for.
+double cost_of_half(const SeriesResult& ladder, const Judgement& j, std::size_t own) {
+  const Answer* wanted = answer_of(ladder.settings[own], j.quantity);
+  for (std::size_t i = own + 1; i < ladder.settings.size(); ++i) {
+    const Answer* a = answer_of(ladder.settings[i], j.quantity);
+    if (!a || a->uncertainty > wanted->uncertainty / 2) continue;
+    const double gain = std::log(wanted->uncertainty / a->uncertainty) / std::log(2.0);
+    return std::pow(ladder.settings[i].wall_s / ladder.settings[own].wall_s, 1 / gain);
+  }
+  return 0;
+}
+
+}  // namespace
+
+namespace {
+
+/// Two digits without an exponent: "380", "5.2", "0.12".
+std::string short_number(double value) {
+  const int power = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-12));
+  const double unit = std::pow(10.0, power - 1);
+  return fmt::format("{:.{}f}", std::round(value / unit) * unit, std::max(0, 1 - power));
+}
+
+}  // namespace
+
+std::string with_unit(double value, const std::string& unit) {
+  if (value == 0) return fmt::format("0 {}", unit);
+  const double size = std::abs(value);
+  if (size < 1e-11) return fmt::format("{:.0e} {}", value, unit);
+  if (unit == "m" && size < 1e-6) return short_number(1e9 * value) + " nm";
+  if (unit == "m" && size < 1e-4) return short_number(1e6 * value) + " \u00b5m";
+  if (unit == "m" && size < 0.1) return short_number(1e3 * value) + " mm";
+  if (unit == "s" && size < 0.1) return short_number(1e3 * value) + " ms";
+  return fmt::format("{:.3g} {}", value, unit);
+}
+
+std::string with_digits(double value, double uncertainty) {
+  const double ratio = uncertainty > 0 && value != 0 ? std::abs(value) / uncertainty : 1e9;
+  return fmt::format("{:.{}g}", value, std::clamp(static_cast<int>(std::ceil(std::log10(ratio))) + 2, 4, 10));
+}
+
+std::string cost_in_words(const Study& study, const std::string& quantity) {
+  const Judgement* j = study.find(quantity);
+  const SeriesResult& ladder = study.series.front();
+  std::size_t own = 0;
+  while (own < ladder.settings.size() && !ladder.settings[own].setting.own) ++own;
+  const Answer* a = j && own < ladder.settings.size() ? answer_of(ladder.settings[own], quantity) : nullptr;
+  if (!a) return "the scene's own settings do not define an answer";
+  const std::string unit = unit_of(quantity);
+  if (j->convergence.trust == Trust::exact && j->besides.empty())
+    return "every step gives the same answer; a finer one costs time for nothing";
+  if (j->cloud && spread_of(*a) > a->uncertainty)
+    return fmt::format("no time buys less than \u00b1 {}: minute changes move the answer that far", with_unit(spread_of(*a), unit));
+  const char* width = j->convergence.trust == Trust::steady ? "band" : "range";
+  if (const double ratio = cost_of_half(ladder, *j, own); ratio > 0)
+    return fmt::format("halving its {} from \u00b1 {} to \u00b1 {} costs {:.1f} times the time", width,
+                       with_unit(a->uncertainty, unit), with_unit(a->uncertainty / 2, unit), ratio);
+  if (j->beside_the_step() > a->uncertainty / 2)
+    return fmt::format("\u00b1 {}, limited by {}, not by the step", with_unit(a->uncertainty, unit), j->besides.front().source);
+  return fmt::format("\u00b1 {}; no finer step that was tried halves this", with_unit(a->uncertainty, unit));
+}
+
+std::vector<std::string> findings(const Study& study, const Judgement& j) {
+  const SettingResult* own = study.own();
+  const Answer* a = own ? answer_of(*own, j.quantity) : nullptr;
+  if (!a) return {};
+  const std::string unit = unit_of(j.quantity), words = words_of(j.quantity);
+  const double spread = spread_of(*a);
+  std::vector<std::string> out;
+  out.push_back(
+      fmt::format("The scene as it stands ({}, {} of computing) gives a {} of {} {}, numerically uncertain by about "
+                  "\u00b1 {}. {}",
+                  own->setting.label, with_unit(own->wall_s, "s"), words, with_digits(a->value, a->uncertainty), unit,
+                  with_unit(a->uncertainty, unit), grounds(j)));
+  if (j.error_kind == "closed_form")
+    out.push_back(fmt::format("Here the exact answer is known from a formula, {:.8g} {}: this run is off by {}.", j.reference, unit,
+                              with_unit(std::abs(a->error), unit)));
+  const std::string minute = fmt::format(
+      "Changes far too small to be measured (a thousandth of a millimetre, a millionth of a speed) move it by \u00b1 {}",
+      with_unit(spread, unit));
+  out.push_back(j.cloud
+                    ? minute + fmt::format(": the motion itself is that sensitive, and no computer and no step takes this away. "
+                                           "Quote the range {:.4g} to {:.4g} {}, not one number.",
+                                           a->low, a->high, unit)
+                    : minute + ": the answer does not hang on such details.");
+  if (const double worth = worth_of_events(study, j); worth >= 2)
+    out.push_back(
+        fmt::format("Placing each touch, turn and parting of surfaces inside its step leaves {:.0f} times less error than "
+                    "not doing so in the same computing time.",
+                    worth < 100 ? worth : std::round(worth / 100) * 100));
+  if (const SettingResult* cheap = cheapest_as_good(study, j); cheap && cheap != own)
+    out.push_back(fmt::format("The setting \"{}\" answers this question as well and takes {} instead of {}.", cheap->setting.label,
+                              with_unit(cheap->wall_s, "s"), with_unit(own->wall_s, "s")));
+  out.push_back(
+      "This page tells how well the scene was computed. Whether the scene is right (speeds, masses, friction) is another "
+      "question: column \"input\".");
+  return out;
+}
+
+}  // namespace cli::study
