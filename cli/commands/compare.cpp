@@ -68,8 +68,10 @@ int compare(const CompareWish& wish) {
   const render::Image a = render::read_png(wish.a);
   const render::Image b = render::read_png(wish.b);
   if (a.width != b.width || a.height != b.height) {
-    fmt::print(stderr, "crashreel: {} is {}x{}, {} is {}x{}: pictures of different size are different\n", wish.a, a.width, a.height,
-               wish.b, b.width, b.height);
+    const std::string why = fmt::format("{} is {}x{}, {} is {}x{}: pictures of different size are different", wish.a, a.width,
+                                        a.height, wish.b, b.width, b.height);
+    fmt::print(stderr, "crashreel: {}{}\n", why, wish.diff.empty() ? "" : "; no difference picture is written");
+    if (wish.json) fmt::print("{}\n", nlohmann::ordered_json{{"same", false}, {"reason", why}}.dump(2));
     return kComparisonSaysNo;
   }
   const std::vector<std::string> notes = notes_on(wish);

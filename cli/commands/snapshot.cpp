@@ -3,8 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <iostream>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -18,7 +16,7 @@
 #include "cli/snapshot/baselines.h"
 #include "cli/snapshot/check.h"
 #include "cli/snapshot/report.h"
-#include "render/image/png.h"
+#include "cli/snapshot/update.h"
 
 namespace cli {
 namespace {
@@ -38,13 +36,22 @@ struct SnapshotWish {
   bool quiet = false;
 };
 
-/// A report replaces an earlier one, and nothing else.
+void write_whole(const fs::path& path, const std::string& text) {
+  WholeFile file(path);
+  file.write(text);
+  file.close();
+  file.publish();
+}
+
+/// A report replaces an earlier one, and nothing else. Until it is whole, report.json says that it is not: a check that was stopped
+/// is no pass.
 void prepare_report(const fs::path& folder) {
   make_writable_folder(folder);
   if (!fs::is_empty(folder) && !fs::exists(folder / kReport))
     throw UsageError(fmt::format("{} is not empty and holds no report; give another --report", folder.string()));
+  write_whole(folder / kReport, "{\"schema\": 1, \"same\": false, \"unfinished\": true}\n");
   fs::remove_all(folder / "pictures");
-  for (const char* file : {"report.html", "junit.xml", kReport}) fs::remove(folder / file);
+  for (const char* file : {"report.html", "junit.xml"}) fs::remove(folder / file);
   make_writable_folder(folder / "pictures");
 }
 
@@ -72,59 +79,6 @@ Json orphans_of(const fs::path& root, const Json& scenes) {
   return out;
 }
 
-/// Asks on the terminal, one thing at a time: nothing is replaced that was not looked at.
-bool asked(const std::string& what, bool& enough) {
-  if (enough) return false;
-  fmt::print(stderr, "{}? [y/N/q] ", what);
-  std::string answer;
-  if (!std::getline(std::cin, answer) || answer == "q") enough = true;
-  return answer == "y" || answer == "yes";
-}
-
-void relist(const fs::path& folder, const std::string& name, bool is_kept) {
-  std::set<std::string> names = listed(folder);
-  if (is_kept ? names.insert(name).second : names.erase(name) > 0) write_list(folder, names);
-}
-
-/// Replaces the baselines that were named, or to which somebody says yes; removes orphans the same way.
-void update(const SnapshotWish& wish, Json& report) {
-  bool enough = false;
-  const bool by_name = !wish.names.empty();
-  for (Json& scene : report["scenes"])
-    for (Json& picture : scene["pictures"]) {
-      const std::string name = picture["name"], verdict = picture["verdict"];
-      const fs::path baseline = picture["baseline"].get<std::string>();
-      if (by_name) relist(baseline.parent_path(), name, verdict == "same" || listed(baseline.parent_path()).contains(name));
-      if (!picture.contains("actual")) continue;
-      const auto seen = [&](const char* kind) { return (fs::path(wish.report) / picture[kind].get<std::string>()).string(); };
-      const std::string why = picture["why"];
-      const std::string question =
-          fmt::format("{}: {}{}{}\n  look at {}\n  keep the actual picture as baseline", verdict, name, why.empty() ? "" : ": ",
-                      why, seen(picture.contains("side_by_side") ? "side_by_side" : "actual"));
-      if (!by_name && !asked(question, enough)) continue;
-      make_writable_folder(baseline.parent_path());
-      render::write_png(baseline, render::read_png(seen("actual")), {}, render::PngEffort::small);
-      relist(baseline.parent_path(), name, true);
-      picture["verdict"] = "updated";
-      picture["why"] = "";
-    }
-  Json left = Json::array();
-  for (const Json& orphan : report["orphans"]) {
-    const std::string name = orphan["name"];
-    const fs::path file = orphan["file"].get<std::string>();
-    const bool remove =
-        by_name ? fits(name, wish.names) : asked(fmt::format("orphaned: no scene names {}\n  remove it", file.string()), enough);
-    if (!remove) {
-      left.push_back(orphan);
-      continue;
-    }
-    fs::remove(file);
-    relist(file.parent_path(), name, false);
-    fmt::print(stderr, "removed {}\n", file.string());
-  }
-  report["orphans"] = left;
-}
-
 void tell(const Json& report, const fs::path& folder) {
   for (const Json& scene : report["scenes"]) {
     const std::string name = scene["scene"];
@@ -145,13 +99,6 @@ void tell(const Json& report, const fs::path& folder) {
   for (const auto& [verdict, count] : report["counts"].items())
     if (count != 0 || verdict == "same") counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count.get<int>(), verdict);
   fmt::print("{}; {}\n", counts, (folder / "report.html").string());
-}
-
-void write_whole(const fs::path& path, const std::string& text) {
-  WholeFile file(path);
-  file.write(text);
-  file.close();
-  file.publish();
 }
 
 int snapshot(const SnapshotWish& wish) {
@@ -176,7 +123,10 @@ int snapshot(const SnapshotWish& wish) {
   progress.finish(static_cast<double>(files.size()));
   report["orphans"] = orphans_of(root, report["scenes"]);
   report["wall_s"] = clock_seconds() - start;
-  if (wish.update) update(wish, report);
+  if (wish.update) {
+    refuse_names_nothing_has(wish.names, report);
+    update_baselines(wish.names, wish.report, report);
+  }
   count_verdicts(report);
 
   write_whole(fs::path(wish.report) / "report.html", report_html(report, wish.report));

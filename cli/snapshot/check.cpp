@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <map>
@@ -18,15 +17,12 @@
 
 #include "cli/exit.h"
 #include "cli/film_plan.h"
-#include "cli/output/difference.h"
 #include "cli/progress.h"
 #include "cli/snapshot/baselines.h"
+#include "cli/snapshot/judge.h"
 #include "engine/measure/metrics.h"
 #include "engine/simulate.h"
 #include "render/arrange.h"
-#include "render/error.h"
-#include "render/image/compare.h"
-#include "render/image/png.h"
 #include "render/renderer.h"
 
 namespace cli {
@@ -34,118 +30,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-render::Limits limits_of(const scenes::Scene& scene) {
-  render::Limits limits;
-  for (const auto& [name, value] : scene.snapshot.limits) set_limit(limits, name, value);
-  return limits;
-}
-
-std::vector<render::Mask> masks_of(const scenes::Scene& scene, const std::string& camera) {
-  std::vector<render::Mask> out;
-  for (const scenes::SnapshotMask& mask : scene.snapshot.masks)
-    if (mask.camera.empty() || mask.camera == camera) out.push_back({mask.left, mask.top, mask.width, mask.height});
-  return out;
-}
-
-/// "rms is 0.5 (limit 0.3), ssim is 0.9 (limit 0.995)"
-std::string reasons(const render::Difference& found, const render::Limits& limits) {
-  std::string out;
-  for (const render::Measure* measure : render::beyond(found, limits)) {
-    out += fmt::format("{}{} is {:.4g} (limit {:g})", out.empty() ? "" : ", ", measure->name, found.*measure->value,
-                       limits.*measure->limit);
-  }
-  return out;
-}
-
-/// The report's pictures of one still; `stem` makes their names unique among all scenes.
-void keep_pictures(const CheckJob& job, const std::string& stem, const render::Image& actual, const render::Image* expected,
-                   const std::vector<render::Mask>& masks, Json& out) {
-  const auto write = [&](const char* kind, const render::Image& image) {
-    const std::string file = fmt::format("{}_{}.png", stem, kind);
-    render::write_png(job.pictures / file, image, {}, render::PngEffort::small);
-    out[kind] = (job.pictures.filename() / file).string();
-  };
-  write("actual", actual);
-  if (!expected) return;
-  write("expected", *expected);
-  if (expected->width != actual.width || expected->height != actual.height) {
-    const render::Image both[] = {*expected, actual};
-    write("side_by_side", render::side_by_side(both));
-    return;
-  }
-  const render::Image difference = render::difference_picture(*expected, actual, masks);
-  write("difference", difference);
-  const render::Image all[] = {*expected, actual, difference};
-  write("side_by_side", render::side_by_side(all));
-}
-
-/// Compares what was drawn with the baseline, if that can be read and has its size.
-Json judge(const scenes::Scene& scene, const Still& still, const render::Image& actual, const std::string& stem,
-           const CheckJob& job) {
-  Json out = {{"name", still.name}, {"baseline", still.baseline.string()}, {"camera", still.camera}, {"time_s", still.time}};
-  const auto say = [&out](const char* verdict, const std::string& why) {
-    out["verdict"] = verdict;
-    out["why"] = why;
-  };
-  const std::vector<render::Mask> masks = masks_of(scene, still.camera);
-  if (!fs::exists(still.baseline)) {
-    if (listed(baseline_folder(scene.path)).contains(still.name)) {
-      say("missing", "its baseline was accepted once and is gone");
-    } else {
-      say("new", "it has no baseline yet");
-    }
-    keep_pictures(job, stem, actual, nullptr, masks, out);
-    return out;
-  }
-  render::Image expected;
-  try {
-    expected = render::read_png(still.baseline);
-  } catch (const render::RenderError& error) {
-    say("unreadable", error.what());
-    keep_pictures(job, stem, actual, nullptr, masks, out);
-    return out;
-  }
-  if (expected.width != actual.width || expected.height != actual.height) {
-    say("different",
-        fmt::format("the baseline is {}x{}, the picture {}x{}", expected.width, expected.height, actual.width, actual.height));
-    keep_pictures(job, stem, actual, &expected, masks, out);
-    return out;
-  }
-  const render::Limits limits = limits_of(scene);
-  const render::Difference found = render::difference_of(expected, actual, masks);
-  const bool same = render::within(found, limits);
-  say(same ? "same" : "different", reasons(found, limits));
-  out["figures"] = difference_json(found);
-  out["limits"] = limits_json(limits);
-  // someone who updates by name may want the bits of today even where they are within the limits
-  if (!same || (!job.only.empty() && found.differing > 0)) keep_pictures(job, stem, actual, &expected, masks, out);
-  return out;
-}
-
-Json judge_measure(const scenes::Expectation& expected, const std::vector<engine::Metric>& metrics) {
-  Json out = {{"metric", expected.metric + (expected.object.empty() ? "" : " " + expected.object)}, {"expected", expected.written}};
-  std::vector<const engine::Metric*> found;
-  std::vector<std::string> known;
-  for (const engine::Metric& metric : metrics) {
-    known.push_back(metric.key + (metric.object.empty() ? "" : " " + metric.object));
-    if (metric.key == expected.metric && (expected.object.empty() || expected.object == metric.object)) found.push_back(&metric);
-  }
-  if (found.size() != 1) {
-    out["verdict"] = "missing";
-    out["why"] =
-        fmt::format("{}; the run has {}", found.empty() ? "the run has no such measure" : "several objects have it, name one",
-                    known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")));
-    return out;
-  }
-  const double value = found.front()->value, off = value - expected.value;
-  // the tolerance as written: a value on its edge is within, whatever the last bit of the difference
-  const bool same = std::abs(off) <= expected.tolerance * (1 + 1e-12);
-  out["found"] = value;
-  out["verdict"] = same ? "same" : "different";
-  out["why"] = same ? "" : fmt::format("is {:.6g}, expected {}, off by {:+.3g}", value, expected.written, off);
-  return out;
-}
 
 /// Everything about one scene. What it cannot do stands in its errors.
 Json check_scene(const fs::path& file, const CheckJob& job) {
@@ -179,7 +63,8 @@ Json check_scene(const fs::path& file, const CheckJob& job) {
         renderer.draw(render::arrange(scene.stage, run, {still.time, still.camera, 1}, static_cast<double>(width) / height), image);
         std::string stem = (relative.parent_path() / still.name).string();
         std::replace(stem.begin(), stem.end(), '/', '_');
-        out["pictures"].push_back(judge(scene, still, image, stem, job));
+        // someone who updates by name may want the bits of today even where they are within the limits
+        out["pictures"].push_back(judge(scene, still, image, {job.pictures, stem, !job.only.empty()}));
       }
     }
   } catch (const scenes::SceneErrors& errors) {
@@ -230,9 +115,10 @@ Json collect(const fs::path& scene, const CheckJob& job, std::FILE* file, int st
 }  // namespace
 
 bool fits(const std::string& name, const std::vector<std::string>& patterns) {
-  return std::any_of(patterns.begin(), patterns.end(), [&name](const std::string& pattern) {
-    return fnmatch(pattern.c_str(), name.c_str(), 0) == 0 || fnmatch(pattern.c_str(), (name + ".png").c_str(), 0) == 0;
-  });
+  for (const std::string& pattern : patterns)
+    for (const char* ending : {"", ".png", ".toml"})
+      if (fnmatch(pattern.c_str(), (name + ending).c_str(), 0) == 0) return true;
+  return false;
 }
 
 std::vector<SceneReport> check_scenes(const std::vector<fs::path>& scenes, const CheckJob& job,

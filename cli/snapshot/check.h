@@ -28,7 +28,7 @@ using SceneReport = nlohmann::ordered_json;
 std::vector<SceneReport> check_scenes(const std::vector<std::filesystem::path>& scenes, const CheckJob&,
                                       const std::function<void(int done)>& progress);
 
-/// Whether a name fits one of the patterns, with or without ".png".
+/// Whether a name fits one of the patterns, with or without ".png" or ".toml".
 bool fits(const std::string& name, const std::vector<std::string>& patterns);
 
 }  // namespace cli

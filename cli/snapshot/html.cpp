@@ -1,6 +1,7 @@
 // report.html: everything in one file, to be mailed, kept as a CI artefact and opened without a network.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -28,9 +29,11 @@ a { color: #1d5fa8; }
 .verdict.same, .verdict.updated { background: #2e7d32; }
 .verdict.new { background: #1d5fa8; }
 .verdict.missing, .verdict.orphaned { background: #9a6700; }
-.pictures { display: flex; flex-wrap: wrap; gap: 12px; }
+.row { display: flex; flex-wrap: wrap; gap: 12px; margin-bottom: 8px; }
 figure { margin: 0; width: 384px; }
-figure img { display: block; width: 100%; border: 1px solid #9aa5b1; box-sizing: border-box; }
+figure img { display: block; width: 100%; border: 1px solid #9aa5b1; box-sizing: border-box; cursor: zoom-in; }
+figure.large { width: 100%; }
+figure.large img { cursor: zoom-out; image-rendering: pixelated; }
 figcaption { font-size: 13px; color: #52606d; padding-top: 3px; }
 .stack { position: relative; }
 .stack .over { position: absolute; left: 0; top: 0; }
@@ -41,12 +44,20 @@ td, th { border-bottom: 1px solid #e2e6ea; padding: 2px 14px 2px 0; text-align: 
 td.number { text-align: right; font-variant-numeric: tabular-nums; }
 tr.beyond td { color: #b3261e; font-weight: 600; }
 pre { background: #fdf0ef; padding: 8px; white-space: pre-wrap; }
+ul { margin: 8px 0 0; padding-left: 20px; columns: 3 300px; font-size: 13px; }
+summary { font-weight: 600; cursor: pointer; }
 )";
 
-// the slider fades the actual picture over the expected one; blinking takes one, then the other, twice a second
+// The slider fades the actual picture over the expected one; blinking takes one, then the other, twice a second. Both are taken
+// from the row above, so that the page holds them once.
 constexpr const char* kScript = R"(
-for (const box of document.querySelectorAll('.compare')) {
-  const over = box.querySelector('.over'), slider = box.querySelector('input'), button = box.querySelector('button');
+for (const box of document.querySelectorAll('.picture')) {
+  const stack = box.querySelector('.stack'), slider = box.querySelector('input'), button = box.querySelector('button');
+  if (!stack) continue;
+  stack.append(box.querySelector('.expected').cloneNode());
+  const over = box.querySelector('.actual').cloneNode();
+  over.classList.add('over');
+  stack.append(over);
   let timer = 0;
   const show = value => { over.style.opacity = value / 100; };
   const stop = () => { clearInterval(timer); timer = 0; button.textContent = 'blink'; };
@@ -59,6 +70,8 @@ for (const box of document.querySelectorAll('.compare')) {
   });
   show(slider.value);
 }
+for (const picture of document.querySelectorAll('figure img'))
+  picture.addEventListener('click', () => picture.closest('figure').classList.toggle('large'));
 )";
 
 std::string base64(const std::string& bytes) {
@@ -72,37 +85,21 @@ std::string base64(const std::string& bytes) {
   return out;
 }
 
-std::string image(const fs::path& folder, const Json& picture, const char* kind, const char* style) {
+std::string image(const fs::path& file, const char* kind) {
   std::ostringstream bytes;
-  bytes << std::ifstream(folder / picture[kind].get<std::string>(), std::ios::binary).rdbuf();
-  return fmt::format("<img class=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">", style, kind, base64(bytes.str()));
+  bytes << std::ifstream(file, std::ios::binary).rdbuf();
+  return fmt::format("<img class=\"{0}\" alt=\"{0}\" src=\"data:image/png;base64,{1}\">", kind, base64(bytes.str()));
+}
+
+std::string figure(const std::string& inside, const std::string& caption) {
+  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", inside, caption);
 }
 
 std::string badge(const std::string& verdict) {
   return fmt::format("<span class=\"verdict {0}\">{0}</span>", in_xml(verdict));
 }
 
-std::string pictures_of(const Json& picture, const fs::path& folder) {
-  if (!picture.contains("actual")) return "";
-  const auto figure = [](const std::string& inside, const std::string& caption) {
-    return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", inside, caption);
-  };
-  std::string out = "<div class=\"pictures\">\n";
-  if (picture.contains("expected")) out += figure(image(folder, picture, "expected", ""), "expected");
-  out += figure(image(folder, picture, "actual", ""), "actual");
-  if (picture.contains("difference")) {
-    out += figure(image(folder, picture, "difference", ""), "difference: yellow by one of 255, red by 32 and more, blue masked");
-    out += figure(fmt::format("<div class=\"compare\"><div class=\"stack\">{}{}</div><div class=\"controls\">expected <input "
-                              "type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"fade\"> actual "
-                              "<button type=\"button\">blink</button></div></div>",
-                              image(folder, picture, "expected", ""), image(folder, picture, "actual", "over")),
-                  "one over the other");
-  }
-  return out + "</div>\n";
-}
-
 std::string figures_of(const Json& picture) {
-  if (!picture.contains("figures") || picture["verdict"] == "same") return "";
   std::string out = "<table><tr><th>figure</th><th>value</th><th>limit</th><th></th></tr>\n";
   for (const render::Measure& measure : render::measures()) {
     const Json& value = picture["figures"][measure.name];
@@ -115,6 +112,25 @@ std::string figures_of(const Json& picture) {
                        limit.is_null() ? "" : fmt::format("{} {:g}", above ? "&ge;" : "&le;", limit.get<double>()), measure.says);
   }
   return out + "</table>\n";
+}
+
+/// Filled by the script.
+constexpr const char* kFader =
+    "<div class=\"stack\"></div><div class=\"controls\">expected <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" "
+    "aria-label=\"fade\"> actual <button type=\"button\">blink</button></div>";
+
+/// What there is to see of a picture, and its figures.
+std::string look_at(const Json& picture, const fs::path& folder) {
+  if (!picture.contains("actual")) return "";
+  constexpr std::pair<const char*, const char*> kKinds[] = {
+      {"expected", "expected"}, {"actual", "actual"}, {"difference", "difference: yellow by 1 of 255, red by 32 and more"}};
+  std::string out = "<div class=\"picture\">\n<div class=\"row\">\n";
+  for (const auto& [kind, caption] : kKinds)
+    if (picture.contains(kind)) out += figure(image(folder / picture[kind].get<std::string>(), kind), caption);
+  out += "</div>\n";
+  if (picture.contains("difference"))
+    out += "<div class=\"row\">\n" + figure(kFader, "one over the other") + figures_of(picture) + "</div>\n";
+  return out + "</div>\n";
 }
 
 std::string measures_of(const Json& scene) {
@@ -140,17 +156,22 @@ std::string link_to(const fs::path& file, const fs::path& folder) {
   return out;
 }
 
-std::string section_of(const Json& scene, const fs::path& root, const fs::path& folder) {
+std::string name_of(const Json& scene, const fs::path& root, const fs::path& folder) {
   const std::string name = scene["scene"];
-  std::string out = fmt::format("<section>\n<h2><a href=\"{}\">{}</a></h2>\n", link_to(root / name, folder), in_xml(name));
+  return fmt::format("<a href=\"{}\">{}</a>", link_to(root / name, folder), in_xml(name));
+}
+
+std::string section_of(const Json& scene, const fs::path& root, const fs::path& folder) {
+  std::string out = fmt::format("<section>\n<h2>{}</h2>\n", name_of(scene, root, folder));
   if (const std::string title = scene["title"]; !title.empty()) out += in_xml(title) + "\n";
   for (const Json& error : scene["errors"]) out += fmt::format("<pre>{}</pre>\n", in_xml(error.get<std::string>()));
   if (const std::string cause = cause_of(scene); !cause.empty()) out += fmt::format("<p><b>{}</b></p>\n", in_xml(cause));
   out += measures_of(scene);
   for (const Json& picture : scene["pictures"]) {
     out += fmt::format("<h3>{} {}</h3>\n", badge(picture["verdict"]), in_xml(picture["name"].get<std::string>()));
-    if (const std::string why = picture["why"]; !why.empty()) out += in_xml(why) + "\n";
-    out += pictures_of(picture, folder) + figures_of(picture);
+    // where there are figures their table says why
+    if (!picture.contains("figures")) out += in_xml(picture["why"].get<std::string>()) + "\n";
+    out += look_at(picture, folder);
   }
   return out + "</section>\n";
 }
@@ -163,33 +184,64 @@ bool needs_a_look(const Json& scene) {
   return false;
 }
 
+/// What needs a look, in full; then what is as it was, in a line each.
+std::string sections(const SnapshotReport& report, const fs::path& folder) {
+  const fs::path root = report["folder"].get<std::string>();
+  std::string out, rest;
+  for (const Json& scene : report["scenes"]) {
+    if (needs_a_look(scene))
+      out += section_of(scene, root, folder);
+    else
+      rest += fmt::format("<li>{} {}</li>\n", name_of(scene, root, folder), in_xml(scene["title"].get<std::string>()));
+  }
+  if (!report["orphans"].empty()) {
+    out += "<section>\n<h2>Baselines no scene names</h2>\n<div class=\"row\">\n";
+    for (const Json& orphan : report["orphans"]) {
+      const std::string file = orphan["file"];
+      out += figure(fs::exists(file) ? image(file, "expected") : "", badge("orphaned") + " " + in_xml(file));
+    }
+    out += "</div>\n</section>\n";
+  }
+  if (!rest.empty()) out += "<section>\n<h2>As they were</h2>\n<ul>\n" + rest + "</ul>\n</section>\n";
+  return out;
+}
+
+std::string counts_of(const SnapshotReport& report) {
+  std::string out;
+  for (const auto& [verdict, count] : report["counts"].items()) {
+    if (count == 0) continue;
+    std::string words = verdict;
+    std::replace(words.begin(), words.end(), '_', ' ');
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", count.get<int>(), words);
+  }
+  return out;
+}
+
+constexpr const char* kPage = R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width">
+<title>Snapshots: {folder}</title>
+<style>{style}</style>
+</head>
+<body>
+<header><h1>{verdict} {folder}</h1><p>{counts}; crashreel {version}, {seconds:.1f} s</p></header>
+<main>
+{sections}</main>
+<script>{script}</script>
+</body>
+</html>
+)";
+
 }  // namespace
 
 std::string report_html(const SnapshotReport& report, const fs::path& folder) {
-  const fs::path root = report["folder"].get<std::string>();
-  std::string counts;
-  for (const auto& [verdict, count] : report["counts"].items())
-    if (count != 0)
-      counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count.get<int>(),
-                            verdict == "measures_same"  ? "measures hold"
-                            : verdict == "measures_off" ? "measures off"
-                                                        : verdict);
-  // what needs a look comes first
-  std::string look, rest;
-  for (const Json& scene : report["scenes"]) (needs_a_look(scene) ? look : rest) += section_of(scene, root, folder);
-  if (!report["orphans"].empty()) {
-    look += "<section>\n<h2>Baselines no scene names</h2>\n";
-    for (const Json& orphan : report["orphans"])
-      look += fmt::format("<h3>{} {}</h3>\n", badge("orphaned"), in_xml(orphan["file"].get<std::string>()));
-    look += "</section>\n";
-  }
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-      "content=\"width=device-width\">\n"
-      "<title>Snapshots: {0}</title>\n<style>{1}</style>\n</head>\n<body>\n<header><h1>{2} {3}</h1><p>{4}; crashreel {5}, "
-      "{6:.1f} s</p></header>\n<main>\n{7}{8}</main>\n<script>{9}</script>\n</body>\n</html>\n",
-      in_xml(root.string()), kStyle, badge(report["same"] ? "same" : "different"), in_xml(root.string()), in_xml(counts),
-      CRASHREEL_VERSION, report.value("wall_s", 0.0), look, rest, kScript);
+  using fmt::arg;
+  return fmt::format(kPage, arg("folder", in_xml(report["folder"].get<std::string>())), arg("style", kStyle),
+                     arg("verdict", badge(report["same"] ? "same" : "different")), arg("counts", counts_of(report)),
+                     arg("version", CRASHREEL_VERSION), arg("seconds", report.value("wall_s", 0.0)),
+                     arg("sections", sections(report, folder)), arg("script", kScript));
 }
 
 }  // namespace cli

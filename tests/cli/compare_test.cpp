@@ -68,6 +68,10 @@ TEST(Compare, DifferentSizesAreDifferentAndAMissingFileIsTheMachine) {
   const Result sizes = run(folder, {"compare", "a.png", "b.png"});
   EXPECT_EQ(sizes.code, 1);
   EXPECT_EQ(sizes.err, "crashreel: a.png is 20x20, b.png is 20x21: pictures of different size are different\n");
+  const Result told = run(folder, {"compare", "a.png", "b.png", "--json", "--diff", "d.png"});
+  EXPECT_EQ(Json::parse(told.out).at("same"), false);
+  EXPECT_THAT(told.err, HasSubstr("no difference picture is written"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "d.png"));
   const Result missing = run(folder, {"compare", "a.png", "none.png"});
   EXPECT_EQ(missing.code, 3);
   EXPECT_THAT(missing.err, HasSubstr("none.png"));

@@ -1,6 +1,7 @@
 // crashreel snapshot on small folders of scenes: every verdict, updating, reports.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <pty.h>
 
 #include <nlohmann/json.hpp>
 
@@ -45,6 +46,27 @@ struct Accepted : Folder {
 /// The scene with its ball a little to the side.
 std::string moved_ball() {
   return ball_with("0 0 0.3 m", "0.03 0 0.3 m") + kStill;
+}
+
+/// Runs the program on a terminal of its own and types. All it wrote there.
+std::string at_terminal(const Folder& folder, const std::vector<std::string>& arguments, const std::string& typed) {
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    std::vector<char*> list = {const_cast<char*>(CRASHREEL_PROGRAM)};
+    for (const std::string& argument : arguments) list.push_back(const_cast<char*>(argument.c_str()));
+    list.push_back(nullptr);
+    if (chdir(folder.path().c_str()) == 0) execv(CRASHREEL_PROGRAM, list.data());
+    _exit(127);
+  }
+  EXPECT_EQ(write(terminal, typed.data(), typed.size()), static_cast<ssize_t>(typed.size()));
+  std::string out;
+  char block[1024];
+  // a terminal whose last user has gone reads as an error
+  for (ssize_t n = 0; (n = read(terminal, block, sizeof block)) > 0;) out.append(block, static_cast<std::size_t>(n));
+  waitpid(child, nullptr, 0);
+  close(terminal);
+  return out;
 }
 
 }  // namespace
@@ -110,9 +132,31 @@ TEST(Snapshot, UpdateReplacesWhatIsNamedAndNothingElse) {
   EXPECT_EQ(folder.again({"--update", kName + ".png"}).code, 0);
   EXPECT_NE(contents(folder.baseline()), before);
   EXPECT_EQ(folder.again().code, 0);
+  const Result unknown = folder.again({"--update", "ball_syde_0.1s"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("no scene, picture or orphan is called ball_syde_0.1s; did you mean ball_side_0.1s?"));
+  EXPECT_TRUE(folder.report()["unfinished"]) << "what ended early is no pass";
   const Result nobody = folder.again({"--update"});
   EXPECT_EQ(nobody.code, 2);
   EXPECT_THAT(nobody.err, HasSubstr("no terminal to ask on"));
+}
+
+TEST(Snapshot, UpdateAloneAsksForEachOnTheTerminal) {
+  const Accepted folder;
+  folder.write("scenes/ball.toml", moved_ball() + "[[output.still]]\ntime = \"0.2 s\"\ncamera = \"above\"\n");
+  fs::copy_file(folder.baseline(), folder.baseline("old"));
+  const std::string before = contents(folder.baseline());
+  // in the order of the questions: the picture that differs, the new one, the orphan
+  const std::string no_then_yes = at_terminal(folder, {"snapshot", "scenes", "--update"}, "n\ny\nn\n");
+  EXPECT_THAT(no_then_yes, HasSubstr("look at snapshot-report/pictures/" + kName + "_side_by_side.png"));
+  EXPECT_EQ(contents(folder.baseline()), before);
+  EXPECT_TRUE(fs::exists(folder.baseline("ball_above_0.2s")));
+  EXPECT_TRUE(fs::exists(folder.baseline("old")));
+  at_terminal(folder, {"snapshot", "scenes", "--update"}, "q\n");
+  EXPECT_EQ(contents(folder.baseline()), before) << "q is no yes, to anything";
+  at_terminal(folder, {"snapshot", "scenes", "--update"}, "y\ny\n");
+  EXPECT_FALSE(fs::exists(folder.baseline("old")));
+  EXPECT_EQ(folder.again().code, 0);
 }
 
 TEST(Snapshot, PinnedMeasuresTellPhysicsFromDrawing) {
@@ -132,6 +176,39 @@ TEST(Snapshot, PinnedMeasuresTellPhysicsFromDrawing) {
   folder.write("scenes/ball.toml", kBall + "[expect]\nthrow_distance = \"1 m +- 1 cm\"\n" + kStill);
   EXPECT_THAT(folder.again().out,
               HasSubstr("missing    ball.toml: throw_distance_m: the run has no such measure; the run has travel_m ball"));
+}
+
+TEST(Snapshot, APhysicsFaultNoPictureShowsIsSeenInItsMeasure) {
+  // friction acts from the landing at 0.2 s; the picture is of the flight. A ball landing at 2 m/s rolls at once where friction is
+  // above (1 m/s / 3.5) / 2 m/s = 0.14; at 0.1 it goes on at 0.8 m/s in place of 0.71 m/s, 17 mm in 0.2 s
+  const Accepted folder("[expect]\ntravel = \"0.27 m +- 0.13 m\"\n");
+  folder.again();
+  const double found = folder.report()["scenes"][0]["measures"][0]["found"];
+  const std::string pinned = "[expect]\ntravel = \"" + std::to_string(found) + " m +- 1 mm\"\n";
+  folder.write("scenes/ball.toml", kBall + pinned + kStill);
+  EXPECT_EQ(folder.again().code, 0);
+  folder.write("scenes/ball.toml", ball_with("friction = 0.5", "friction = 0.1") + pinned + kStill);
+  const Result result = folder.again();
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.out, HasSubstr("measures changed, pictures did not"));
+}
+
+TEST(Snapshot, ReportsForMachinesTellEachFailure) {
+  const Accepted folder("[expect]\ntravel = \"5 m +- 1 m\"\n");
+  fs::copy_file(folder.baseline(), folder.baseline("old"));
+  folder.again();
+  const std::string junit = contents(folder / "snapshot-report/junit.xml");
+  for (const char* part : {"<testsuites name=\"crashreel snapshot\" tests=\"3\" failures=\"2\" errors=\"0\"",
+                           "<testcase classname=\"ball.toml\" name=\"ball_side_0.1s\"/>",
+                           "<testcase classname=\"ball.toml\" name=\"expect travel_m\">",
+                           "<failure type=\"different\" message=\"different: is 0.", "<failure type=\"orphaned\""})
+    EXPECT_THAT(junit, HasSubstr(part));
+  const Json report = folder.report();
+  EXPECT_EQ(report["schema"], 1);
+  EXPECT_EQ(report["same"], false);
+  EXPECT_EQ(report["counts"]["measures_off"], 1);
+  EXPECT_EQ(report["counts"]["orphaned"], 1);
+  EXPECT_EQ(report["counts"]["same"], 1);
 }
 
 TEST(Snapshot, ASceneThatDoesNotLoadIsAnErrorAndItsBaselinesAreNoOrphans) {
@@ -183,7 +260,7 @@ TEST(Snapshot, AnExpectationIsAValueWithATolerance) {
 
 namespace {
 
-/// The page after its scripts have run, as Chromium has it. `probe` is a script put at the end of the page.
+/// What a script put at the end of the page leaves in document.body.dataset.result, as Chromium runs it.
 std::string in_browser(const Folder& folder, const std::string& probe) {
   std::string page = contents(folder / "snapshot-report/report.html");
   page.insert(page.rfind("</body>"), "<script>" + probe + "</script>");
@@ -192,7 +269,11 @@ std::string in_browser(const Folder& folder, const std::string& probe) {
       "timeout 60 chromium --headless --no-sandbox --disable-gpu --user-data-dir=" + (folder / "profile").string() +
       " --virtual-time-budget=4000 --dump-dom file://" + (folder / "probe.html").string() + " >" + (folder / "dom.html").string() +
       " 2>/dev/null";
-  return std::system(command.c_str()) == 0 ? contents(folder / "dom.html") : "";
+  if (std::system(command.c_str()) != 0) return "chromium failed";
+  const std::string dom = contents(folder / "dom.html"), before = "data-result=\"";
+  const std::size_t at = dom.find(before);
+  if (at == std::string::npos) return "the script did not end";
+  return dom.substr(at + before.size(), dom.find('"', at + before.size()) - at - before.size());
 }
 
 }  // namespace
@@ -202,9 +283,9 @@ TEST(SnapshotReport, WorksInABrowser) {
   const Accepted folder;
   folder.write("scenes/ball.toml", moved_ball());
   folder.again();
-  const std::string dom = in_browser(folder, R"(
+  const std::string result = in_browser(folder, R"(
     addEventListener('load', () => {
-      const pictures = [...document.images], box = document.querySelector('.compare');
+      const pictures = [...document.images], box = document.querySelector('.picture');
       const over = box.querySelector('.over'), slider = box.querySelector('input'), seen = [over.style.opacity];
       for (const value of [0, 100]) { slider.value = value; slider.dispatchEvent(new Event('input')); seen.push(over.style.opacity); }
       box.querySelector('button').click();
@@ -213,13 +294,15 @@ TEST(SnapshotReport, WorksInABrowser) {
         setTimeout(() => {
           seen.push(over.style.opacity);
           const rows = document.querySelectorAll('tr.beyond').length;
+          pictures[0].click();
           document.body.dataset.result = [pictures.length, pictures.every(p => p.naturalWidth === 160), rows > 0,
+                                          pictures[0].closest('figure').className,
                                           document.querySelector('h2 a').getAttribute('href'), seen.join(' ')].join('|');
         }, 250);
       }, 300);
     });)");
   // expected, actual, difference, and the two that lie over each other; faded by half, then none, then whole, then blinking
-  EXPECT_THAT(dom, HasSubstr("data-result=\"5|true|true|../scenes/ball.toml|0.5 0 1 1 0\""));
+  EXPECT_EQ(result, "5|true|true|large|../scenes/ball.toml|0.5 0 1 1 0");
   // the page needs nothing but itself
   const std::string page = contents(folder / "snapshot-report/report.html");
   for (const char* outside : {"src=\"http", "href=\"http", "@import", "src=\"pictures"})
