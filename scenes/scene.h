@@ -18,7 +18,7 @@ struct Output {
   int height = 720;
   double fps = 30;
   std::string quality = "standard";
-  std::vector<std::pair<double, std::string>> stills;  // [s], camera (empty: the shot's): what snapshot tests draw
+  std::vector<std::pair<double, std::string>> stills;  // [s], camera (empty: as the film shows it): what snapshot tests draw
 };
 
 /// A rectangle of pixels that is not compared.

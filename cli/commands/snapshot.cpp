@@ -110,7 +110,7 @@ int snapshot(const SnapshotWish& wish) {
   const std::vector<fs::path> files = find_scenes(root);
   CheckJob job;
   job.root = fs::is_directory(root) ? root : root.parent_path();
-  job.pictures = fs::path(wish.report) / "pictures";
+  job.report = wish.report;
   job.only = wish.names;
   job.workers = wish.jobs.empty() ? 0 : parse_integer("--jobs", wish.jobs, 1, 256);
   prepare_report(wish.report);

@@ -61,9 +61,9 @@ fs::path baseline_folder(const fs::path& scene) {
 std::vector<Still> stills_of(const scenes::Scene& scene) {
   std::vector<Still> out;
   for (const auto& [time, camera] : scene.output.stills) {
-    Still still{time, camera, {}, {}};
-    if (camera.empty()) still.camera = still_of({}, scene.stage, time).camera;
-    still.name = fmt::format("{}_{}_{:g}s", scene.path.stem().string(), still.camera, time);
+    Still still;
+    still.moment = camera.empty() ? still_of({}, scene.stage, time) : render::Moment{time, camera, 1};
+    still.name = fmt::format("{}_{}_{:g}s", scene.path.stem().string(), camera.empty() ? "film" : camera, time);
     // a camera's name may hold what a file's may not
     std::replace(still.name.begin(), still.name.end(), '/', '_');
     still.baseline = baseline_folder(scene.path) / (still.name + ".png");

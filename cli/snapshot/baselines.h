@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "render/arrange.h"
 #include "scenes/scene.h"
 
 namespace cli {
 
 /// One picture that a scene names.
 struct Still {
-  double time = 0;     // [s]
-  std::string camera;  // never empty
-  std::string name;    // "pose_cat_side_0s"
+  render::Moment moment;
+  std::string name;  // "pose_cat_side_0s"; "overlays_film_0.3s" of one that names no camera and is seen as the film shows it
   std::filesystem::path baseline;
 };
 

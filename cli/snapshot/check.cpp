@@ -22,8 +22,7 @@
 #include "cli/snapshot/judge.h"
 #include "engine/measure/metrics.h"
 #include "engine/simulate.h"
-#include "render/arrange.h"
-#include "render/renderer.h"
+#include "render/painter.h"
 
 namespace cli {
 namespace {
@@ -55,17 +54,13 @@ Json check_scene(const fs::path& file, const CheckJob& job) {
     const std::vector<engine::Metric> metrics = engine::measure(scene.model, run);
     for (const scenes::Expectation& expected : scene.snapshot.expectations)
       out["measures"].push_back(judge_measure(expected, metrics));
-    if (!stills.empty()) {
-      const int width = scene.snapshot.width, height = scene.snapshot.height;
-      render::Renderer renderer(width, height, quality_of(scene.output.quality));
-      render::Image image;
-      for (const Still& still : stills) {
-        renderer.draw(render::arrange(scene.stage, run, {still.time, still.camera, 1}, static_cast<double>(width) / height), image);
-        std::string stem = (relative.parent_path() / still.name).string();
-        std::replace(stem.begin(), stem.end(), '/', '_');
-        // someone who updates by name may want the bits of today even where they are within the limits
-        out["pictures"].push_back(judge(scene, still, image, {job.pictures, stem, !job.only.empty()}));
-      }
+    // someone who updates by name may want the bits of today even where they are within the limits
+    const Keeping keeping{job.report, fs::path("pictures") / relative.parent_path(), !job.only.empty()};
+    render::Painter painter(scene.snapshot.width, scene.snapshot.height, quality_of(scene.output.quality));
+    render::Image image;
+    for (const Still& still : stills) {
+      painter.paint(scene.stage, run, still.moment, image);
+      out["pictures"].push_back(judge(scene, still, image, keeping));
     }
   } catch (const scenes::SceneErrors& errors) {
     for (const std::string& line : errors.lines) out["errors"].push_back(line);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cli/output/difference.h"
+#include "cli/output/whole_file.h"
 #include "render/error.h"
 #include "render/image/compare.h"
 #include "render/image/png.h"
@@ -43,10 +44,11 @@ std::string reasons(const render::Difference& found, const render::Limits& limit
 void keep_pictures(const Keeping& keeping, const render::Image& actual, const render::Image* expected,
                    const std::vector<render::Mask>& masks, Json& out) {
   const auto write = [&](const char* kind, const render::Image& image) {
-    const std::string file = fmt::format("{}_{}.png", keeping.stem, kind);
-    render::write_png(keeping.folder / file, image, {}, render::PngEffort::small);
-    out[kind] = (keeping.folder.filename() / file).string();
+    const fs::path file = keeping.below / fmt::format("{}_{}.png", out["name"].get<std::string>(), kind);
+    render::write_png(keeping.report / file, image, {}, render::PngEffort::small);
+    out[kind] = file.string();
   };
+  make_writable_folder(keeping.report / keeping.below);
   write("actual", actual);
   if (!expected) return;
   write("expected", *expected);
@@ -64,8 +66,9 @@ void keep_pictures(const Keeping& keeping, const render::Image& actual, const re
 }  // namespace
 
 Json judge(const scenes::Scene& scene, const Still& still, const render::Image& actual, const Keeping& keeping) {
-  Json out = {{"name", still.name}, {"baseline", still.baseline.string()}, {"camera", still.camera}, {"time_s", still.time}};
-  const std::vector<render::Mask> masks = masks_of(scene, still.camera);
+  Json out = {
+      {"name", still.name}, {"baseline", still.baseline.string()}, {"camera", still.moment.camera}, {"time_s", still.moment.time}};
+  const std::vector<render::Mask> masks = masks_of(scene, still.moment.camera);
   const auto to_look_at = [&](const char* verdict, const std::string& why, const render::Image* expected) {
     out["verdict"] = verdict;
     out["why"] = why;

@@ -15,8 +15,8 @@ namespace cli {
 
 /// Which pictures go into the report, and where to.
 struct Keeping {
-  std::filesystem::path folder;
-  std::string stem;              // unique among all pictures of the report
+  std::filesystem::path report;
+  std::filesystem::path below;   // the folder in it
   bool all_that_differ = false;  // those within the limits too, for who wants the bits of today
 };
 

@@ -98,7 +98,7 @@ const Key kOverlayKeys[] = {
 
 const Key kStillKeys[] = {
     {"time", Type::number, Dimension::time, kRequired, "Simulated time.", kNotNegative},
-    {"camera", Type::text, Dimension::none, "''", "Camera; left out: that of the shot at this time."},
+    {"camera", Type::text, Dimension::none, "''", "Camera; left out: seen as the film shows this time, two cameras included."},
 };
 const Section kStillSection{"output.still", "[[output.still]]", "Stills a snapshot test draws.", kStillKeys};
 
