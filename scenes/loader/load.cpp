@@ -58,6 +58,14 @@ std::string hash_of(const std::filesystem::path& file, const std::vector<std::st
   return sha256(all);
 }
 
+/// A scene beside another is no pose, person or vehicle, though it may be called like one (cyclist.toml).
+bool is_scene(const std::filesystem::path& file) {
+  const Value root = parse_file(file);
+  for (const char* section : {"simulation", "vehicle", "person", "body", "camera", "output"})
+    if (root.find(section)) return true;
+  return false;
+}
+
 void collect_names(Builder& builder, const Value& root) {
   for (const char* list : {"vehicle", "person", "body"}) {
     const Value* found = root.find(list);
@@ -102,6 +110,7 @@ std::filesystem::path library_file(Builder& builder, const std::string& kind, co
   for (const auto& folder : {builder.folder, builder.folder / kind, home_folder() / "scenes/library" / kind}) {
     const auto file = folder / (name + ".toml");
     if (!std::filesystem::is_regular_file(file, ignored)) continue;
+    if (folder == builder.folder && is_scene(file)) continue;
     builder.assets += file_hash(file);
     return file;
   }

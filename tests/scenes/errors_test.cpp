@@ -134,5 +134,14 @@ TEST(SceneHash, IsThatOfTheFileAndItsOverrides) {
   EXPECT_NE(plain.sha256, changed.sha256);
 }
 
+TEST(Library, IsNotHiddenByASceneOfTheSameName) {
+  const SceneFolder own;
+  const std::string scene = "[[person]]\nname = \"rider\"\npose = \"cyclist\"\nposition = \"0 0 m\"\n";
+  own.write("cyclist.toml", scene);  // a case of that name beside the scene
+  EXPECT_THAT(own.errors(scene), ElementsAre());
+  own.write("cyclist.toml", "[angles]\nright_elbow_flexion = \"400 deg\"\n");  // a pose of one's own still goes first
+  EXPECT_EQ(own.errors(scene).size(), 1u);
+}
+
 }  // namespace
 }  // namespace scenes
