@@ -3,10 +3,12 @@ execute_process(COMMAND ${GENERATOR} ${SCRATCH} RESULT_VARIABLE failed)
 if(failed)
   message(FATAL_ERROR "the generator failed: ${failed}")
 endif()
-foreach(name sedan.obj sedan.mtl sedan_collision.obj wheel.obj wheel.mtl trip_curb.obj trip_curb.mtl car_trailer.obj car_trailer.mtl dolly.obj
-        dolly.mtl drawbar_trailer.obj drawbar_trailer.mtl
-        bicycle.obj bicycle.mtl bicycle_wheel.obj bicycle_wheel.mtl motorcycle.obj motorcycle.mtl
-        motorcycle_wheel.obj motorcycle_wheel.mtl)
+file(GLOB made RELATIVE ${SCRATCH} ${SCRATCH}/*)
+file(GLOB committed RELATIVE ${COMMITTED} ${COMMITTED}/*)
+if(NOT made STREQUAL committed)
+  message(FATAL_ERROR "${COMMITTED} holds other files than the generator makes: ${committed} against ${made}")
+endif()
+foreach(name ${made})
   execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${SCRATCH}/${name} ${COMMITTED}/${name} RESULT_VARIABLE differs)
   if(differs)
     message(FATAL_ERROR "${COMMITTED}/${name} is not what the generator makes: copy ${SCRATCH}/${name} over it after looking at it")

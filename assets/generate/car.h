@@ -9,13 +9,10 @@ namespace assets {
 Surface bodywork();
 /// Closed outer shell for contact, same frame.
 Surface shell();
-/// Wheel: axle along y, outside towards +y, centred.
-Surface wheel();
 
 /// A kerb to trip over: 0.15 m high, 0.3 m deep in +y from the origin, 20 m long, in short pieces.
 Surface trip_curb();
 
 std::vector<Paint> car_paints();
-std::vector<Paint> wheel_paints();
 
 }  // namespace assets

@@ -38,10 +38,19 @@ void mudguard(Surface& s, double x, double y, double z, double r, double width) 
 /// An open tray: floor and four boards, x from rear to front.
 void tray(Surface& s, double rear, double front, double half, double floor, double height) {
   const double cx = 0.5 * (rear + front), l = 0.5 * (front - rear), t = 0.02;
-  s.box({cx, 0, floor}, {l, half, 0.03}, "wood");
+  s.box({cx, 0, floor}, {l - 2 * t, half - 2 * t, 0.03}, "wood");
+  const double middle = floor + 0.5 * height, up = 0.5 * height;
   for (const double side : {-1.0, 1.0}) {
-    s.box({cx, side * (half - t), floor + 0.5 * height}, {l, t, 0.5 * height}, "paint");
-    s.box({cx + side * (l - t), 0, floor + 0.5 * height}, {t, half, 0.5 * height}, "paint");
+    s.box({cx, side * (half - t), middle}, {l - t, t, up}, "paint");
+    s.box({cx + side * (l - t), 0, middle}, {t, half - t, up}, "paint");
+    s.box({cx, side * (half - t), floor - 0.01}, {l, 1.3 * t, 0.035}, "steel");
+    s.box({cx + side * (l - t), 0, floor - 0.01}, {1.3 * t, half, 0.035}, "steel");
+    s.box({cx, side * (half - t), floor + height}, {l, 1.2 * t, 0.012}, "steel");
+    s.box({cx + side * (l - t), 0, floor + height}, {1.2 * t, half, 0.012}, "steel");
+    for (const double end : {-1.0, 1.0}) s.box({cx + end * (l - t), side * (half - t), middle}, {0.03, 0.03, up + 0.01}, "steel");
+    const int posts = static_cast<int>(std::lround(l));
+    for (int i = 1; i < 2 * posts; ++i)
+      s.box({rear + i * (front - rear) / (2 * posts), side * half, middle}, {0.025, 0.012, up}, "steel");
   }
 }
 

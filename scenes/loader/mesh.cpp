@@ -27,6 +27,7 @@ struct MaterialLine {
 
 /// What a surface is, by its name: meshes carry colours, rarely how they shine.
 constexpr MaterialLine kMaterials[] = {
+    {"under", render::MaterialKind::matte, 0.9f},  // the underbody is no paint
     {"glass", render::MaterialKind::glass, 0.05f},  {"window", render::MaterialKind::glass, 0.05f},
     {"lamp", render::MaterialKind::lamp, 0.15f},    {"light", render::MaterialKind::lamp, 0.15f},
     {"tyre", render::MaterialKind::rubber, 0.9f},   {"tire", render::MaterialKind::rubber, 0.9f},

@@ -26,6 +26,7 @@ const Key kWheelKeys[] = {
     {"brake_share", Type::number, Dimension::none, "0.25", "Share of the brake force; the shares sum to 1.", kShare},
     {"steered", Type::boolean, Dimension::none, "false", "Turns with steer."},
     {"driven", Type::boolean, Dimension::none, "false", "Takes its part of drive_force."},
+    {"mesh", Type::path, Dimension::none, "", "Its own mesh, like twin tyres, in place of the vehicle's wheel_mesh."},
 };
 const Section kWheelSection{"vehicle.wheel", "[[vehicle.wheel]]", "A wheel.", kWheelKeys};
 
@@ -215,14 +216,16 @@ void check_scale(Reader& r, const engine::Aabb& box) {
 }
 
 struct Meshes {
-  std::shared_ptr<const ImportedMesh> bodywork, collision, wheel;
+  std::shared_ptr<const ImportedMesh> bodywork, collision;
+  std::vector<std::shared_ptr<const ImportedMesh>> wheels;  // null: not drawn
 };
 
 Meshes read_meshes(Builder& builder, Reader& r) {
   Meshes out;
   out.bodywork = import_mesh(builder, r, "mesh");
   out.collision = r.has("collision_mesh") ? import_mesh(builder, r, "collision_mesh") : out.bodywork;
-  if (r.has("wheel_mesh")) out.wheel = import_mesh(builder, r, "wheel_mesh");
+  const auto wheel = r.has("wheel_mesh") ? import_mesh(builder, r, "wheel_mesh") : nullptr;
+  for (Reader& w : r.tables("wheel")) out.wheels.push_back(w.has("mesh") ? import_mesh(builder, w, "mesh") : wheel);
   return out;
 }
 
@@ -237,9 +240,10 @@ void add_actors(Builder& builder, Reader& r, const engine::Vehicle& vehicle, con
     }
   }
   stage.meshes.push_back({vehicle.name, vehicle.body, X_BM, meshes.bodywork->look, std::move(repaint)});
-  for (std::size_t i = 0; meshes.wheel && i < vehicle.wheels.size(); ++i) {
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    if (!meshes.wheels[i]) continue;
     stage.wheels.push_back({static_cast<int>(builder.scene.model.vehicles.size()), static_cast<int>(i), vehicle.body,
-                            vehicle.wheels[i].hub_B.y() > 0, meshes.wheel->look});
+                            vehicle.wheels[i].hub_B.y() > 0, meshes.wheels[i]->look});
   }
   stage.speeds.emplace_back(vehicle.body, vehicle.name);
 }

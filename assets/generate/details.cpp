@@ -1,0 +1,101 @@
+#include "assets/generate/details.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace assets {
+
+Outline circle(double x, double z, double r, int n) {
+  Outline out;
+  for (int i = 0; i < n; ++i) {
+    const double a = 2 * std::numbers::pi * i / n;
+    out.push_back({x + r * std::cos(a), z + r * std::sin(a)});
+  }
+  return out;
+}
+
+Outline rectangle(double u0, double v0, double u1, double v1) {
+  return {{u0, v0}, {u1, v0}, {u1, v1}, {u0, v1}};
+}
+
+bool on_side(const V3& p, const V3& n) {
+  return n.y > 0.3 && p.y > 0.4;
+}
+
+Filter side_above(double z) {
+  return [z](const V3& p, const V3& n) { return n.y > 0.35 && p.z > z; };
+}
+
+void framed(Surface& s, Seen seen, const Outline& pane, double surround, const Filter& filter) {
+  double cu = 0, cv = 0;
+  for (auto& p : pane) cu += p[0] / static_cast<double>(pane.size()), cv += p[1] / static_cast<double>(pane.size());
+  Outline rim;
+  for (auto& p : pane) {
+    const double l = std::hypot(p[0] - cu, p[1] - cv);
+    rim.push_back({p[0] + surround * (p[0] - cu) / l, p[1] + surround * (p[1] - cv) / l});
+  }
+  cut(s, seen, rim, filter, "trim");
+  cut(s, seen, pane, filter, "glass");
+}
+
+void seam(Surface& s, double x0, double z0, double x1, double z1, double width) {
+  const double l = std::hypot(x1 - x0, z1 - z0), h = 0.5 * width;
+  const double nx = -(z1 - z0) / l * h, nz = (x1 - x0) / l * h;
+  cut(s, Seen::from_side, {{x0 - nx, z0 - nz}, {x1 - nx, z1 - nz}, {x1 + nx, z1 + nz}, {x0 + nx, z0 + nz}}, on_side, "trim");
+}
+
+void wheel_arch(Surface& s, double x, double hub, double radius, double outer, double inner) {
+  const Filter side = [inner](const V3& p, const V3&) { return p.y > inner - 0.05; };
+  cut(s, Seen::from_side, circle(x, hub, radius + 0.022, 40), on_side, "trim");
+  cut(s, Seen::from_side, circle(x, hub, radius, 40), side, "");
+  const int n = 28;
+  for (int i = 0; i < n; ++i) {
+    const double a = std::numbers::pi * (1.15 * i / n - 0.075), b = std::numbers::pi * (1.15 * (i + 1) / n - 0.075);
+    const V3 pa{x + radius * std::cos(a), 0, hub + radius * std::sin(a)},
+        pb{x + radius * std::cos(b), 0, hub + radius * std::sin(b)};
+    auto deep = [](V3 p, double y) { return V3{p.x, y, p.z}; };
+    s.quad(deep(pa, outer), deep(pa, inner), deep(pb, inner), deep(pb, outer), "underbody");
+    s.quad(deep(pa, inner), {x, inner, hub}, {x, inner, hub}, deep(pb, inner), "underbody");
+    s.add({{x, inner, hub}, {0, 1, 0}}, {deep(pb, inner), {0, 1, 0}}, {deep(pa, inner), {0, 1, 0}}, "underbody");
+  }
+}
+
+void darken_below(Surface& s, double z) {
+  const Filter below = [z](const V3& p, const V3& n) { return n.z < -0.6 || p.z < z; };
+  cut(s, Seen::from_above, {{-20, -1}, {20, -1}, {20, 2}, {-20, 2}}, below, "underbody");
+}
+
+Surface egg(V3 m, V3 r, const std::string& material) {
+  Surface out;
+  const int n = 14;
+  auto at = [&](int i, int j) {
+    const double a = std::numbers::pi * i / n, b = 2 * std::numbers::pi * j / n;
+    const V3 d{std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)};
+    return Vertex{m + V3{r.x * d.x, r.y * d.y, r.z * d.z}, unit({d.x / r.x, d.y / r.y, d.z / r.z})};
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      out.add(at(i, j), at(i + 1, j), at(i + 1, j + 1), material);
+      out.add(at(i, j), at(i + 1, j + 1), at(i, j + 1), material);
+    }
+  return out;
+}
+
+void seat(Surface& s, V3 m, double half_width) {
+  s.box(m, {0.26, half_width, 0.09}, "interior", -0.10);
+  s.box(m + V3{-0.28, 0, 0.29}, {0.07, 0.96 * half_width, 0.30}, "interior", -0.32);
+  s.box(m + V3{-0.40, 0, 0.63}, {0.045, 0.5 * half_width, 0.085}, "interior", -0.2);
+}
+
+void steering_wheel(Surface& s, V3 m, double radius, double lean) {
+  const int n = 20;
+  for (int i = 0; i < n; ++i) {
+    auto rim = [&](int k, double r) {
+      const double a = 2 * std::numbers::pi * k / n;
+      return V3{m.x + r * std::sin(a) * std::cos(lean), m.y + r * std::cos(a), m.z + r * std::sin(a) * std::sin(lean)};
+    };
+    s.quad(rim(i, radius), rim(i + 1, radius), rim(i + 1, 0.82 * radius), rim(i, 0.82 * radius), "interior");
+  }
+}
+
+}  // namespace assets
