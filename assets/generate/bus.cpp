@@ -84,7 +84,8 @@ void cut_back(Surface& s) {
 Surface half(Side which) {
   Surface s = half_coach(shape(), "paint", {48, 8, 24, 16});
   for (const double x : {kAxle, -kAxle}) wheel_arch(s, x, kHub, kArch, kHalf - 0.03, 0.60);
-  cut(s, Seen::from_side, rectangle(-20, 0, 20, 0.345), [](const V3&, const V3&) { return true; }, "underbody");
+  cut(
+      s, Seen::from_side, rectangle(-20, 0, 20, 0.345), [](const V3&, const V3&) { return true; }, "underbody");
   darken_below(s, 0.31);
   cut_windows(s, which);
   if (which == Side::right) cut_doors(s);

@@ -10,9 +10,9 @@ namespace assets {
 namespace {
 
 constexpr double kFront = 2.27, kRear = -2.37;  // [m] ends of the car
-constexpr double kAxle = 1.35;   // front axle at +, rear at -
-constexpr double kArch = 0.375;  // radius of the wheel openings
-constexpr double kHub = 0.31;    // height of the wheel centres
+constexpr double kAxle = 1.35;                  // front axle at +, rear at -
+constexpr double kArch = 0.375;                 // radius of the wheel openings
+constexpr double kHub = 0.31;                   // height of the wheel centres
 
 CarShape sedan_shape() {
   CarShape s;
@@ -21,22 +21,9 @@ CarShape sedan_shape() {
   s.half_width = 0.905;
   s.roof_half = 0.615;
   s.waist = 0.60;
-  s.top = {{kRear, 0.80},
-           {-2.31, 0.97},
-           {-2.22, 1.035},
-           {-1.78, 1.075},
-           {-1.62, 1.10},
-           {-0.98, 1.345},
-           {-0.62, 1.415},
-           {-0.20, 1.445},
-           {0.10, 1.425},
-           {0.34, 1.365},
-           {1.02, 0.985},
-           {1.16, 0.945},
-           {1.60, 0.875},
-           {2.02, 0.775},
-           {2.17, 0.70},
-           {kFront, 0.56}};
+  s.top = {{kRear, 0.80},  {-2.31, 0.97},  {-2.22, 1.035}, {-1.78, 1.075}, {-1.62, 1.10}, {-0.98, 1.345},
+           {-0.62, 1.415}, {-0.20, 1.445}, {0.10, 1.425},  {0.34, 1.365},  {1.02, 0.985}, {1.16, 0.945},
+           {1.60, 0.875},  {2.02, 0.775},  {2.17, 0.70},   {kFront, 0.56}};
   s.shoulder = {{kRear, 0.76}, {-2.20, 0.93}, {-1.5, 0.96}, {0.0, 0.915}, {1.0, 0.865}, {1.7, 0.775}, {2.1, 0.67}, {kFront, 0.53}};
   s.underside = {{kRear, 0.36}, {-2.15, 0.25}, {-1.2, 0.185}, {1.4, 0.185}, {2.1, 0.20}, {kFront, 0.28}};
   return s;
@@ -131,6 +118,7 @@ Surface bodywork() {
   s.box({0.76, 0.86, 0.955}, {0.035, 0.06, 0.018}, "trim");
   s.box({0.98, 0.30, 1.012}, {0.012, 0.28, 0.008}, "trim", 0.5);  // wiper
   s.mirror_y();
+  underside(s, kAxle, kHub, 0.185, 0.77);
   s.append(interior());
   return s;
 }
@@ -150,7 +138,8 @@ Surface trip_curb() {
 std::vector<Paint> car_paints() {
   return {{"paint", {0.45, 0.02, 0.025}},      {"glass", {0.015, 0.02, 0.022}, 0.80}, {"lamp_front", {0.80, 0.82, 0.85}},
           {"lamp_rear", {0.42, 0.012, 0.012}}, {"trim", {0.018, 0.018, 0.02}},        {"plate", {0.75, 0.75, 0.70}},
-          {"chrome", {0.62, 0.62, 0.62}},      {"interior", {0.05, 0.05, 0.055}},     {"underbody", {0.012, 0.012, 0.012}}};
+          {"chrome", {0.62, 0.62, 0.62}},      {"interior", {0.05, 0.05, 0.055}},     {"underbody", {0.022, 0.022, 0.023}},
+          {"exhaust", {0.17, 0.16, 0.15}},     {"subframe", {0.055, 0.055, 0.058}}};
 }
 
 }  // namespace assets

@@ -7,12 +7,12 @@
 namespace assets {
 
 struct CarShape {
-  double front, rear;           // [m] ends of the car
-  double half_width;            // [m]
-  double roof_half;             // [m] half width at the roof's rails
-  double waist;                 // [m] height of the widest place, at the most
-  Curve top;                    // outline over the middle
-  Curve shoulder;               // line below the windows
+  double front, rear;  // [m] ends of the car
+  double half_width;   // [m]
+  double roof_half;    // [m] half width at the roof's rails
+  double waist;        // [m] height of the widest place, at the most
+  Curve top;           // outline over the middle
+  Curve shoulder;      // line below the windows
   Curve underside;
   double nose = 5.0, tail = 6.0;  // [-] exponents of the ends in plan: larger is blunter
 };

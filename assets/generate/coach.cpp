@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kQuarter = std::numbers::pi / 2;
 
-/// Point at a height, drawn in by `inset`, along the outline: 0 rear middle, 1, 2 ends of the rear corner, 3, 4 of the front corner,
-/// 5 front middle.
+/// Point at a height, drawn in by `inset`, along the outline: 0 rear middle, 1, 2 ends of the rear corner, 3, 4 of the front
+/// corner, 5 front middle.
 V3 outline(const Coach& c, double z, double inset, double s) {
   const double xr = through(c.rear, z) + inset, xf = through(c.front, z) - inset, h = through(c.half, z) - inset;
   const double rr = std::max(0.02, c.corner_rear - inset), rf = std::max(0.02, c.corner_front - inset);

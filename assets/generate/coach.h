@@ -8,11 +8,11 @@
 namespace assets {
 
 struct Coach {
-  Curve front, rear, half;                // [m] x, x and y over the height
-  double bottom = 0, top = 0;             // [m]
-  double corner_front, corner_rear;       // [m] radii in plan
-  double roof = 0.1;                      // [m] radius of the roof's edge
-  double bow = 0;                         // [m] how far the middle of the front stands out
+  Curve front, rear, half;           // [m] x, x and y over the height
+  double bottom = 0, top = 0;        // [m]
+  double corner_front, corner_rear;  // [m] radii in plan
+  double roof = 0.1;                 // [m] radius of the roof's edge
+  double bow = 0;                    // [m] how far the middle of the front stands out
 };
 
 struct Fineness {

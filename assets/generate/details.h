@@ -18,12 +18,15 @@ Filter side_above(double z);
 /// A pane with a black surround of a width [m].
 void framed(Surface&, Seen, const Outline& pane, double surround, const Filter&);
 /// A dark line of a width [m] between two points of the side.
-void seam(Surface&, double x0, double z0, double x1, double z1, double width = 0.007);
+void seam(Surface&, double x0, double z0, double x1, double z1, double width = 0.009);
 
 /// Cuts a round opening into the left side and closes it by a dark well from y = outer to y = inner.
 void wheel_arch(Surface&, double x, double hub, double radius, double outer, double inner);
 /// Everything that looks down, or lies below a height, becomes the dark underside.
 void darken_below(Surface&, double z);
+
+/// What a car that lies on its roof shows: exhaust, axles, tank, tunnel. `floor` is the height of its underside.
+void underside(Surface&, double axle, double hub, double floor, double half_track);
 
 /// A ball squashed to an egg, for mirrors.
 Surface egg(V3 m, V3 r, const std::string& material);

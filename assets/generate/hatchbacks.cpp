@@ -44,8 +44,9 @@ void cut_ends(Surface& s, const Hatchback& c) {
   const Filter nose = [bow](const V3& p, const V3& n) { return p.x > bow + 0.3 && n.x > 0.2; };
   const Filter tail = [stern](const V3& p, const V3& n) { return p.x < stern && n.z < 0.9 && n.x < 0.2; };
   cut(s, Seen::from_front, c.headlamp, front, "lamp_front");
-  cut(s, Seen::from_front, {{-1, c.grille_low}, {c.grille_half - 0.05, c.grille_low}, {c.grille_half, c.grille_high}, {-1, c.grille_high}},
-      nose, "trim");
+  cut(s, Seen::from_front,
+      {{-1, c.grille_low}, {c.grille_half - 0.05, c.grille_low}, {c.grille_half, c.grille_high}, {-1, c.grille_high}}, nose,
+      "trim");
   const int bars = 3;
   for (int i = 1; i <= bars; ++i) {
     const double z = c.grille_low + (c.grille_high - c.grille_low) * i / (bars + 1);
@@ -74,13 +75,15 @@ void cut_doors(Surface& s, const Hatchback& c) {
   seam(s, c.shape.rear + 0.45, sill + 0.14, c.shape.rear + 0.22, belt - 0.20);
   for (const double x : {c.b_pillar + 0.33, c.b_pillar - 0.66}) {
     const double z = belt - 0.11;
-    cut(s, Seen::from_side, {{x - 0.09, z}, {x + 0.09, z - 0.006}, {x + 0.09, z + 0.018}, {x - 0.09, z + 0.024}}, on_side, "chrome");
+    cut(s, Seen::from_side, {{x - 0.09, z}, {x + 0.09, z - 0.006}, {x + 0.09, z + 0.018}, {x - 0.09, z + 0.024}}, on_side,
+        "chrome");
   }
   const double wing = c.shape.half_width * 0.82, bonnet = c.windscreen[1][0] + 0.09;
   const Filter above = [](const V3& p, const V3& n) { return n.z > 0.5 && p.z > 0.6; };
   cut(s, Seen::from_above, rectangle(bonnet, -1, bonnet + 0.007, wing), above, "trim");
-  cut(s, Seen::from_above, {{bonnet, wing}, {c.shape.front - 0.2, wing - 0.08}, {c.shape.front - 0.2, wing - 0.073}, {bonnet, wing + 0.007}},
-      above, "trim");
+  cut(s, Seen::from_above,
+      {{bonnet, wing}, {c.shape.front - 0.2, wing - 0.08}, {c.shape.front - 0.2, wing - 0.073}, {bonnet, wing + 0.007}}, above,
+      "trim");
 }
 
 void furnish(Surface& s, const Hatchback& c) {
@@ -103,6 +106,7 @@ Surface build(const Hatchback& c) {
   s.append(egg({c.mirror_x, c.shape.half_width + 0.08, z}, {0.06, 0.105, 0.07}, "paint"));
   s.box({c.mirror_x + 0.02, c.shape.half_width - 0.04, z - 0.045}, {0.035, 0.06, 0.018}, "trim");
   s.mirror_y();
+  underside(s, c.axle, c.hub, through(c.shape.underside, 0), c.shape.half_width - 0.135);
   furnish(s, c);
   return s;
 }
@@ -116,8 +120,8 @@ Hatchback small_car_details() {
   shape.waist = 0.60;
   shape.nose = 8.0;
   shape.tail = 9.0;
-  shape.top = {{-2.00, 0.72}, {-1.97, 0.88}, {-1.92, 0.985}, {-1.87, 1.035}, {-1.67, 1.34},  {-1.60, 1.395},
-               {-1.45, 1.43}, {-0.90, 1.47}, {-0.20, 1.475}, {0.15, 1.445},  {0.36, 1.375},  {1.02, 0.985},
+  shape.top = {{-2.00, 0.72}, {-1.97, 0.88}, {-1.92, 0.985}, {-1.87, 1.035}, {-1.67, 1.34}, {-1.60, 1.395},
+               {-1.45, 1.43}, {-0.90, 1.47}, {-0.20, 1.475}, {0.15, 1.445},  {0.36, 1.375}, {1.02, 0.985},
                {1.12, 0.945}, {1.45, 0.885}, {1.74, 0.79},   {1.85, 0.70},   {1.92, 0.54}};
   shape.shoulder = {{-2.0, 0.70}, {-1.85, 0.95}, {-1.3, 0.965}, {0.0, 0.915}, {0.95, 0.86}, {1.5, 0.77}, {1.8, 0.66}, {1.92, 0.50}};
   shape.underside = {{-2.0, 0.36}, {-1.85, 0.26}, {-1.0, 0.18}, {1.2, 0.18}, {1.75, 0.20}, {1.92, 0.28}};
@@ -141,9 +145,9 @@ Hatchback suv_details() {
   shape.waist = 0.78;
   shape.nose = 9.0;
   shape.tail = 9.0;
-  shape.top = {{-2.35, 0.85},  {-2.33, 1.00}, {-2.28, 1.12}, {-2.23, 1.17},  {-2.06, 1.51},  {-1.99, 1.585},
-               {-1.85, 1.625}, {-1.20, 1.67}, {-0.40, 1.685}, {0.10, 1.665}, {0.30, 1.61},   {1.02, 1.155},
-               {1.14, 1.11},   {1.60, 1.055}, {1.96, 0.98},  {2.10, 0.88},   {2.20, 0.68}};
+  shape.top = {{-2.35, 0.85},  {-2.33, 1.00}, {-2.28, 1.12},  {-2.23, 1.17}, {-2.06, 1.51}, {-1.99, 1.585},
+               {-1.85, 1.625}, {-1.20, 1.67}, {-0.40, 1.685}, {0.10, 1.665}, {0.30, 1.61},  {1.02, 1.155},
+               {1.14, 1.11},   {1.60, 1.055}, {1.96, 0.98},   {2.10, 0.88},  {2.20, 0.68}};
   shape.shoulder = {{-2.35, 0.82}, {-2.2, 1.07}, {-1.5, 1.10}, {0.0, 1.05}, {1.0, 1.02}, {1.7, 0.95}, {2.05, 0.84}, {2.20, 0.64}};
   shape.underside = {{-2.35, 0.44}, {-2.15, 0.35}, {-1.2, 0.26}, {1.4, 0.26}, {2.05, 0.28}, {2.20, 0.38}};
   Hatchback c{shape, 1.34, 0.355, 0.415, 0.38, {}, {}, {}, {}, {}, {}, {}, 0.68, 0.84, 0.50, 0.60, 0.92, -0.18, 0.90, 0.68, 0.76};
@@ -181,8 +185,9 @@ Surface small_car_shell() {
 Surface suv() {
   Surface s = build(suv_details());
   // unpainted below, as such cars are
-  cut(s, Seen::from_side, rectangle(-20, 0, 20, 0.50), [](const V3& p, const V3& n) { return std::abs(n.y) > 0.3 && std::abs(p.y) > 0.5; },
-      "trim");
+  cut(
+      s, Seen::from_side, rectangle(-20, 0, 20, 0.50),
+      [](const V3& p, const V3& n) { return std::abs(n.y) > 0.3 && std::abs(p.y) > 0.5; }, "trim");
   for (const double y : {0.56, -0.56}) s.box({-0.72, y, 1.645}, {0.72, 0.018, 0.022}, "chrome");  // roof rails
   return s;
 }

@@ -35,8 +35,10 @@ int main(int argc, char** argv) {
     assets::write_obj(assets::wheel(0.34, 0.1075, 0.21), assets::wheel_paints(), folder + "/van_wheel");
     assets::write_obj(assets::heavy_wheel(0.48, 0.1375, 0.29, assets::Rim::single), assets::wheel_paints(), folder + "/bus_wheel");
     assets::write_obj(assets::heavy_wheel(0.48, 0.30, 0.29, assets::Rim::twin), assets::wheel_paints(), folder + "/bus_twin_wheel");
-    assets::write_obj(assets::heavy_wheel(0.43, 0.1325, 0.25, assets::Rim::single), assets::wheel_paints(), folder + "/truck_wheel");
-    assets::write_obj(assets::heavy_wheel(0.43, 0.28, 0.25, assets::Rim::twin), assets::wheel_paints(), folder + "/truck_twin_wheel");
+    assets::write_obj(assets::heavy_wheel(0.43, 0.1325, 0.25, assets::Rim::single), assets::wheel_paints(),
+                      folder + "/truck_wheel");
+    assets::write_obj(assets::heavy_wheel(0.43, 0.28, 0.25, assets::Rim::twin), assets::wheel_paints(),
+                      folder + "/truck_twin_wheel");
     assets::write_obj(assets::trip_curb(), {{"concrete", {0.42, 0.41, 0.39}}}, folder + "/trip_curb");
     assets::write_obj(assets::car_trailer(), assets::trailer_paints(), folder + "/car_trailer");
     assets::write_obj(assets::dolly(), assets::trailer_paints(), folder + "/dolly");

@@ -75,8 +75,7 @@ Surface half_load() {
   cut(s, Seen::from_front, rectangle(-1, kLoadTop - 0.12, 2, kLoadTop), back, "steel");
   cut(s, Seen::from_front, rectangle(-1, 0, 0.008, 9), back, "trim");
   for (const double y : {0.30, 0.80}) s.box({kLoadRear - 0.02, y, 2.24}, {0.016, 0.016, 1.12}, "steel");
-  for (const double z : {1.35, 2.25, 3.15})
-    s.box({kLoadRear - 0.012, 1.16, z}, {0.012, 0.06, 0.03}, "steel");
+  for (const double z : {1.35, 2.25, 3.15}) s.box({kLoadRear - 0.012, 1.16, z}, {0.012, 0.06, 0.03}, "steel");
   for (const double z : {1.20, 3.30}) s.box({kLoadRear - 0.005, 1.21, z}, {0.012, 0.03, 0.035}, "lamp_rear");
   return s;
 }
@@ -85,7 +84,8 @@ void add_frame(Surface& s) {
   for (const double side : {-1.0, 1.0}) {
     s.box({-0.45, side * 0.42, 0.88}, {3.6, 0.045, 0.12}, "steel");
     for (int i = 0; i < 16; ++i) {  // mudguard over the twin wheels
-      const double a = 3.14159265358979323846 * (0.04 + 0.92 * i / 16.0), b = 3.14159265358979323846 * (0.04 + 0.92 * (i + 1) / 16.0);
+      const double a = 3.14159265358979323846 * (0.04 + 0.92 * i / 16.0),
+                   b = 3.14159265358979323846 * (0.04 + 0.92 * (i + 1) / 16.0);
       auto at = [&](double t, double y) { return V3{-kAxle + 0.52 * std::cos(t), side * y, kHub + 0.52 * std::sin(t)}; };
       const V3 p = at(a, 0.58), q = at(a, 1.24), r = at(b, 1.24), t = at(b, 0.58);
       s.quad(p, q, r, t, "trim");

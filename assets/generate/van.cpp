@@ -11,8 +11,8 @@ constexpr double kRear = -2.75;
 
 Coach shape() {
   Coach c;
-  c.front = {{0.26, 2.42}, {0.36, 2.54}, {0.55, 2.58}, {0.85, 2.56}, {0.98, 2.49}, {1.06, 2.36}, {1.17, 2.04},
-             {1.24, 1.90}, {1.60, 1.53}, {2.00, 1.13}, {2.16, 0.93}, {2.30, 0.70}};
+  c.front = {{0.26, 2.42}, {0.36, 2.54}, {0.55, 2.58}, {0.85, 2.56}, {0.98, 2.49}, {1.06, 2.36},
+             {1.17, 2.04}, {1.24, 1.90}, {1.60, 1.53}, {2.00, 1.13}, {2.16, 0.93}, {2.30, 0.70}};
   c.rear = {{0.26, kRear + 0.05}, {0.40, kRear}, {1.20, kRear}, {2.30, kRear + 0.09}};
   c.half = {{0.26, 0.93}, {0.45, 0.985}, {0.85, 0.995}, {1.20, 0.975}, {2.30, 0.875}};
   c.bottom = 0.26;
@@ -60,8 +60,7 @@ void cut_doors(Surface& s) {
   seam(s, 0.52, 2.02, -0.92, 2.02, 0.012);
   seam(s, 0.52, 0.34, -0.92, 0.34, 0.012);
   cut(s, Seen::from_side, rectangle(-2.5, 1.255, -0.2, 1.275), on_side, "trim");  // rail of the sliding door
-  for (const double x : {0.75, 0.36})
-    cut(s, Seen::from_side, rectangle(x - 0.04, 1.02, x + 0.12, 1.055), on_side, "trim");
+  for (const double x : {0.75, 0.36}) cut(s, Seen::from_side, rectangle(x - 0.04, 1.02, x + 0.12, 1.055), on_side, "trim");
   cut(s, Seen::from_side, rectangle(-1.17, 0.50, 1.17, 0.60), on_side, "trim");  // rubbing strip
   cut(s, Seen::from_side, rectangle(kRear + 0.05, 0.50, -2.08, 0.60), on_side, "trim");
 }
@@ -71,7 +70,8 @@ void cut_doors(Surface& s) {
 Surface van() {
   Surface s = half_coach(shape(), "paint", {60, 8, 24, 14});
   for (const double x : {kAxle, -kAxle}) wheel_arch(s, x, kHub, kArch, 0.95, 0.55);
-  cut(s, Seen::from_side, rectangle(-20, 0, 20, 0.30), [](const V3&, const V3&) { return true; }, "underbody");
+  cut(
+      s, Seen::from_side, rectangle(-20, 0, 20, 0.30), [](const V3&, const V3&) { return true; }, "underbody");
   darken_below(s, 0.27);
   cut_glass(s);
   cut_ends(s);

@@ -30,9 +30,11 @@ void ring(Surface& s, const Profile& profile, int n, const std::string& material
 
 Surface wheel(double R, double half, double rim) {
   Surface s;
-  ring(s, {{rim, -0.88 * half}, {R - 0.05, -half}, {R - 0.022, -0.97 * half}, {R - 0.004, -0.80 * half}, {R, -0.5 * half}}, 56, "tyre");
+  ring(s, {{rim, -0.88 * half}, {R - 0.05, -half}, {R - 0.022, -0.97 * half}, {R - 0.004, -0.80 * half}, {R, -0.5 * half}}, 56,
+       "tyre");
   for (const double y : {-0.5, -0.05, 0.40})  // tread with two grooves
-    ring(s, {{R, y * half},
+    ring(s,
+         {{R, y * half},
           {R, (y + 0.38) * half},
           {R - 0.008, (y + 0.385) * half},
           {R - 0.008, (y + 0.445) * half},
@@ -62,14 +64,24 @@ Surface heavy_wheel(double R, double half, double rim, Rim kind) {
   const int n = 64;
   const double width = kind == Rim::twin ? 0.45 * half : half;  // half width of one tyre
   for (const double y : kind == Rim::twin ? std::vector<double>{half - width, width - half} : std::vector<double>{0}) {
-    ring(s, {{rim, y - 0.86 * width}, {rim + 0.05, y - width}, {R - 0.05, y - width}, {R - 0.012, y - 0.88 * width}, {R, y - 0.74 * width}}, n,
-         "tyre");
+    ring(s,
+         {{rim, y - 0.86 * width},
+          {rim + 0.05, y - width},
+          {R - 0.05, y - width},
+          {R - 0.012, y - 0.88 * width},
+          {R, y - 0.74 * width}},
+         n, "tyre");
     for (const double g : {-0.74, -0.34, 0.06, 0.46}) {  // tread with grooves
       const double from = y + g * width, to = y + (g + 0.28) * width, w = 0.12 * width;
       ring(s, {{R, from}, {R, to - 0.0}, {R - 0.014, to + 0.1 * w}, {R - 0.014, to + 0.9 * w}, {R, to + w}}, n, "tyre");
     }
-    ring(s, {{R, y + 0.86 * width}, {R - 0.012, y + 0.92 * width}, {R - 0.05, y + width}, {rim + 0.05, y + width}, {rim, y + 0.86 * width}}, n,
-         "tyre");
+    ring(s,
+         {{R, y + 0.86 * width},
+          {R - 0.012, y + 0.92 * width},
+          {R - 0.05, y + width},
+          {rim + 0.05, y + width},
+          {rim, y + 0.86 * width}},
+         n, "tyre");
   }
   // the front wheel's disc stands out, that of twins lies deep inside
   const double outer = half - 0.14 * width, disc = kind == Rim::twin ? half - 1.9 * width : half - 0.25 * width;
@@ -92,7 +104,10 @@ Surface heavy_wheel(double R, double half, double rim, Rim kind) {
 }
 
 std::vector<Paint> wheel_paints() {
-  return {{"tyre", {0.022, 0.022, 0.024}}, {"rim", {0.55, 0.56, 0.58}}, {"brake_disc", {0.16, 0.15, 0.15}}, {"hub", {0.10, 0.10, 0.105}}};
+  return {{"tyre", {0.022, 0.022, 0.024}},
+          {"rim", {0.55, 0.56, 0.58}},
+          {"brake_disc", {0.16, 0.15, 0.15}},
+          {"hub", {0.10, 0.10, 0.105}}};
 }
 
 }  // namespace assets

@@ -47,7 +47,7 @@ struct Case {
 };
 
 class Rider : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(Cases, Rider, testing::Values(Case{"sedan_cyclist", 1}, Case{"motorcycle_sedan", 1}),
+INSTANTIATE_TEST_SUITE_P(Cases, Rider, testing::Values(Case{"cyclist", 1}, Case{"motorcycle", 1}),
                          [](const auto& p) { return std::string(p.param.file); });
 
 TEST_P(Rider, KeepsItsPoseUntilTheTouchThenLetsGoAndTheMountFallsOver) {
