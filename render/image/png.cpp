@@ -29,6 +29,15 @@ using FilePtr = std::unique_ptr<std::FILE, FileCloser>;
 }
 void ignore(png_structp, png_const_charp) {}
 
+/// A few bytes can announce a gigabyte of pixels. Deflate makes at most 1032 bytes of one (zlib's technical notes).
+void refuse_what_the_file_cannot_hold(png_structp png, png_infop info, const std::filesystem::path& path) {
+  constexpr std::uintmax_t kMost = 1032;
+  std::error_code unknown;
+  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+  const std::uintmax_t rows = std::uintmax_t{png_get_rowbytes(png, info)} * png_get_image_height(png, info);
+  if (!unknown && rows / kMost > size) png_error(png, "the file is too short for a picture of its size");
+}
+
 bool is_opaque(const Image& image) {
   for (std::size_t i = 3; i < image.rgba.size(); i += 4)
     if (image.rgba[i] != 255) return false;
@@ -95,6 +104,7 @@ Image read_png(const std::filesystem::path& path, TextChunks* text) {
     png_set_user_limits(png, kLargest, kLargest);
     png_set_chunk_malloc_max(png, 8u << 20);
     png_read_info(png, info);
+    refuse_what_the_file_cannot_hold(png, info, path);
     png_set_expand(png);
     png_set_scale_16(png);
     png_set_gray_to_rgb(png);

@@ -1,4 +1,12 @@
 // TOML text -> Value. The only file that knows toml++.
+namespace {
+/// The parser finds itself where its authors thought it could not be ("[.a]"); to end the program there is no answer.
+struct ParserLost {};
+void parser_lost() {
+  throw ParserLost();
+}
+}  // namespace
+#define TOML_ASSERT(holds) (static_cast<bool>(holds) ? void() : parser_lost())
 #include <toml++/toml.h>
 
 #include <fmt/format.h>
@@ -53,13 +61,70 @@ Value converted(const toml::node& node, const std::string& file) {
   return out;
 }
 
+constexpr int kDeepestKey = 16;                              // parts; a scene's own keys have five at most
+constexpr std::size_t kLargestFile = std::size_t{16} << 20;  // [byte] a scene is some kB
+
+/// Refuses what the parser cannot stand, outside of strings and remarks: it follows a dotted key of any length until the stack
+/// ends, and is undefined for letters beyond ASCII.
+void check_before_parsing(std::string_view text, const std::string& name) {
+  int line = 1, parts = 0;
+  const auto refuse = [&](const std::string& why) { throw SceneErrors{{fmt::format("{}:{}: not TOML: {}", name, line, why)}}; };
+  std::string_view quotes;  // what ends the string that is open
+  for (std::size_t i = text.starts_with("\xef\xbb\xbf") ? 3 : 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\n') ++line;
+    if (!quotes.empty()) {
+      if (c == '\\' && quotes[0] == '"') {
+        if (i + 1 < text.size() && text[i + 1] != '\n') ++i;
+      } else if (text.substr(i).starts_with(quotes) || (c == '\n' && quotes.size() == 1)) {
+        i += quotes.size() - 1;
+        quotes = {};
+      }
+    } else if (c == '"' || c == '\'') {
+      const bool three = text.substr(i, 3) == std::string(3, c);
+      quotes = c == '"' ? (three ? "\"\"\"" : "\"") : (three ? "'''" : "'");
+      i += quotes.size() - 1;
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    } else if (c == '.') {
+      if (++parts >= kDeepestKey) refuse(fmt::format("a key of more than {} parts; no key of a scene has", kDeepestKey));
+    } else if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) {
+      parts = 0;
+    } else if (static_cast<unsigned char>(c) >= 0x80) {
+      refuse("a letter that is not ASCII; texts stand in quotes");
+    }
+  }
+}
+
+bool loses_parser(std::string_view text) {
+  try {
+    (void)toml::parse(text);
+  } catch (const ParserLost&) {
+    return true;
+  } catch (const toml::parse_error&) {
+  }
+  return false;
+}
+
+/// The line at which the parser is lost: it reads forwards, so what comes before is no matter.
+int line_that_loses_parser(std::string_view text) {
+  std::vector<std::size_t> ends;  // of the lines
+  for (std::size_t at = 0; at < text.size(); at = ends.back()) ends.push_back(std::min(text.find('\n', at), text.size() - 1) + 1);
+  const auto lost =
+      std::partition_point(ends.begin(), ends.end(), [&](std::size_t end) { return !loses_parser(text.substr(0, end)); });
+  return static_cast<int>(lost - ends.begin()) + 1;
+}
+
 }  // namespace
 
 Value parse_text(std::string_view toml_text, const std::string& name) {
+  check_before_parsing(toml_text, name);
   try {
     return converted(toml::parse(toml_text, name), name);
   } catch (const toml::parse_error& error) {
     throw SceneErrors{{fmt::format("{}: not TOML: {}", place_of(error.source(), name).text(), error.description())}};
+  } catch (const ParserLost&) {
+    throw SceneErrors{{fmt::format("{}:{}: not TOML: a key or a value is not whole", name, line_that_loses_parser(toml_text))}};
   }
 }
 
@@ -69,9 +134,14 @@ Value parse_file(const std::filesystem::path& file) {
   if (!in || std::filesystem::is_directory(file, ignored)) {
     throw SceneErrors{{fmt::format("{}: cannot be read as a scene file; check the path and its permissions", file.string())}};
   }
-  std::ostringstream text;
-  text << in.rdbuf();
-  return parse_text(text.str(), file.string());
+  // whatever it is, a disk or an endless device, no more of it is read than a scene can be
+  std::string text;
+  for (char piece[1 << 14]; in.read(piece, sizeof piece) || in.gcount() > 0;) {
+    text.append(piece, static_cast<std::size_t>(in.gcount()));
+    if (text.size() > kLargestFile)
+      throw SceneErrors{{fmt::format("{}: is larger than {} MB, this is no scene file", file.string(), kLargestFile >> 20)}};
+  }
+  return parse_text(text, file.string());
 }
 
 namespace {
@@ -135,6 +205,7 @@ void apply_override(Value& root, const std::string& assignment) {
     throw SceneErrors{{fmt::format("{}: must be path.to.key=value; write --set simulation.step='0.5 ms'", place.text())}};
   }
   const std::vector<std::string> parts = split(assignment.substr(0, equals));
+  if (parts.size() > kDeepestKey) throw SceneErrors{{fmt::format("{}: the key has more than {} parts", place.text(), kDeepestKey)}};
   Value* at = &root;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
     if (at->kind == Value::Kind::array) {

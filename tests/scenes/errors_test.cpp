@@ -23,6 +23,35 @@ TEST(SceneErrorTexts, BrokenToml) {
   EXPECT_EQ(lines[0].substr(0, 25), "case.toml:1:11: not TOML:");
 }
 
+TEST(SceneErrorTexts, KeysTheParserCannotStand) {
+  // each of these once ended the process inside the parser
+  std::string endless;
+  for (int i = 0; i < 100'000; ++i) endless += "a.";
+  EXPECT_THAT(folder().errors("title = \"x.y\"\n" + endless + "a = 1\n"),
+              ElementsAre("case.toml:2: not TOML: a key of more than 16 parts; no key of a scene has"));
+  EXPECT_THAT(folder().errors("title = \"x\"\n\n[.a]\nb = 1\n"),
+              ElementsAre("case.toml:3: not TOML: a key or a value is not whole"));
+  EXPECT_THAT(folder().errors("title = \"\u00b0\" # \u00b0\n\u00b0 = 1\n"),
+              ElementsAre("case.toml:2: not TOML: a letter that is not ASCII; texts stand in quotes"));
+}
+
+TEST(SceneErrorTexts, OrdinaryTomlIsNotHeldForThat) {
+  const std::string text =
+      "\xef\xbb\xbftitle = \"\"\"one. . . . . . . . . . . . . . . . . . . . two\\\n \" \u00b0 three\"\"\"\n"
+      "description = 'a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q.r.s \u00b0' # ................. \u00b0\n"
+      "[simulation]\nstep = \"0.5 ms\"\n";
+  EXPECT_THAT(folder().errors(text + kBall), ElementsAre());
+}
+
+TEST(SceneErrorTexts, EndlessFiles) {
+  try {
+    load("/dev/zero");
+    FAIL() << "a file without end was loaded";
+  } catch (const SceneErrors& error) {
+    EXPECT_THAT(error.lines, ElementsAre("/dev/zero: is larger than 16 MB, this is no scene file"));
+  }
+}
+
 TEST(SceneErrorTexts, MissingFile) {
   try {
     load("no/such/scene.toml");
