@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/divergence.h"
 #include "engine/effects/effect.h"
 #include "engine/recorder.h"
 #include "engine/step.h"
@@ -10,8 +11,7 @@
 namespace engine {
 namespace {
 
-constexpr double kFastest = 2e3;  // [m/s], [rad/s] * 10: nothing in a traffic accident moves like this; the run has diverged
-constexpr int kAskEvery = 100;    // steps between two calls of the caller's progress
+constexpr int kAskEvery = 100;  // steps between two calls of the caller's progress
 
 State initial_state(const Model& model) {
   State state;
@@ -23,26 +23,6 @@ State initial_state(const Model& model) {
   state.broken.assign(model.joints.size(), 0);
   for (const Vehicle& vehicle : model.vehicles) state.wheel_spin.resize(state.wheel_spin.size() + vehicle.wheels.size(), 0);
   return state;
-}
-
-/// The body that moves as nothing can, -1 if all is well.
-int diverged_body(const State& state) {
-  for (std::size_t b = 0; b < state.X_WB.size(); ++b) {
-    const double speed = state.V_WB[b].v.norm() + state.V_WB[b].w.norm() / 10;
-    if (!(speed < kFastest) || !state.X_WB[b].p.allFinite() || !state.X_WB[b].q.coeffs().allFinite()) return static_cast<int>(b);
-  }
-  return -1;
-}
-
-std::string effect_at(const World& world, int body) {
-  double largest = -1;
-  std::string name = "joints";
-  for (const Constraint& c : world.constraints)
-    if ((c.body_a == body || c.body_b == body) && !(c.impulse.norm() <= largest)) {
-      largest = c.impulse.norm();
-      name = world.plan.active[c.effect]->name;
-    }
-  return name;
 }
 
 void describe(const Model& model, const Plan& plan, Recording& recording) {
@@ -75,19 +55,19 @@ Recording simulate(const Model& model, const Plan& plan, const RunOptions& optio
   recording.interval = static_cast<double>(per_snapshot) * h;
   Recorder recorder(world, state);
   recorder.snapshot(world, state, recording);
+  const DivergenceWatch watch(world, state);
   Stepper stepper(world);
   stepper.on_impulses = [&](double time, double duration) { recorder.tally(world, time, duration); };
   for (long k = 0; k < steps; ++k) {
     double left = h;
-    while (left > 1e-9 * h) left -= stepper.advance(world, state, left);
+    while (left > 1e-9 * h && !recording.failure) {
+      left -= stepper.advance(world, state, left);
+      recording.failure = watch.look(world, state);
+    }
+    if (recording.failure) break;
     state.time = static_cast<double>(k + 1) * h;
     ++recording.steps;
     recorder.sample(world, state, recording);
-    if (const int body = diverged_body(state); body >= 0) {
-      recording.failure = Failure{state.time, model.bodies[body].name, effect_at(world, body),
-                                  "the motion left every physical bound: a smaller step or other properties may help"};
-      break;
-    }
     if ((k + 1) % per_snapshot == 0 || k + 1 == steps) {
       recorder.snapshot(world, state, recording);
       if (model.settings.stop_at_rest && recorder.all_at_rest(world, state)) break;

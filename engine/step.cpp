@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/divergence.h"
 #include "engine/effects/effect.h"
 
 namespace engine {
@@ -612,18 +613,23 @@ double Stepper::attempt(World& world, State& state, double h) {
     apply(world, taken);
   }
   const double gap = project_joints(world, X_, V_, force_, result_);
+  const int lost = lost_body(end_);
 
   std::vector<Constraint>& of_step = step_constraints_;
   of_step.swap(world.constraints);
   world.step = world.model.settings.step;
-  find_contacts(world, end_, end_contacts_);
+  if (lost < 0) find_contacts(world, end_, end_contacts_);
   world.constraints.swap(of_step);
   world.step = taken;
-  if (may_halve && (residual > kUnsolved || !acceptable(end_contacts_))) {
+  if (may_halve && (lost >= 0 || residual > kUnsolved || !acceptable(end_contacts_))) {
     ++world.diagnostics.substeps;
     next_step_ = 0.5 * taken;
     assemble_constraints(world, state, next_step_);
     return attempt(world, state, next_step_);
+  }
+  if (lost >= 0) {  // the state stays the last that was one
+    world.failure = failure_of(world, lost, state.time + taken, kNotANumber);
+    return taken;
   }
 
   cuts_ = cut ? cuts_ + 1 : 0;

@@ -41,6 +41,20 @@ TEST(Render, WritesAVideoNamedAfterTheSceneAndSaysSo) {
   EXPECT_FALSE(std::filesystem::exists(folder / "ball.mp4.part"));
 }
 
+TEST(Render, ADivergedRunIsDrawnUpToThere) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  // v = g t passes every bound after 0.2 of the 0.4 s
+  const Result result =
+      run(folder,
+          small({"render", "ball.toml", "-o", "frames", "--set", "simulation.gravity=10000 m/s^2", "--set", "ground.kind=none"}));
+  EXPECT_EQ(result.code, 4);
+  EXPECT_THAT(result.err, HasSubstr("crashreel: the model diverged at 0.20"));
+  EXPECT_THAT(result.err, HasSubstr("body ball, effect gravity"));
+  EXPECT_THAT(files_in(folder / "frames"), testing::IsSupersetOf({"frame_00000.png", "frame_00001.png"}));
+  EXPECT_THAT(files_in(folder / "frames"), testing::SizeIs(testing::Le(3)));
+}
+
 TEST(Render, ASubRangeKeepsTheNumbersAndThePicturesOfTheWholeFilm) {
   const Folder folder;
   folder.write("ball.toml", kBall);

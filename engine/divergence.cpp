@@ -1,0 +1,75 @@
+#include "engine/divergence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/effects/effects.h"
+
+namespace engine {
+namespace {
+
+constexpr double kFastest = 2e3;  // [m/s], [rad/s] * 10: nothing in a traffic accident moves like this
+constexpr double kFall = 1;       // [m] every scene may fall that far: what lies still has no energy to be measured by
+
+double speed_of(const Twist& V) {
+  return V.v.norm() + V.w.norm() / 10;
+}
+
+int fastest_body(const State& state) {
+  int fastest = 0;
+  for (int b = 1; b < static_cast<int>(state.V_WB.size()); ++b)
+    if (speed_of(state.V_WB[b]) > speed_of(state.V_WB[fastest])) fastest = b;
+  return fastest;
+}
+
+double energy_of(const World& world, const State& state) {
+  return kinetic_energy(world.model, state) + potential_energy(world.model, state) + world.spring_energy;
+}
+
+}  // namespace
+
+int lost_body(const State& state) {
+  for (std::size_t b = 0; b < state.X_WB.size(); ++b) {
+    const bool found = state.X_WB[b].p.allFinite() && state.X_WB[b].q.coeffs().allFinite() && state.V_WB[b].v.allFinite() &&
+                       state.V_WB[b].w.allFinite();
+    if (!found) return static_cast<int>(b);
+  }
+  return -1;
+}
+
+Failure failure_of(const World& world, int body, double time, const char* message) {
+  const bool jointed = std::any_of(world.model.joints.begin(), world.model.joints.end(),
+                                   [body](const Joint& j) { return j.parent == body || j.child == body; });
+  const char* effect = jointed ? kJointsEffect.name : kGravityEffect.name;
+  double largest = -1;
+  for (const Constraint& c : world.constraints)
+    if ((c.body_a == body || c.body_b == body) && !(c.impulse.norm() <= largest)) {
+      largest = c.impulse.norm();
+      effect = world.plan.active[c.effect]->name;
+    }
+  return {time, world.model.bodies[body].name, effect, message};
+}
+
+DivergenceWatch::DivergenceWatch(const World& world, const State& state) : initial_(energy_of(world, state)) {
+  scale_ = kinetic_energy(world.model, state) + world.spring_energy;
+  for (const Body& body : world.model.bodies)
+    if (!body.fixed) scale_ += body.mass * world.model.settings.gravity.norm() * kFall;
+}
+
+std::optional<Failure> DivergenceWatch::look(const World& world, const State& state) const {
+  if (world.failure) return world.failure;
+  if (const int body = lost_body(state); body >= 0) return failure_of(world, body, state.time, kNotANumber);
+  if (state.V_WB.empty()) return std::nullopt;
+  const int fastest = fastest_body(state);
+  if (speed_of(state.V_WB[fastest]) > kFastest)
+    return failure_of(world, fastest, state.time,
+                      "the motion left every physical bound: a smaller step or other properties may help");
+  // what springs give back stands in the books as negative dissipation
+  double unexplained = energy_of(world, state) - initial_ - std::max(0.0, world.added);
+  for (const double d : world.dissipated) unexplained += std::min(0.0, d);
+  if (unexplained > scale_)
+    return failure_of(world, fastest, state.time, "the scene gained more energy than it ever had; a smaller step may help");
+  return std::nullopt;
+}
+
+}  // namespace engine
