@@ -29,6 +29,7 @@
 #include "render/figures/figures.h"
 #include "render/painter.h"
 #include "render/video/story.h"
+#include "scenes/loader/builder.h"
 #include "tests/odd_scenes/generator.h"
 
 namespace fs = std::filesystem;
@@ -61,7 +62,7 @@ std::uint64_t now() {
 }
 
 std::vector<odd::Generator::Base> bases() {
-  const fs::path root = CRASHREEL_SOURCE_DIR;
+  const fs::path root = scenes::home_folder();
   std::vector<odd::Generator::Base> out;
   for (const auto& entry : fs::directory_iterator(root / "tests/odd_scenes/bases"))
     // persons under the compliant law take a hundred times as long
