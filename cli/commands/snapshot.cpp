@@ -109,7 +109,7 @@ int snapshot(const SnapshotWish& wish) {
   const fs::path root = wish.folder;
   const std::vector<fs::path> files = find_scenes(root);
   CheckJob job;
-  job.root = fs::is_directory(root) ? root : root.parent_path();
+  job.root = fs::is_directory(root) ? root : root.has_parent_path() ? root.parent_path() : fs::path(".");
   job.report = wish.report;
   job.only = wish.names;
   job.workers = wish.jobs.empty() ? 0 : parse_integer("--jobs", wish.jobs, 1, 256);

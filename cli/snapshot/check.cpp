@@ -138,6 +138,7 @@ std::vector<SceneReport> check_scenes(const std::vector<fs::path>& scenes, const
     int status = 0;
     const pid_t ended = waitpid(-1, &status, 0);
     if (ended < 0 && errno == EINTR) continue;
+    if (ended < 0) throw MachineError(fmt::format("waiting for a process: {}", std::strerror(errno)));
     const auto at = running.find(ended);
     if (at == running.end()) continue;
     const std::size_t scene = at->second.scene;

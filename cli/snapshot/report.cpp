@@ -49,12 +49,15 @@ void count_verdicts(SnapshotReport& report) {
 }
 
 std::string cause_of(const Json& scene) {
-  bool drawn_otherwise = false, off = false;
-  for (const Json& picture : scene["pictures"]) drawn_otherwise |= picture["verdict"] == "different";
+  bool same = false, different = false, off = false;
+  for (const Json& picture : scene["pictures"]) {
+    same |= picture["verdict"] == "same";
+    different |= picture["verdict"] == "different";
+  }
   for (const Json& measure : scene["measures"]) off |= !fine(measure);
-  if (off)
-    return drawn_otherwise ? "measures and pictures changed: look at the physics first" : "measures changed, pictures did not";
-  if (drawn_otherwise && !scene["measures"].empty()) return "every pinned measure holds: look at the drawing first";
+  if (off && different) return "measures and pictures changed: look at the physics first";
+  if (off && same) return "measures changed, pictures did not";
+  if (different && !off && !scene["measures"].empty()) return "every pinned measure holds: look at the drawing first";
   return "";
 }
 
