@@ -84,6 +84,13 @@ struct WheelState {
   bool locked = false;
 };
 
+/// Joints of one leg whose passive torques know each other's angles; -1: has none.
+struct PassiveLeg {
+  int hip = -1;
+  int knees[2] = {-1, -1};
+  int ankle = -1;
+};
+
 /// What a joint's resistance does over one step.
 struct Resistance {
   Vec3 torque_W = Vec3::Zero();  // [N m] on the child at the start of the step, for springs
@@ -124,6 +131,7 @@ struct World {
   std::vector<JointDamper> dampers;        // per joint
   std::vector<Resistance> resistances;     // per joint
   std::vector<char> resistance_in_stages;  // per joint: springs and dampers act in the stages of Runge and Kutta
+  std::vector<PassiveLeg> passive_legs;
   double resistance_power = 0;             // [W] what those take out at the start of the step
   bool any_damper = false;
 

@@ -1,9 +1,10 @@
-// Resistive spring torque, damping and dry friction of the articulation angles, linearly implicit over the step: a light hand on a
-// damped wrist has rates of 1e4 1/s that no explicit scheme holds at 1 ms.
+// Resistive spring torque, damping and dry friction of the articulation angles and the passive torques of legs, linearly implicit
+// over the step: a light hand on a damped wrist has rates of 1e4 1/s that no explicit scheme holds at 1 ms.
 #include <algorithm>
 #include <cmath>
 
 #include "engine/effects/effects.h"
+#include "engine/effects/passive_legs.h"
 #include "engine/solver/joint_angles.h"
 
 namespace engine {
@@ -15,13 +16,14 @@ bool resists(const ArticulationAngle& a) {
   return a.stiffness > 0 || a.damping > 0 || a.friction_torque > 0;
 }
 bool resists(const Joint& joint) {
-  return std::any_of(joint.angles.begin(), joint.angles.end(), [](auto& a) { return resists(a); });
+  return joint.passive != PassiveTorque::none ||
+         std::any_of(joint.angles.begin(), joint.angles.end(), [](auto& a) { return resists(a); });
 }
 
 std::optional<std::string> called_for(const Model& model) {
   const auto count = std::count_if(model.joints.begin(), model.joints.end(), [](const Joint& j) { return resists(j); });
   if (count == 0) return std::nullopt;
-  return std::to_string(count) + " joints have a spring, damping or friction";
+  return std::to_string(count) + " joints have a spring, damping, friction or passive torque";
 }
 
 /// Schemes rk4 and adaptive evaluate springs and dampers anew in each stage, unless the damping is too stiff for an explicit scheme
@@ -36,7 +38,8 @@ bool in_stages(const Model& model, const Joint& joint) {
     if (a.damping * largest_inverse * model.settings.step > kStable ||
         a.stiffness * largest_inverse * model.settings.step * model.settings.step > kStable)
       return false;
-  return true;
+  return joint.passive == PassiveTorque::none ||
+         joint.passive_share * kStiffestPassiveTorque * largest_inverse * model.settings.step * model.settings.step < kStable;
 }
 
 /// Torque of springs and dampers [N m] on the child, world axes.
@@ -55,6 +58,7 @@ void begin(World& world, const State&, int) {
   world.resistance_in_stages.clear();
   for (const Joint& joint : world.model.joints)
     world.resistance_in_stages.push_back(resists(joint) && in_stages(world.model, joint));
+  world.passive_legs = passive_legs(world.model);
 }
 
 void add_forces(const World& world, const std::vector<Pose>& X, const std::vector<Twist>& V, std::vector<Vec6>& force) {
@@ -67,6 +71,13 @@ void add_forces(const World& world, const std::vector<Pose>& X, const std::vecto
     force[joint.child].tail<3>() += torque;
     if (joint.parent >= 0) force[joint.parent].tail<3>() -= torque;
   }
+  for (const PassiveLeg& leg : world.passive_legs)
+    for_passive_joints(world.model, leg, X, [&](int j, const Vec3& g, double torque, double) {
+      const Joint& joint = world.model.joints[j];
+      if (!world.resistance_in_stages[j] || !world.awake[joint.child]) return;
+      force[joint.child].tail<3>() += torque * g;
+      if (joint.parent >= 0) force[joint.parent].tail<3>() -= torque * g;
+    });
 }
 
 /// Power [W] that springs and dampers evaluated in the stages take out now.
@@ -79,6 +90,12 @@ double power_taken(const World& world, const State& state) {
     const Vec3 w_PC = state.V_WB[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : state.V_WB[joint.parent].w);
     power -= smooth_torque(joint, now, w_PC).dot(w_PC);
   }
+  for (const PassiveLeg& leg : world.passive_legs)
+    for_passive_joints(world.model, leg, state.X_WB, [&](int j, const Vec3& g, double torque, double) {
+      const Joint& joint = world.model.joints[j];
+      if (!world.resistance_in_stages[j] || !world.awake[joint.child]) return;
+      power -= torque * g.dot(state.V_WB[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : state.V_WB[joint.parent].w));
+    });
   return power;
 }
 
@@ -120,6 +137,14 @@ void resist(World& world, const State& state, int self) {
     damper.present = true;
     world.any_damper = true;
   }
+  for (const PassiveLeg& leg : world.passive_legs)
+    for_passive_joints(world.model, leg, state.X_WB, [&](int j, const Vec3& g, double torque, double stiffness) {
+      if (world.resistance_in_stages[j] || !world.awake[world.model.joints[j].child]) return;
+      world.dampers[j].matrix += h * h * stiffness * g * g.transpose();
+      world.dampers[j].present = true;
+      world.any_damper = true;
+      world.resistances[j].torque_W += torque * g;
+    });
 }
 
 }  // namespace

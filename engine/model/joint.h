@@ -26,7 +26,9 @@ struct ArticulationAngle {
   double friction_torque = 0;                               // [N m] constant resistance against turning
 };
 
-/// Passive torque inside the range of motion (Riener & Edrich 1999), spec physics section 2.
+/// Passive elastic torque inside the range of motion of a leg's joints (engine/laws/passive_torque.h). It acts about y of the child's
+/// and the parent's body axes, which agree when the leg is straight. Joints of one leg follow each other down the tree; several that
+/// are called knee share its flexion.
 enum class PassiveTorque { none, hip, knee, ankle };
 
 struct Joint {
@@ -38,6 +40,8 @@ struct Joint {
   Pose X_CF;                                // joint frame in the child
   std::array<ArticulationAngle, 3> angles;  // x, y, z as above; a revolute joint uses y only
   PassiveTorque passive = PassiveTorque::none;
+  double passive_share = 1;  // [-] of an adult's torque
+  int flexes_about = 1;      // +1: a turn about +y is flexion (knee), -1: about -y (hip, ankle)
   double breaking_force = std::numeric_limits<double>::infinity();  // [N] a grip or pedal lets go above it; mean over some 10 ms
 };
 

@@ -54,6 +54,9 @@ const Key kJointKeys[] = {
     {"damping", Type::number, Dimension::angular_damping, "0", "Resistance per angular speed.", kNotNegative},
     {"friction_torque", Type::number, Dimension::torque, "0", "Constant resistance.", kNotNegative},
     {"stiffness", Type::number, Dimension::angular_stiffness, "0", "Spring towards the standing pose.", kNotNegative},
+    {"passive", Type::choice, Dimension::none, "'none'", "Elastic torque of a leg's joint at rest (Riener and Edrich 1999).", kAny,
+     "none|hip|knee|ankle"},
+    {"passive_share", Type::number, Dimension::none, "1", "Share of an adult's passive torque.", kNotNegative},
 };
 const Section kJointSectionOfFigure{"figure.joint", "[[joint]] of a person's file", "In a person's library file: one joint.",
                                     kJointKeys};
@@ -146,6 +149,8 @@ void read_joint_of_figure(Reader& r, const Scaling& scale, Figure& figure) {
   j.damping = r.number("damping");
   j.friction_torque = r.number("friction_torque");
   j.stiffness = r.number("stiffness");
+  j.passive = static_cast<engine::PassiveTorque>(r.choice("passive"));
+  j.passive_share = r.number("passive_share");
   const engine::Vec3 at = r.vector("at").cwiseProduct(engine::Vec3{scale.across, scale.across, scale.along});
   const bool sides = r.boolean("sides");
   for (const std::string side : {"left_", "right_"}) {
