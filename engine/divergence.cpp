@@ -9,7 +9,7 @@ namespace engine {
 namespace {
 
 constexpr double kFastest = 2e3;  // [m/s], [rad/s] * 10: nothing in a traffic accident moves like this
-constexpr double kFall = 1;       // [m] every scene may fall that far: what lies still has no energy to be measured by
+constexpr double kFall = 1;  // [m] on earth: what lies still, or floats between loaded springs, has no energy to be measured by
 
 double speed_of(const Twist& V) {
   return V.v.norm() + V.w.norm() / 10;
@@ -53,7 +53,7 @@ Failure failure_of(const World& world, int body, double time, const char* messag
 DivergenceWatch::DivergenceWatch(const World& world, const State& state) : initial_(energy_of(world, state)) {
   scale_ = kinetic_energy(world.model, state) + world.spring_energy;
   for (const Body& body : world.model.bodies)
-    if (!body.fixed) scale_ += body.mass * world.model.settings.gravity.norm() * kFall;
+    if (!body.fixed) scale_ += body.mass * std::max(kGravity, world.model.settings.gravity.norm()) * kFall;
 }
 
 std::optional<Failure> DivergenceWatch::look(const World& world, const State& state) const {
