@@ -5,6 +5,7 @@
 
 #include "scenes/loader/builder.h"
 #include "scenes/loader/mesh.h"
+#include "scenes/loader/mesh_frame.h"
 
 namespace scenes {
 namespace {
@@ -23,6 +24,7 @@ const Key kKeys[] = {
      nullptr,
      "a hyper-ellipsoid needs n >= 2"},
     {"mesh", Type::path, Dimension::none, "", "A mesh file in place of axes; its origin is the centre of mass."},
+    CRASHREEL_MESH_KEYS,
     {"inertia", Type::inertia, Dimension::inertia, "",
      "About the centre of mass in body axes. Left out: that of the even hyper-ellipsoid."},
     {"position", Type::vector3, Dimension::length, "'0 0 0 m'", "Centre of mass at the start."},
@@ -49,7 +51,8 @@ void read_shape(Builder& builder, Reader& r, engine::Body& body) {
   if (axes) {
     body.shape = engine::HyperEllipsoid{*axes, std::max(2.0, r.number("exponent"))};
   } else if (r.has("mesh")) {
-    if (const auto mesh = import_mesh(builder, r, "mesh")) body.shape = engine::MeshShape{mesh->solid, {}};
+    if (const auto mesh = in_frame(builder, import_mesh(builder, r, "mesh"), given_frame(r)))
+      body.shape = engine::MeshShape{mesh->solid, {}};
   }
 }
 
@@ -153,7 +156,8 @@ void read_body(Builder& builder, Reader r) {
   if (const auto* ellipsoid = std::get_if<engine::HyperEllipsoid>(&body.shape)) {
     stage.ellipsoids.push_back({body.name, index, *ellipsoid, material});
   } else if (std::holds_alternative<engine::MeshShape>(body.shape)) {
-    if (const auto mesh = import_mesh(builder, r, "mesh")) stage.meshes.push_back({body.name, index, {}, mesh->look, {}});
+    if (const auto mesh = in_frame(builder, import_mesh(builder, r, "mesh"), given_frame(r)))
+      stage.meshes.push_back({body.name, index, {}, mesh->look, {}});
   }
   if (!body.fixed) stage.speeds.emplace_back(index, body.name);
   builder.scene.model.bodies.push_back(std::move(body));

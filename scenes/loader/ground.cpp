@@ -1,6 +1,7 @@
 // [ground]: the plane, a terrain mesh, or nothing.
 #include "scenes/loader/builder.h"
 #include "scenes/loader/mesh.h"
+#include "scenes/loader/mesh_frame.h"
 
 namespace scenes {
 namespace {
@@ -24,6 +25,7 @@ const Key kKeys[] = {
      "S of the compliant contact law; two surfaces act in series.", kPositive},
     {"patch", Type::tables, Dimension::none, "", "Where the road is wet or icy.", kAny, {}, &kPatchSection},
     {"terrain", Type::path, Dimension::none, "", "A mesh file in world axes (z up), besides or in place of the plane."},
+    CRASHREEL_MESH_KEYS,
 };
 
 }  // namespace
@@ -44,7 +46,7 @@ void read_ground(Builder& builder, std::optional<Reader> reader) {
     ground.patches.push_back({p.cwiseMin(q), p.cwiseMax(q), patch.schedule("friction")});
   }
   if (r.has("terrain")) {
-    if (const auto mesh = import_mesh(builder, r, "terrain")) {
+    if (const auto mesh = in_frame(builder, import_mesh(builder, r, "terrain"), given_frame(r))) {
       ground.terrain = mesh->solid;
       builder.scene.stage.road.terrain = mesh->look;
     }

@@ -6,6 +6,7 @@
 
 #include "scenes/loader/builder.h"
 #include "scenes/loader/mesh.h"
+#include "scenes/loader/mesh_frame.h"
 
 namespace scenes {
 namespace {
@@ -74,6 +75,7 @@ const Key kKeys[] = {
     {"title", Type::text, Dimension::none, "''", "What the library's vehicle is and where its figures come from."},
     {"mesh", Type::path, Dimension::none, "",
      "The bodywork. Mesh frame: x forward, y left, z up, origin on the ground midway between the axles."},
+    CRASHREEL_MESH_KEYS,
     {"collision_mesh", Type::path, Dimension::none, "", "A coarser mesh for contact in the same frame; left out: the bodywork."},
     {"wheel_mesh", Type::path, Dimension::none, "", "One wheel about its centre, axle along y, outside towards +y."},
     {"mass", Type::number, Dimension::mass, "", "Mass with occupants.", kPositive},
@@ -220,10 +222,18 @@ struct Meshes {
   std::vector<std::shared_ptr<const ImportedMesh>> wheels;  // null: not drawn
 };
 
-Meshes read_meshes(Builder& builder, Reader& r) {
+enum class Origin { library, user };
+
+Meshes read_meshes(Builder& builder, Reader& r, Origin origin) {
   Meshes out;
   out.bodywork = import_mesh(builder, r, "mesh");
   out.collision = r.has("collision_mesh") ? import_mesh(builder, r, "collision_mesh") : out.bodywork;
+  if (out.bodywork) {
+    const MeshFrame frame = origin == Origin::user ? vehicle_frame(r, *out.bodywork) : given_frame(r);
+    out.bodywork = in_frame(builder, out.bodywork, frame);
+    out.collision = in_frame(builder, out.collision, frame);
+    if (origin == Origin::user && !r.has("mesh_scale")) check_scale(r, out.bodywork->solid->bounds());
+  }
   const auto wheel = r.has("wheel_mesh") ? import_mesh(builder, r, "wheel_mesh") : nullptr;
   for (Reader& w : r.tables("wheel")) out.wheels.push_back(w.has("mesh") ? import_mesh(builder, w, "mesh") : wheel);
   return out;
@@ -320,9 +330,8 @@ void read_vehicle(Builder& builder, Reader scene) {
   need(r, "cg", "\"0.1 0 0.55 m\"");
   need(r, "inertia", "\"550 2500 2700 kg m^2\"");
   if (builder.errors.count() != errors_before) return;
-  const Meshes meshes = read_meshes(builder, r);
   // the library has its trailers, buses and bicycles; a mesh of the user's is most likely a car
-  if (meshes.bodywork && (scene.has("mesh") || !scene.has("model"))) check_scale(r, meshes.bodywork->solid->bounds());
+  const Meshes meshes = read_meshes(builder, r, scene.has("mesh") || !scene.has("model") ? Origin::user : Origin::library);
 
   engine::Body body;
   body.name = vehicle.name;

@@ -84,6 +84,87 @@ TEST(MeshAudit, WarnsOfScaleAndOfFacesTurnedInwards) {
   EXPECT_THAT(scene.warnings, Contains(HasSubstr("car.obj is inside out")));
 }
 
+/// A wedge like a car: 4.2 m long, 1.8 m wide, 1.4 m high over the ground at 0.2 m; a low bonnet makes it lopsided in height.
+/// Corners pass through `place` into the file.
+template <typename Place>
+std::string wedge(Place place) {
+  std::string out = "usemtl paint\n";
+  for (int i = 0; i < 8; ++i) {
+    const engine::Vec3 p(i & 1 ? 2.1 : -2.1, i & 2 ? 0.9 : -0.9, i & 4 ? (i & 1 ? 0.7 : 1.6) : 0.2);
+    const engine::Vec3 q = place(p);
+    out += "v " + std::to_string(q.x()) + " " + std::to_string(q.y()) + " " + std::to_string(q.z()) + "\n";
+  }
+  const int quads[6][4] = {{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5}, {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}};
+  for (const auto& q : quads) {
+    out += "f";
+    for (const int k : q) out += " " + std::to_string(k);
+    out += "\n";
+  }
+  return out;
+}
+
+engine::Aabb box_of_car(const Scene& scene) {
+  const auto& shape = std::get<engine::MeshShape>(scene.model.bodies[0].shape);
+  engine::Aabb box = shape.mesh->bounds();
+  return box;
+}
+
+void expect_upright(const Scene& scene) {
+  const engine::Aabb box = box_of_car(scene);
+  EXPECT_LT((box.lower - engine::Vec3(-2.1, -0.9, 0.2)).norm(), 0.03);
+  EXPECT_LT((box.upper - engine::Vec3(2.1, 0.9, 1.6)).norm(), 0.03);
+  // the low end is in front: seen along x, the highest point lies behind the middle
+  const auto& mesh = *std::get<engine::MeshShape>(scene.model.bodies[0].shape).mesh;
+  for (const engine::Vec3& v : mesh.vertices()) EXPECT_TRUE(v.z() < 1.5 || v.x() < 0);
+}
+
+TEST(MeshFrame, IsTakenFromTheKeys) {
+  const SceneFolder folder;
+  // millimetres, y up, z forward, origin at the front bumper on the ground
+  folder.write("car.obj",
+               wedge([](const engine::Vec3& p) { return engine::Vec3(1000 * p.y(), 1000 * p.z(), 1000 * (p.x() - 2.1)); }));
+  const Scene scene =
+      folder.load(kCar + "mesh_scale = 0.001\nmesh_up = \"y\"\nmesh_forward = \"z\"\nmesh_centre = \"-2.1 0 0 m\"\n");
+  EXPECT_THAT(scene.warnings, IsEmpty());
+  expect_upright(scene);
+}
+
+TEST(MeshFrame, IsInferredWithAWarningEach) {
+  const SceneFolder folder;
+  folder.write("car.obj", wedge([](const engine::Vec3& p) { return engine::Vec3(100 * p.y(), 100 * p.z(), 100 * (p.x() - 2.1)); }));
+  const Scene scene = folder.load(kCar);
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("taken to be in centimetres; write mesh_scale = 0.01")));
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("write mesh_up = \"y\" and mesh_forward = \"z\"")));
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("write mesh_centre = \"-2.1 0 0 m\"")));
+  expect_upright(scene);
+}
+
+TEST(MeshFrame, InInchesWithYUpAlongX) {
+  const SceneFolder folder;
+  // y up and x forward: left is -z
+  folder.write("car.obj",
+               wedge([](const engine::Vec3& p) { return engine::Vec3(p.x() / 0.0254, p.z() / 0.0254, -p.y() / 0.0254); }));
+  const Scene scene = folder.load(kCar);
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("taken to be in inches")));
+  expect_upright(scene);
+}
+
+TEST(MeshFrame, NeedsTwoAxes) {
+  const SceneFolder folder;
+  folder.write("car.obj", box(4));
+  EXPECT_THAT(folder.errors(kCar + "mesh_up = \"x\"\nmesh_forward = \"-x\"\n"),
+              ::testing::ElementsAre(HasSubstr("must be another axis than mesh_up")));
+}
+
+TEST(MeshFrame, HoldsForBodiesToo) {
+  const SceneFolder folder;
+  folder.write("block.obj", box(400));
+  const Scene scene = folder.load(
+      "[[body]]\nname = \"block\"\nmesh = \"block.obj\"\nfixed = true\nmesh_scale = 0.01\nmesh_centre = \"0 0 0.7 cm\"\n");
+  const engine::Aabb box = box_of_car(scene);
+  EXPECT_LT((box.upper - engine::Vec3(2, 0.009, 0.007)).norm(), 1e-6);
+}
+
 TEST(MeshAudit, CountsDegenerateAndDuplicateTriangles) {
   RawPart part;
   part.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0};
