@@ -169,10 +169,12 @@ struct Dimension {
 enum class ContactColour { time, impulse };
 
 struct Overlays {
-  bool contacts = true;             // point and normal
-  bool forces = true;               // arrows, length by force
-  bool caption = true;              // time, speeds, camera
-  bool traces = false;              // path of head and hips
+  bool contacts = true;        // point and normal
+  bool forces = true;          // arrows, length by force
+  bool caption = true;         // time, speeds, camera
+  bool traces = false;         // path of head and hips
+  bool vehicle_paths = false;  // on the ground
+  bool wheel_traces = false;
   bool disclaimer = true;           // "simulation, not footage", provenance
   bool scale_bar = true;            // top cameras
   double newtons_per_metre = 10e3;  // [N/m] arrow length scale
@@ -196,6 +198,7 @@ struct Stage {
   std::vector<EllipsoidActor> ellipsoids;
   std::vector<MeshActor> meshes;
   std::vector<WheelActor> wheels;
+  std::vector<int> vehicles;  // body of each, in the order of the recording
   std::vector<PersonActor> persons;
   RoadLook road;
   SkyLook sky;

@@ -32,6 +32,7 @@ struct Figure {
 constexpr Figure kFigures[] = {{"site_diagram", render::site_diagram},
                                {"contact_map", render::contact_map},
                                {"time_histories", render::time_histories},
+                               {"vehicle_histories", render::vehicle_histories},
                                {"stroboscopic", render::stroboscopic_still},
                                {"contact_sheet", render::contact_sheet}};
 

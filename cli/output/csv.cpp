@@ -18,6 +18,25 @@ std::string field(const std::string& text) {
   return quoted + '"';
 }
 
+/// How far a body has come, and how its speed changes: of the interval that ends at a row.
+struct Progress {
+  double speed = 0;         // [m/s]
+  double distance = 0;      // [m] along its path
+  double acceleration = 0;  // [m/s^2] rate of the speed: a brake's is negative, an impact's its mean over the interval
+  double time = 0;
+  engine::Vec3 at = engine::Vec3::Zero();
+  bool begun = false;
+
+  void go_on(double now, const engine::Vec3& p, double speed_now) {
+    if (begun && now > time) {
+      distance += (p - at).norm();
+      acceleration = (speed_now - speed) / (now - time);
+    }
+    begun = true;
+    speed = speed_now, time = now, at = p;
+  }
+};
+
 }  // namespace
 
 std::string body_name(const engine::Recording& recording, int body) {
@@ -25,15 +44,20 @@ std::string body_name(const engine::Recording& recording, int body) {
 }
 
 void write_trajectory(const engine::Recording& recording, WholeFile& file) {
-  file.write("time_s,body,x_m,y_m,z_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,wx_radps,wy_radps,wz_radps\n");
+  file.write(
+      "time_s,body,x_m,y_m,z_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,wx_radps,wy_radps,wz_radps,speed_mps,distance_m,acceleration_"
+      "mps2\n");
   fmt::memory_buffer rows;
+  std::vector<Progress> bodies(recording.body_names.size());
   for (const engine::Snapshot& snapshot : recording.snapshots) {
     rows.clear();
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
       const auto& [X_WB, V_WB] = snapshot.bodies[i];
-      fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", snapshot.time,
+      bodies[i].go_on(snapshot.time, X_WB.p, V_WB.v.norm());
+      fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", snapshot.time,
                      field(recording.body_names[i]), X_WB.p.x(), X_WB.p.y(), X_WB.p.z(), X_WB.q.w(), X_WB.q.x(), X_WB.q.y(),
-                     X_WB.q.z(), V_WB.v.x(), V_WB.v.y(), V_WB.v.z(), V_WB.w.x(), V_WB.w.y(), V_WB.w.z());
+                     X_WB.q.z(), V_WB.v.x(), V_WB.v.y(), V_WB.v.z(), V_WB.w.x(), V_WB.w.y(), V_WB.w.z(), bodies[i].speed,
+                     bodies[i].distance, bodies[i].acceleration);
     }
     file.write({rows.data(), rows.size()});
   }

@@ -37,6 +37,7 @@ struct FigureJob {
 /// Each returns the files it wrote: none where the run has nothing to show. Throws RenderError.
 std::vector<std::string> site_diagram(const Stage&, const engine::Recording&, const FigureJob&);
 std::vector<std::string> contact_map(const Stage&, const engine::Recording&, const FigureJob&);
+std::vector<std::string> vehicle_histories(const Stage&, const engine::Recording&, const FigureJob&);
 std::vector<std::string> time_histories(const Stage&, const engine::Recording&, const FigureJob&);
 std::vector<std::string> stroboscopic_still(const Stage&, const engine::Recording&, const FigureJob&);
 std::vector<std::string> contact_sheet(const Stage&, const engine::Recording&, const FigureJob&);

@@ -82,6 +82,40 @@ Panel energies(const engine::Recording& recording) {
   return panel;
 }
 
+/// Curves of every vehicle; what is asked of it follows from its snapshots so far.
+template <typename Value>
+Panel of_vehicles(const std::string& title, const Stage& stage, const engine::Recording& recording, Value value) {
+  Panel panel{title, {}};
+  for (const int body : stage.vehicles) {
+    const engine::Snapshot* before = nullptr;
+    double last = 0;
+    panel.curves.push_back(curve(recording.body_names[static_cast<std::size_t>(body)], recording,
+                                 [&, b = static_cast<std::size_t>(body)](const engine::Snapshot& s) {
+                                   if (before) last = value(before->bodies[b], s.bodies[b], s.time - before->time, last);
+                                   before = &s;
+                                   return last;
+                                 }));
+  }
+  return panel;
+}
+
+Panel distances(const Stage& stage, const engine::Recording& recording) {
+  return of_vehicles("distance, m", stage, recording, [](const auto& from, const auto& to, double, double so_far) {
+    return so_far + (to.X_WB.p - from.X_WB.p).norm();
+  });
+}
+
+constexpr double kPedals = 15;  // [m/s^2] more than tyres can do: impacts leave the panel
+
+Panel accelerations(const Stage& stage, const engine::Recording& recording) {
+  Panel panel = of_vehicles("acceleration, m/s^2", stage, recording, [](const auto& from, const auto& to, double dt, double last) {
+    return dt > 0 ? (to.V_WB.v.norm() - from.V_WB.v.norm()) / dt : last;
+  });
+  for (Curve& k : panel.curves)
+    for (double& v : k.values) v = std::clamp(v, -kPedals, kPedals);
+  return panel;
+}
+
 /// Distance between the numbers of an axis: 1, 2 or 5 times a power of ten, six numbers at most.
 double spacing(double range) {
   const double least = std::max(range, 1e-9) / 6, power = std::pow(10, std::floor(std::log10(least)));
@@ -91,19 +125,19 @@ double spacing(double range) {
 }
 
 struct Box {
-  double top, bottom, end, ceiling;
+  double top, bottom, end, ceiling, floor = 0;
   double x(double t) const { return kLeft + (kRight - kLeft) * t / end; }
-  double y(double v) const { return bottom - (bottom - top) * v / ceiling; }
+  double y(double v) const { return bottom - (bottom - top) * (v - floor) / (ceiling - floor); }
 };
 
 void draw_axes(cairo_t* c, const Panel& panel, const Box& box, bool last) {
   cairo_set_line_width(c, 0.12);
-  const double dv = spacing(box.ceiling), dt = spacing(box.end);
-  for (double v = 0; v <= box.ceiling * (1 + 1e-9); v += dv) {
+  const double dv = spacing(box.ceiling - box.floor), dt = spacing(box.end);
+  for (double v = box.floor; v <= box.ceiling + 1e-9 * dv; v += dv) {
     grey(c, 0.8);
     draw_line(c, kLeft, box.y(v), kRight, box.y(v));
     grey(c, 0);
-    draw_text(c, kLeft - 2, box.y(v) + 1, fmt::format("{:g}", v), 2.8, Align::right);
+    draw_text(c, kLeft - 2, box.y(v) + 1, fmt::format("{:g}", std::round(v / dv) * dv), 2.8, Align::right);
   }
   for (double t = 0; t <= box.end * (1 + 1e-9); t += dt) {
     grey(c, 0.8);
@@ -128,7 +162,7 @@ void draw_panel(cairo_t* c, const Panel& panel, const Box& box, const engine::Re
     cairo_set_line_width(c, i % 2 == 0 ? 0.45 : 0.35);
     set_dashes(c, style);
     for (std::size_t k = 0; k < panel.curves[i].values.size(); ++k)
-      cairo_line_to(c, box.x(recording.snapshots[k].time), box.y(panel.curves[i].values[k]));
+      cairo_line_to(c, box.x(recording.snapshots[k].time), box.y(std::clamp(panel.curves[i].values[k], box.floor, box.ceiling)));
     cairo_stroke(c);
     draw_line(c, kRight + 5, key - 1, kRight + 17, key - 1);
     set_dashes(c, 0);
@@ -163,29 +197,47 @@ void draw_events(cairo_t* c, const engine::Recording& recording, double end, dou
   }
 }
 
-}  // namespace
+double extreme(const Panel& panel, double sign) {
+  double out = 0;
+  for (const Curve& k : panel.curves)
+    for (const double v : k.values) out = std::max(out, sign * v);
+  return out;
+}
 
-std::vector<std::string> time_histories(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
-  std::vector<Panel> panels{speeds(stage, recording, job), impulses(recording), energies(recording)};
-  std::erase_if(panels, [](const Panel& p) {
-    return std::all_of(p.curves.begin(), p.curves.end(),
-                       [](const Curve& k) { return *std::max_element(k.values.begin(), k.values.end()) <= 0; });
-  });
+std::vector<std::string> sheet_of(std::vector<Panel> panels, const std::string& file, const std::string& heading,
+                                  const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
+  std::erase_if(panels, [](const Panel& p) { return extreme(p, 1) <= 0 && extreme(p, -1) <= 0; });
   const double end = recording.end_time();
   if (panels.empty() || end <= 0) return {};
-  return write_sheets(job.folder, "time_histories", "Time histories: " + stage.title, [&](cairo_t* c) {
-    draw_frame_of_sheet(c, stage, "Time histories");
+  return write_sheets(job.folder, file, heading + ": " + stage.title, [&](cairo_t* c) {
+    draw_frame_of_sheet(c, stage, heading);
     const double height = (kBottom - kTop - kGap * static_cast<double>(panels.size() - 1)) / static_cast<double>(panels.size());
     for (std::size_t i = 0; i < panels.size(); ++i) {
-      double highest = 0;
-      for (const Curve& k : panels[i].curves) highest = std::max(highest, *std::max_element(k.values.begin(), k.values.end()));
-      const double step = spacing(highest), top = kTop + static_cast<double>(i) * (height + kGap);
-      draw_panel(c, panels[i], {top, top + height, end, std::ceil(highest / step - 1e-9) * step}, recording,
-                 i + 1 == panels.size());
+      const double highest = extreme(panels[i], 1), deepest = extreme(panels[i], -1);
+      const double step = spacing(highest + deepest), top = kTop + static_cast<double>(i) * (height + kGap);
+      draw_panel(c, panels[i],
+                 {top, top + height, end, std::ceil(highest / step - 1e-9) * step, -std::ceil(deepest / step - 1e-9) * step},
+                 recording, i + 1 == panels.size());
     }
     const double key = kTop + 3 + 5 * static_cast<double>(panels[0].curves.size()) + 4;
     draw_events(c, recording, end, key, (panels.size() > 1 ? kTop + height + kGap : kBottom) - 2);
   });
+}
+
+}  // namespace
+
+std::vector<std::string> time_histories(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
+  return sheet_of({speeds(stage, recording, job), impulses(recording), energies(recording)}, "time_histories", "Time histories",
+                  stage, recording, job);
+}
+
+std::vector<std::string> vehicle_histories(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
+  Panel speed = of_vehicles("speed, km/h", stage, recording,
+                            [](const auto&, const auto& to, double, double) { return 3.6 * to.V_WB.v.norm(); });
+  for (Curve& k : speed.curves)
+    if (k.values.size() > 1) k.values[0] = k.values[1];
+  return sheet_of({std::move(speed), distances(stage, recording), accelerations(stage, recording)}, "vehicle_histories",
+                  "Vehicles over time", stage, recording, job);
 }
 
 }  // namespace render

@@ -44,6 +44,8 @@ extern const Overlay kDimensions;
 extern const Overlay kLegend;
 extern const Overlay kCharts;
 extern const Overlay kTraces;
+extern const Overlay kVehiclePaths;
+extern const Overlay kWheelTraces;
 extern const Overlay kContacts;
 extern const Overlay kForces;
 extern const Overlay kImpulse;

@@ -30,10 +30,10 @@ void add(const Frame& frame, DrawList& list) {
       }
       const Vec3 at = wheel.contact;
       if (open && (at - last).head<2>().norm() < 0.03) continue;
-      Vec3 along = open ? Vec3(at - last) : Vec3(s.bodies.empty() ? Vec3::UnitX() : s.bodies[0].V_WB.v);
-      along.z() = 0;
-      if (along.norm() < 1e-6) along = Vec3::UnitX();
+      // the first point of a mark waits for the second to know which way it runs
+      const Vec3 along = open ? Vec3(at - last) : Vec3::UnitX();
       const Vec3 side = kHalfWidth * Vec3(-along.y(), along.x(), 0).normalized();
+      if (strip.left.size() == 1) strip.left[0] = to_float(last + side), strip.right[0] = to_float(last - side);
       strip.left.push_back(to_float(at + side));
       strip.right.push_back(to_float(at - side));
       strip.darkness.push_back(static_cast<float>(std::min(0.62, 0.25 + wheel.slip * 0.06)));

@@ -7,8 +7,9 @@ namespace render {
 
 std::span<const Overlay* const> overlay_table() {
   // labels placed first keep their place: caption and scale before the labels that may move aside
-  static constexpr std::array kTable{&kSkidMarks, &kGhosts, &kTraces,   &kContactHistory, &kContacts,   &kCaption, &kDisclaimer,
-                                     &kCharts,    &kLegend, &kScaleBar, &kDimensions,     &kVelocities, &kForces,  &kImpulse};
+  static constexpr std::array kTable{&kSkidMarks,  &kWheelTraces, &kVehiclePaths, &kGhosts, &kTraces, &kContactHistory,
+                                     &kContacts,   &kCaption,     &kDisclaimer,   &kCharts, &kLegend, &kScaleBar,
+                                     &kDimensions, &kVelocities,  &kForces,       &kImpulse};
   return kTable;
 }
 

@@ -78,6 +78,9 @@ const Key kOverlayKeys[] = {
     {"forces", Type::boolean, Dimension::none, "true", "Arrows, long by force."},
     {"caption", Type::boolean, Dimension::none, "true", "Time, speeds, camera."},
     {"traces", Type::boolean, Dimension::none, "false", "Paths of the bodies in trace_bodies."},
+    {"vehicle_paths", Type::boolean, Dimension::none, "false", "The way of each vehicle, on the ground."},
+    {"wheel_traces", Type::boolean, Dimension::none, "false",
+     "Where each wheel rolled. (Skid marks, where tyres slid, are always drawn.)"},
     {"trace_bodies", Type::texts, Dimension::none, "[]", "Bodies whose paths are drawn; empty: head and hips of every person."},
     {"disclaimer", Type::boolean, Dimension::none, "true", "\"Simulation, not footage\" and the provenance at the foot."},
     {"scale_bar", Type::boolean, Dimension::none, "true", "A bar of metres in top views."},
@@ -249,6 +252,8 @@ void read_overlays(Builder& builder, Reader r) {
   o.forces = r.boolean("forces");
   o.caption = r.boolean("caption");
   o.traces = r.boolean("traces");
+  o.vehicle_paths = r.boolean("vehicle_paths");
+  o.wheel_traces = r.boolean("wheel_traces");
   o.disclaimer = r.boolean("disclaimer");
   o.scale_bar = r.boolean("scale_bar");
   o.newtons_per_metre = r.number("force_scale");

@@ -256,6 +256,7 @@ void add_actors(Builder& builder, Reader& r, const engine::Vehicle& vehicle, con
                             vehicle.wheels[i].hub_B.y() > 0, meshes.wheels[i]->look});
   }
   stage.speeds.emplace_back(vehicle.body, vehicle.name);
+  stage.vehicles.push_back(vehicle.body);
 }
 
 /// Where the mesh frame stands in the world.

@@ -13,11 +13,11 @@ namespace {
 
 const std::string kFlagship = std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/sedan_pedestrian_40kmh.toml";
 
-TEST(Figure, OfAStruckPersonIsFiveFiguresEachWhole) {
+TEST(Figure, OfAStruckPersonIsSixFiguresEachWhole) {
   const Folder folder;
   const Result result = run(folder, {"figure", kFlagship, "-o", "fig", "--size", "480x270", "--quality", "draft", "--quiet"});
   ASSERT_EQ(result.code, 0) << result.err;
-  for (const std::string name : {"site_diagram", "contact_map", "time_histories"}) {
+  for (const std::string name : {"site_diagram", "contact_map", "time_histories", "vehicle_histories"}) {
     const std::string pdf = contents(folder / ("fig/" + name + ".pdf")), svg = contents(folder / ("fig/" + name + ".svg"));
     EXPECT_EQ(pdf.substr(0, 5), "%PDF-") << name;
     EXPECT_THAT(pdf.substr(pdf.size() - 8), HasSubstr("%%EOF")) << name;

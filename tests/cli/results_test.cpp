@@ -75,7 +75,8 @@ TEST(Simulate, WritesTheThreeFilesWithTheColumnsOfTheContract) {
   const Result result = run(folder, {"simulate", "ball.toml", "-o", "out"});
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(first_line(contents(folder / "out/trajectory.csv")),
-            "time_s,body,x_m,y_m,z_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,wx_radps,wy_radps,wz_radps");
+            "time_s,body,x_m,y_m,z_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,wx_radps,wy_radps,wz_radps,speed_mps,distance_m,"
+            "acceleration_mps2");
   EXPECT_EQ(first_line(contents(folder / "out/contacts.csv")),
             "time_s,kind,body_a,body_b,x_m,y_m,z_m,nx,ny,nz,depth_m,normal_force_N,tangential_force_N,normal_impulse_Ns,"
             "tangential_impulse_Ns,slip_mps,state");
@@ -83,6 +84,21 @@ TEST(Simulate, WritesTheThreeFilesWithTheColumnsOfTheContract) {
   for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) files.push_back(entry.path().filename().string());
   EXPECT_THAT(files, testing::UnorderedElementsAre("trajectory.csv", "contacts.csv", "summary.json"));
   EXPECT_THAT(result.err, IsEmpty()) << "nothing to warn of, too short for progress";
+}
+
+TEST(Simulate, TellsSpeedDistanceAndAccelerationOfABrakingCar) {
+  const Folder folder;
+  folder.write("car.toml",
+               "[simulation]\nduration = \"1.5 s\"\n[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\nspeed = \"20 m/s\"\n"
+               "[[vehicle.driver]]\nfrom = \"0.5 s\"\nbuild_up = \"0 s\"\nlevel = \"5 m/s^2\"\n");
+  ASSERT_EQ(run(folder, {"simulate", "car.toml", "-o", "out", "--quiet"}).code, 0);
+  const std::vector<Row> rows = rows_of(contents(folder / "out/trajectory.csv"));
+  const Row& last = rows.back();
+  // pitching moves the centre of mass by some millimetres and swings it by some per cent of the deceleration
+  EXPECT_NEAR(number(last.at("speed_mps")), 20 - 5, 0.02);
+  EXPECT_NEAR(number(last.at("distance_m")), 20 * 1.5 - 0.5 * 5, 0.02);
+  EXPECT_NEAR(number(last.at("acceleration_mps2")), -5, 0.25);
+  EXPECT_NEAR(number(rows[rows.size() / 5].at("acceleration_mps2")), 0, 1e-6);
 }
 
 TEST(Simulate, TrajectoryHoldsEveryInstantFromTheSceneToItsEnd) {
