@@ -11,6 +11,7 @@
 namespace engine {
 namespace {
 
+constexpr double kSteep = 0.5;      // [-] cosine in plan below which a settled normal says little about left and right
 constexpr double kSecondary = 0.1;  // [m/s] bodies that lie against each other and close slower have no further impact
 
 bool jointed(const Model& model, int a, int b) {
@@ -121,8 +122,10 @@ void exchange(World& world, State& state, ImpactPair& pair, const MeshOverlap& o
   const bool first = pair.exchanges == 0;
   const Vec3 point = first ? pair.settings.point_W.value_or(overlap.centroid) : overlap.centroid;
   Vec3 normal = first ? pair.settings.normal_W.value_or(overlap.normal_W) : overlap.normal_W;
-  if (normal.dot(overlap.normal_W) < 0) normal = -normal;
   const Vec3 u = velocity_at(state, pair.a, point) - velocity_at(state, pair.b, point);
+  // a settled normal has either sign: that of the overlap's, which is seen in plan; where it is steeper than that, the closing one
+  const double along = normal.dot(overlap.normal_W);
+  if (std::abs(along) > kSteep ? along < 0 : normal.dot(u) > 0) normal = -normal;
   if (u.dot(normal) > (first ? 0 : -kSecondary)) return;
 
   const SurfaceProperties& A = world.model.bodies[pair.a].surface;
@@ -154,9 +157,12 @@ void before_step(World& world, State& state, int self) {
       continue;
     }
     const auto overlap = overlap_now(world, state, pair);
-    if (overlap && pair.touching) exchange(world, state, pair, *overlap, self);
+    if (overlap && !pair.touching) pair.due = state.time + pair.settings.penetration_time;
     pair.touching = overlap.has_value();
-    if (overlap) pair.due = state.time + pair.settings.penetration_time;
+    if (!overlap || state.time + 0.5 * world.step < pair.due) continue;
+    exchange(world, state, pair, *overlap, self);
+    const double t_P = pair.settings.penetration_time;
+    pair.due = state.time + (t_P > 0 ? t_P : ImpactSettings{}.penetration_time);
   }
 }
 

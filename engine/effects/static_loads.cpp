@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include "engine/effects/driver.h"
+
 namespace engine {
 namespace {
 
@@ -20,13 +22,50 @@ Eigen::Vector3d push_at(const Vec3& p) {
   return {1, p.y(), -p.x()};
 }
 
+/// Mean height of the places where a tree's wheels stand.
+double ground_under(const Model& model, const Topology& topology, int tree) {
+  double sum = 0;
+  int count = 0;
+  for (const Vehicle& vehicle : model.vehicles)
+    for (const Wheel& wheel : vehicle.wheels) {
+      if (topology.tree_of_body[vehicle.body] != tree) continue;
+      sum += (model.bodies[vehicle.body].X_WB * wheel.hub_B).z() - wheel.radius;
+      ++count;
+    }
+  return count > 0 ? sum / count : model.ground.height;
+}
+
+/// Gravity as a tree feels it that stands or rolls: on a slope its brakes hold it from the start, or it gathers speed along its
+/// heading and what pulls it that way moves no load.
+Vec3 felt_gravity(const Model& model, const Topology& topology, int tree) {
+  const Vec3 g = model.settings.gravity;
+  Vec3 heading = Vec3::Zero();
+  double mass = 0, brakes = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (topology.tree_of_body[b] == tree && !model.bodies[b].fixed) mass += model.bodies[b].mass;
+  for (const Vehicle& vehicle : model.vehicles) {
+    if (topology.tree_of_body[vehicle.body] != tree) continue;
+    if (heading.isZero()) heading = (model.bodies[vehicle.body].X_WB.q * Vec3::UnitX()).cwiseProduct(Vec3(1, 1, 0));
+    for (int w = 0; w < static_cast<int>(vehicle.wheels.size()); ++w) brakes += brake_of(vehicle, w, 0);
+  }
+  if (heading.norm() < 1e-6) return g;
+  heading.normalize();
+  const double pull = g.dot(heading);
+  return brakes >= std::abs(mass * pull) ? g : Vec3(g - pull * heading);
+}
+
+/// What wheels must give against a force at p, tangential forces acting at the height of the ground.
+Eigen::Vector3d needed(const Vec3& force, const Vec3& p, double ground) {
+  const double z = p.z() - ground;
+  return -Eigen::Vector3d(force.z(), p.y() * force.z() - z * force.y(), z * force.x() - p.x() * force.z());
+}
+
 }  // namespace
 
 std::vector<double> static_wheel_loads(const Model& model, const Topology& topology) {
   std::size_t wheels = 0;
   for (const Vehicle& vehicle : model.vehicles) wheels += vehicle.wheels.size();
   std::vector<double> loads(wheels, 0);
-  const double g = model.settings.gravity.norm();
   for (int tree = 0; tree < static_cast<int>(topology.trees.size()); ++tree) {
     std::vector<Unknown> unknowns;
     std::vector<std::size_t> wheel_of;
@@ -53,7 +92,10 @@ std::vector<double> static_wheel_loads(const Model& model, const Topology& topol
     for (int l = range.begin; l < range.end; ++l) row.emplace(topology.links[l].body, 3 * (l - range.begin));
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(3 * (range.end - range.begin), static_cast<Eigen::Index>(unknowns.size()));
     Eigen::VectorXd b = Eigen::VectorXd::Zero(A.rows());
-    for (const auto& [body, first] : row) b.segment<3>(first) = model.bodies[body].mass * g * push_at(model.bodies[body].X_WB.p);
+    const Vec3 g = felt_gravity(model, topology, tree);
+    const double ground = ground_under(model, topology, tree);
+    for (const auto& [body, first] : row)
+      b.segment<3>(first) = needed(model.bodies[body].mass * g, model.bodies[body].X_WB.p, ground);
     for (Eigen::Index k = 0; k < A.cols(); ++k) {
       const Unknown& u = unknowns[static_cast<std::size_t>(k)];
       A.block<3, 1>(row.at(u.body_up), k) += u.weight * u.wrench;

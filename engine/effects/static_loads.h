@@ -1,4 +1,4 @@
-// Loads of the wheels of vehicles at rest on level ground, couplings included.
+// Loads of the wheels of vehicles at rest, couplings included; on a slope too, held by their brakes or rolling.
 #pragma once
 
 #include <vector>

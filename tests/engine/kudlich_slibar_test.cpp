@@ -145,6 +145,44 @@ TEST(Overlap, OfTwoBlocksIsTheirCommonBlock) {
   EXPECT_LT((turned->normal_W + got->normal_W).norm(), 1e-12) << "swapped bodies have the opposite normal";
 }
 
+TEST(KudlichSlibarRun, GivesThePublishedNumbersHoweverTheWorldIsTurnedAndTheBodiesOrdered) {
+  // both bodies stand in each other when the run begins, and no time passes from touch to exchange: the levers are the published
+  // ones
+  for (const Published& want : kPublished)
+    for (const Mat3& R : rotations())
+      for (const bool swapped : {false, true}) {
+        Model model = free_space(1e-3);
+        model.settings.record_interval = 1e-3;
+        Body car = inert(kMass1, kInertia1, {0, 0, 0}), barrier = inert(kMass2, kInertia2, R * (kLever1 - kLever2));
+        car.name = "car";
+        barrier.name = "barrier";
+        car.shape = MeshShape{block({2.3, 0.9, 0.5}), {}};
+        barrier.shape = MeshShape{block({1.5, 3, 1}), {}};
+        car.V_WB.v = R * kVelocity1;
+        for (Body* body : {&car, &barrier}) {
+          body->X_WB.q = Quat(R);
+          body->collision_model = CollisionModel::kudlich_slibar;
+        }
+        model.bodies = swapped ? std::vector<Body>{barrier, car} : std::vector<Body>{car, barrier};
+        ImpactSettings settled;
+        settled.body_a = 0;
+        settled.body_b = 1;
+        settled.penetration_time = 0;
+        settled.point_W = R * kLever1;
+        settled.normal_W = R * kNormal;
+        settled.friction = want.mu;
+        settled.restitution = 0;
+        model.impacts.push_back(settled);
+        const Recording run = simulate(model);
+        const Twist& V = run.snapshots.back().bodies[swapped ? 1 : 0].V_WB;
+        const Vec3 dv = R.transpose() * V.v - kVelocity1, w = R.transpose() * V.w;
+        EXPECT_LT((dv - want.dv).cwiseAbs().maxCoeff(), 1e-6 * want.dv.norm());
+        EXPECT_NEAR(w.z() * 180 / std::numbers::pi, want.dw_z_deg, 1e-6 * want.dw_z_deg);
+        const double lost = run.snapshots.front().energies.kinetic - run.snapshots.back().energies.kinetic;
+        EXPECT_NEAR(lost, want.energy, 1e-6 * want.energy);
+      }
+}
+
 TEST(KudlichSlibarRun, InLineCollisionSharesMomentumAfterThePenetrationTime) {
   // equal masses, e = 0.1: the struck car leaves with (1 + e)/2 of the closing speed, the other with (1 - e)/2
   Model model = free_space(0.2);

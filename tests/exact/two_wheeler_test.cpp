@@ -41,6 +41,19 @@ TEST(BreakableJoint, HoldsAWeightBelowItsStrengthAndDropsOneAboveIt) {
   EXPECT_LT(drops.snapshots.back().bodies[0].X_WB.p.z(), -0.9);  // free fall since 4.6 forgetting times of 10 ms
 }
 
+TEST(GripsAndPedals, HoldWithTheForceTheSceneSets) {
+  const std::string scene = std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/cyclist.toml";
+  const auto run_with = [&](const std::string& grip, const std::string& pedal, const std::string& seat) {
+    return engine::simulate(scenes::load(scene, {"simulation.duration=0.6 s", "person.rider.grip_force=" + grip,
+                                                 "person.rider.pedal_force=" + pedal, "person.rider.seat_force=" + seat})
+                                .model);
+  };
+  EXPECT_EQ(broken(run_with("10 MN", "10 MN", "10 MN")), 0) << "held by all means";
+  EXPECT_EQ(broken(run_with("1 N", "10 MN", "10 MN")), 2) << "only the hands let go";
+  EXPECT_EQ(broken(run_with("10 MN", "1 N", "10 MN")), 2) << "only the feet slip";
+  EXPECT_EQ(broken(run_with("10 MN", "10 MN", "1 N")), 1) << "only the seat is left";
+}
+
 struct Case {
   const char* file;
   std::size_t mount;  // body
