@@ -129,12 +129,6 @@ Surface shell() {
   return s;
 }
 
-Surface trip_curb() {
-  Surface s;
-  s.box({0, 0.15, 0.0}, {10, 0.15, 0.15}, "concrete");
-  return s;
-}
-
 std::vector<Paint> car_paints() {
   return {{"paint", {0.45, 0.02, 0.025}},      {"glass", {0.015, 0.02, 0.022}, 0.80}, {"lamp_front", {0.80, 0.82, 0.85}},
           {"lamp_rear", {0.42, 0.012, 0.012}}, {"trim", {0.018, 0.018, 0.02}},        {"plate", {0.75, 0.75, 0.70}},

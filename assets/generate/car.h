@@ -10,9 +10,6 @@ Surface bodywork();
 /// Closed outer shell for contact, same frame.
 Surface shell();
 
-/// A kerb to trip over: 0.15 m high, 0.3 m deep in +y from the origin, 20 m long, in short pieces.
-Surface trip_curb();
-
 std::vector<Paint> car_paints();
 
 }  // namespace assets

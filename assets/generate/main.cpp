@@ -6,6 +6,7 @@
 #include "assets/generate/car.h"
 #include "assets/generate/coaches.h"
 #include "assets/generate/hatchbacks.h"
+#include "assets/generate/scenery.h"
 #include "assets/generate/trailers.h"
 #include "assets/generate/two_wheelers.h"
 #include "assets/generate/wheels.h"
@@ -40,6 +41,7 @@ int main(int argc, char** argv) {
     assets::write_obj(assets::heavy_wheel(0.43, 0.28, 0.25, assets::Rim::twin), assets::wheel_paints(),
                       folder + "/truck_twin_wheel");
     assets::write_obj(assets::trip_curb(), {{"concrete", {0.42, 0.41, 0.39}}}, folder + "/trip_curb");
+    assets::write_obj(assets::bank(), {{"grass", {0.38, 0.42, 0.28}}}, folder + "/bank");
     assets::write_obj(assets::car_trailer(), assets::trailer_paints(), folder + "/car_trailer");
     assets::write_obj(assets::dolly(), assets::trailer_paints(), folder + "/dolly");
     assets::write_obj(assets::drawbar_trailer(), assets::trailer_paints(), folder + "/drawbar_trailer");

@@ -11,6 +11,7 @@
 namespace engine {
 namespace {
 
+constexpr double kFacing = 0.2;  // [-] cosine to the ground's normal below which a wheel rolls on nothing: the car lies on its side
 constexpr double kStopStiffness = 10;  // [-] times the spring's, beyond the travel
 
 std::optional<std::string> called_for(const Model& model) {
@@ -43,7 +44,7 @@ struct Footing {
 Footing footing_of(const Ground& ground, const Vec3& hub, const Vec3& down, double far) {
   Footing footing;
   double best = far;
-  if (ground.plane && down.z() < -0.2) {
+  if (ground.plane && down.z() < -kFacing) {
     const double s = (ground.height - hub.z()) / down.z();
     if (s < best) {
       best = s;
@@ -54,7 +55,8 @@ Footing footing_of(const Ground& ground, const Vec3& hub, const Vec3& down, doub
     constexpr double kAbove = 0.6;  // [m] start over the hub, so that a wheel pushed into a kerb still finds the surface
     double s = 0;
     int triangle = -1;
-    if (ground.terrain->raycast(hub - kAbove * down, down, best + kAbove, s, triangle) && s - kAbove < best)
+    if (ground.terrain->raycast(hub - kAbove * down, down, best + kAbove, s, triangle) && s - kAbove < best &&
+        ground.terrain->face_normals()[triangle].dot(down) < -kFacing)
       footing = {true, s - kAbove, hub + (s - kAbove) * down, ground.terrain->face_normals()[triangle]};
   }
   return footing;

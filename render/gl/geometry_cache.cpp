@@ -61,9 +61,10 @@ std::vector<float> face_sums(const std::vector<float>& p, const std::vector<std:
 }
 
 // A body encloses volume; a sheet or a soup of mixed winding encloses little of its box. A tenth lies well between the two: a car
-// fills half.
+// fills half. Nor is a terrain a body, whatever lies between it and its box: all its triangles face up, those of a body all ways.
 int winding(const Mesh& mesh, const Geometry& g) {
-  double volume = 0;
+  double volume = 0, area = 0;
+  Eigen::Vector3d facing = Eigen::Vector3d::Zero();
   const Eigen::Vector3d middle((g.lower[0] + g.upper[0]) / 2, (g.lower[1] + g.upper[1]) / 2, (g.lower[2] + g.upper[2]) / 2);
   for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
     std::array<Eigen::Vector3d, 3> c;
@@ -72,7 +73,11 @@ int winding(const Mesh& mesh, const Geometry& g) {
       c[k] = Eigen::Vector3d(mesh.positions[v], mesh.positions[v + 1], mesh.positions[v + 2]) - middle;
     }
     volume += c[0].dot(c[1].cross(c[2])) / 6;
+    const Eigen::Vector3d part = (c[1] - c[0]).cross(c[2] - c[0]);
+    facing += part;
+    area += part.norm();
   }
+  if (facing.norm() > 0.2 * area) return 0;
   const double box = static_cast<double>(g.upper[0] - g.lower[0]) * (g.upper[1] - g.lower[1]) * (g.upper[2] - g.lower[2]);
   if (std::abs(volume) <= 0.1 * box) return 0;
   return volume > 0 ? 1 : -1;

@@ -302,7 +302,9 @@ void read_output(Builder& builder, Reader r) {
 void read_road_and_sky(Builder& builder, Reader road, Reader sky) {
   render::RoadLook& look = builder.scene.stage.road;
   look.road = road.choice("kind") == 0;
-  look.height = builder.scene.model.ground.height;
+  const engine::Ground& ground = builder.scene.model.ground;
+  // the drawn plane hides what dips below it: where only a terrain is the ground, it lies under all of that
+  look.height = ground.plane || !ground.terrain ? ground.height : ground.terrain->bounds().lower.z() - 0.02;
   look.width = road.number("width");
   look.centre_y = road.number("centre_y");
   look.lanes = road.integer("lanes");

@@ -134,7 +134,8 @@ int drop_not_finite(std::vector<RawPart>& parts) {
 std::vector<std::string> audit(const std::vector<RawPart>& parts, const std::string& file) {
   int degenerate = 0;
   int duplicates = 0;
-  double volume = 0;
+  double volume = 0, area = 0;
+  engine::Vec3 facing = engine::Vec3::Zero();  // sum of area vectors: nothing for a closed surface
   engine::Aabb box;
   std::set<std::array<std::array<float, 3>, 3>> seen;
   for (const RawPart& part : parts) {
@@ -148,6 +149,8 @@ std::vector<std::string> audit(const std::vector<RawPart>& parts, const std::str
       const double edge2 = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
       if ((b - a).cross(c - a).norm() < 1e-12 * edge2 || edge2 == 0) ++degenerate;
       volume += a.dot(b.cross(c)) / 6;
+      facing += (b - a).cross(c - a);
+      area += (b - a).cross(c - a).norm();
       for (const engine::Vec3& p : {a, b, c}) {
         box.lower = box.lower.cwiseMin(p);
         box.upper = box.upper.cwiseMax(p);
@@ -159,8 +162,8 @@ std::vector<std::string> audit(const std::vector<RawPart>& parts, const std::str
   std::vector<std::string> out;
   if (degenerate > 0) out.push_back(fmt::format("{} has {} degenerate triangles; they are left out of contact", file, degenerate));
   if (duplicates > 0) out.push_back(fmt::format("{} has {} duplicate triangles; they are left out of contact", file, duplicates));
-  // a clearly negative volume means faces turned inwards; sheets and open terrain have none to speak of
-  if (box.upper.x() >= box.lower.x() && volume < -0.05 * (box.upper - box.lower).prod())
+  // a clearly negative volume of a closed surface means faces turned inwards; sheets and terrain have none to speak of
+  if (box.upper.x() >= box.lower.x() && facing.norm() < 0.05 * area && volume < -0.05 * (box.upper - box.lower).prod())
     out.push_back(fmt::format("{} is inside out: its triangles run clockwise seen from outside", file));
   return out;
 }

@@ -66,6 +66,20 @@ TEST_P(Dropped, ComesToRestOnItsBodywork) {
   EXPECT_LT(run.diagnostics.max_energy_rise, 1e-3 * initial);
 }
 
+TEST(Rollover, DownABankOfTrianglesComesToRestOnThem) {
+  const scenes::Scene scene = scenes::load(std::string(CRASHREEL_SOURCE_DIR) + "/scenes/gallery/rollover_bank.toml");
+  const engine::Recording run = engine::simulate(scene.model);
+  ASSERT_FALSE(run.failure);
+  EXPECT_TRUE(std::any_of(run.snapshots.begin(), run.snapshots.end(), [](const auto& s) { return up_of(s, 0).z() < -0.2; }))
+      << "it rolled over";
+  EXPECT_TRUE(std::any_of(run.snapshots.begin(), run.snapshots.end(), [](const auto& s) {
+    return std::any_of(s.contacts.begin(), s.contacts.end(), [](const auto& c) { return c.kind == engine::ContactKind::terrain; });
+  }));
+  EXPECT_LT(run.snapshots.back().bodies[0].V_WB.v.norm(), 0.05);
+  EXPECT_LT(run.diagnostics.rest_penetration, 5e-3);
+  EXPECT_LT(run.diagnostics.max_energy_rise, 2e-3 * 0.5 * 1500 * 11.1 * 11.1);
+}
+
 TEST(CarAgainstCar, ByDefaultAutoKeepsMomentumAndDoesNotPassThrough) {
   scenes::Scene scene = scenes::load(kCases + "intersection_ks.toml", {"vehicle.red.collision=\"default_auto\""});
   scene.model.settings.duration = 1.5;
