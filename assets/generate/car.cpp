@@ -51,7 +51,7 @@ void cut_seams(Surface& s) {
   seam(s, -0.88, 0.62, -1.20, 0.965);  // rear door over the arch
   seam(s, 0.94, 0.30, -0.86, 0.30);    // along the sill
   seam(s, 1.92, 0.42, 1.60, 0.76);     // front bumper and wing
-  seam(s, -1.86, 0.40, -2.12, 0.80);   // rear bumper
+  seam(s, -1.86, 0.40, -2.05, 0.71);   // rear bumper
   const Filter above = [](const V3& p, const V3& n) { return n.z > 0.5 && p.z > 0.6; };
   for (const double x : {1.075, -1.74})
     cut(s, Seen::from_above, {{x, -1}, {x + 0.007, -1}, {x + 0.007, 0.74}, {x, 0.74}}, above, "trim");
@@ -74,13 +74,16 @@ void cut_ends(Surface& s) {
   cut(s, Seen::from_front, {{0.63, 0.345}, {0.72, 0.35}, {0.71, 0.39}, {0.64, 0.385}}, front, "lamp_front");
   cut(s, Seen::from_front, {{-1, 0.42}, {0.26, 0.42}, {0.26, 0.49}, {-1, 0.49}}, nose, "plate");
   const Filter tail = [](const V3& p, const V3& n) { return p.x < -1.85 && n.z < 0.9 && n.x < 0.15; };
-  cut(s, Seen::from_front, {{0.50, 0.74}, {0.90, 0.74}, {0.90, 0.90}, {0.54, 0.885}}, tail, "lamp_rear");
+  const Outline lamp{{0.50, 0.74}, {0.90, 0.74}, {0.90, 0.90}, {0.54, 0.885}};
+  framed(s, Seen::from_front, lamp, 0.022, tail);
+  cut(s, Seen::from_front, lamp, tail, "lamp_rear");
+  cut(s, Seen::from_front, rectangle(-1, 0.575, 0.30, 0.715), tail, "trim");
   cut(s, Seen::from_front, {{-1, 0.60}, {0.26, 0.60}, {0.26, 0.69}, {-1, 0.69}}, tail, "plate");
   cut(s, Seen::from_front, {{-1, 0.30}, {0.62, 0.30}, {0.58, 0.40}, {-1, 0.40}}, tail, "trim");
 }
 
 void cut_arches(Surface& s) {
-  for (const double x : {kAxle, -kAxle}) wheel_arch(s, x, kHub, kArch, 0.86, 0.5);
+  for (const double x : {kAxle, -kAxle}) wheel_arch(s, x, kHub, kArch, 0.89, 0.5);
   darken_below(s, 0.215);
 }
 
@@ -110,6 +113,10 @@ Surface interior() {
 
 Surface bodywork() {
   Surface s = half_skin(sedan_shape(), 110, 60);
+  // lamps end along straight lines on the flanks
+  const Filter whole = [](const V3&, const V3&) { return true; };
+  cut(s, Seen::from_side, rectangle(1.70, 0, 9, 9), whole, "paint");
+  cut(s, Seen::from_side, rectangle(-9, 0, -1.85, 9), whole, "paint");
   cut_arches(s);
   cut_windows(s);
   cut_ends(s);

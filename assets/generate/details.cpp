@@ -70,7 +70,7 @@ void underside(Surface& s, double axle, double hub, double floor, double half_tr
   s.box({0.15 * axle, 0.10, z - 0.008}, {0.85 * axle, 0.028, 0.024}, "exhaust");
   s.box({-0.2 * axle, 0.10, z - 0.012}, {0.22, 0.075, 0.035}, "exhaust");
   s.box({-axle - 0.02, 0.10, z}, {0.35 * axle, 0.024, 0.024}, "exhaust");
-  s.box({-axle - 0.62, 0.14, floor + 0.07}, {0.13, 0.36, 0.06}, "exhaust");  // silencer
+  s.box({-axle - 0.46, 0.14, floor + 0.10}, {0.11, 0.30, 0.05}, "exhaust");  // silencer
   s.box({-axle + 0.62, 0, z}, {0.24, 0.46, 0.02}, "subframe");               // tank
   for (const double y : {0.46, -0.46}) s.box({0, y, z}, {0.78 * axle, 0.035, 0.022}, "subframe");
   s.box({axle, 0, z}, {0.26, 0.40, 0.03}, "subframe");

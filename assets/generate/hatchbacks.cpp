@@ -9,6 +9,8 @@
 namespace assets {
 namespace {
 
+constexpr double kBow = 0.52, kStern = 0.45;  // [m] how far lamps reach round the ends
+
 /// Where the details of one car lie on its shape.
 struct Hatchback {
   CarShape shape;
@@ -39,7 +41,7 @@ void cut_glass(Surface& s, const Hatchback& c) {
 }
 
 void cut_ends(Surface& s, const Hatchback& c) {
-  const double bow = c.shape.front - 0.6, stern = c.shape.rear + 0.55;
+  const double bow = c.shape.front - kBow, stern = c.shape.rear + kStern;
   const Filter front = [bow](const V3& p, const V3& n) { return p.x > bow && n.z < 0.93 && n.x > -0.1; };
   const Filter nose = [bow](const V3& p, const V3& n) { return p.x > bow + 0.3 && n.x > 0.2; };
   const Filter tail = [stern](const V3& p, const V3& n) { return p.x < stern && n.z < 0.9 && n.x < 0.2; };
@@ -97,7 +99,11 @@ void furnish(Surface& s, const Hatchback& c) {
 
 Surface build(const Hatchback& c) {
   Surface s = half_skin(c.shape, 110, 60);
-  for (const double x : {c.axle, -c.axle}) wheel_arch(s, x, c.hub, c.arch, c.shape.half_width - 0.045, c.shape.half_width - 0.40);
+  // lamps end along straight lines on the flanks
+  const Filter whole = [](const V3&, const V3&) { return true; };
+  cut(s, Seen::from_side, rectangle(c.shape.front - kBow, 0, 9, 9), whole, "paint");
+  cut(s, Seen::from_side, rectangle(-9, 0, c.shape.rear + kStern, 9), whole, "paint");
+  for (const double x : {c.axle, -c.axle}) wheel_arch(s, x, c.hub, c.arch, c.shape.half_width - 0.012, c.shape.half_width - 0.40);
   darken_below(s, c.sill - 0.08);
   cut_glass(s, c);
   cut_ends(s, c);
