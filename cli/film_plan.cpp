@@ -116,16 +116,23 @@ bool matches(const std::string& name, const std::string& pattern) {
 
 void refuse_existing_frames(const FilmPlan& plan) {
   if (plan.job.overwrite) return;
-  const fs::path folder = plan.job.output.parent_path().empty() ? "." : plan.job.output.parent_path();
-  std::error_code missing;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, missing)) {
-    if (matches(entry.path().filename().string(), plan.job.output.filename().string())) {
-      throw UsageError(fmt::format("{} exists; give --overwrite to replace frames, or another -o", entry.path().string()));
-    }
-  }
+  if (const std::vector<fs::path> there = frames_there(plan.job); !there.empty())
+    throw UsageError(fmt::format("{} exists; give --overwrite to replace frames, or another -o", there.front().string()));
 }
 
 }  // namespace
+
+std::vector<fs::path> frames_there(const render::FilmJob& job) {
+  const fs::path folder = job.output.parent_path();
+  std::vector<fs::path> out;
+  std::error_code missing;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, missing)) {
+    const fs::path name = entry.path().filename();
+    if (matches(name.string(), job.output.filename().string())) out.push_back(folder / name);
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
 
 void declare_film(Arguments& arguments, FilmArguments& film) {
   arguments.option(
@@ -159,6 +166,7 @@ FilmPlan plan_film(const FilmArguments& wish, scenes::Scene& scene) {
                        {"scene", scene.path.filename().string()},
                        {"scene_sha256", scene.sha256}};
   plan.resume = wish.resume;
+  plan.whole = wish.frames.empty() && wish.from.empty() && wish.to.empty();
   if (wish.resume && wish.overwrite) throw UsageError("--resume keeps what --overwrite replaces; give one of them");
   // what is there may be a part of this very run: looked at when its fingerprint is known
   const bool replace = wish.overwrite || wish.resume;

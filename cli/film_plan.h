@@ -40,6 +40,7 @@ struct FilmPlan {
   double to = 0;
   std::vector<FrameRange> frames;  // --frames; empty: all
   bool resume = false;             // keep what is finished
+  bool whole = true;               // nothing was asked to be left out
 };
 
 /// Throws UsageError; refuses what exists. With --camera the scene's shots give way to the whole run from that camera.
@@ -47,6 +48,9 @@ FilmPlan plan_film(const FilmArguments&, scenes::Scene&);
 
 /// Makes the folders the film goes into. Throws MachineError when they cannot be written.
 void prepare_output(const FilmPlan&);
+
+/// Files that the job's pattern could have made, whoever made them.
+std::vector<std::filesystem::path> frames_there(const render::FilmJob&);
 
 /// Frames of the whole film, in order, with their numbers in it.
 struct Selection {

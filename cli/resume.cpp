@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "cli/exit.h"
 #include "render/error.h"
 #include "render/image/png.h"
@@ -34,6 +37,26 @@ render::TextChunks chunks_of(const fs::path& picture) {
   return chunks;
 }
 
+/// Files of the job's pattern that are none of its frames.
+std::vector<fs::path> surplus(const Selection& selection, const render::FilmJob& job) {
+  const std::vector<fs::path> there = frames_there(job);
+  std::vector<fs::path> wanted, out;
+  for (const int number : selection.numbers) wanted.push_back(render::frame_path(job, number));
+  std::sort(wanted.begin(), wanted.end());
+  std::set_difference(there.begin(), there.end(), wanted.begin(), wanted.end(), std::back_inserter(out));
+  return out;
+}
+
+bool is_ours(const fs::path& picture) {
+  render::TextChunks chunks;
+  try {
+    render::read_png(picture, &chunks);
+  } catch (const render::RenderError&) {
+    return false;
+  }
+  return value_of(chunks, "version").starts_with("crashreel ") && !value_of(chunks, "fingerprint").empty();
+}
+
 }  // namespace
 
 bool is_finished(const fs::path& picture, const render::Moment& moment, const render::FilmJob& job) {
@@ -54,6 +77,19 @@ Selection unfinished(const Selection& selection, const render::FilmJob& job) {
     out.moments.push_back(selection.moments[i]);
   }
   return out;
+}
+
+void remove_surplus(const Selection& selection, const render::FilmJob& job, bool quiet) {
+  for (const fs::path& file : surplus(selection, job)) {
+    std::error_code problem;
+    if (is_ours(file) && fs::remove(file, problem)) continue;
+    if (!quiet) fmt::print(stderr, "crashreel: warning: {} is no frame of this film; it was left among them\n", file.string());
+  }
+}
+
+void refuse_surplus(const Selection& selection, const render::FilmJob& job) {
+  const std::vector<fs::path> others = surplus(selection, job);
+  if (!others.empty()) refuse(others.front());
 }
 
 bool film_is_finished(const render::FilmJob& job) {

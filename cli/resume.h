@@ -16,6 +16,12 @@ bool is_finished(const std::filesystem::path& picture, const render::Moment&, co
 /// The selection without the frames that are finished.
 Selection unfinished(const Selection&, const render::FilmJob&);
 
+/// Frames of an earlier, longer run, which would go on where a whole film replaces it: those this program made are removed, others
+/// are told of and left.
+void remove_surplus(const Selection&, const render::FilmJob&, bool quiet);
+/// The same before --resume, which replaces nothing: throws UsageError when there is one.
+void refuse_surplus(const Selection&, const render::FilmJob&);
+
 /// Whether the film is there, whole, with the job's fingerprint. Throws UsageError when it is another film.
 bool film_is_finished(const render::FilmJob&);
 

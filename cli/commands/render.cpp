@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/estimate.h"
 #include "cli/exit.h"
 #include "cli/film_plan.h"
 #include "cli/output/fingerprint.h"
@@ -23,6 +24,7 @@ struct RenderWish {
   FilmArguments film;
   bool list_cameras = false;
   bool dry_run = false;
+  std::string max_memory;
 };
 
 /// What the command leaves behind.
@@ -43,25 +45,22 @@ void list_cameras(const scenes::Scene& scene, bool json) {
   if (json) fmt::print("{}\n", cameras.dump(2));
 }
 
-/// Steps and frames at most: a run may come to rest before its time.
-void dry_run(const scenes::Scene& scene, const FilmPlan& plan, bool json) {
-  const engine::Settings& settings = scene.model.settings;
-  engine::Recording empty;
-  empty.interval = settings.duration;
-  empty.snapshots.resize(2);
-  empty.snapshots.back().time = settings.duration;
-  const int frames = plan.stills.empty() ? static_cast<int>(frames_of(plan, scene.stage, empty).numbers.size())
-                                         : static_cast<int>(plan.stills.size());
-  const long steps = std::lround(settings.duration / settings.step);
+int tell_estimate(const scenes::Scene& scene, const FilmPlan& plan, bool json) {
+  const Estimate estimate = estimate_film(scene, plan_of(scene), plan);
+  const double step = scene.model.settings.step;
   if (json) {
-    const nlohmann::ordered_json out = {
-        {"output", plan.job.output.string()}, {"steps", steps},     {"frames", frames}, {"width", plan.job.width},
-        {"height", plan.job.height},          {"fps", plan.job.fps}};
+    nlohmann::ordered_json out = {{"output", plan.job.output.string()},
+                                  {"frames", estimate.frames},
+                                  {"width", plan.job.width},
+                                  {"height", plan.job.height},
+                                  {"fps", plan.job.fps}};
+    out.update(estimate_json(estimate));
     fmt::print("{}\n", out.dump(2));
   } else {
-    fmt::print("{}: at most {} steps of {} s, {} frames of {}x{}\n", plan.job.output.string(), steps, settings.step, frames,
-               plan.job.width, plan.job.height);
+    fmt::print("{}: {} frames of {}x{}, {}\n", plan.job.output.string(), estimate.frames, plan.job.width, plan.job.height,
+               estimate_text(estimate, step));
   }
+  return kDone;
 }
 
 Drawn draw_stills(const FilmPlan& plan, const render::Stage& stage, const engine::Recording& recording) {
@@ -111,10 +110,13 @@ Drawn draw_film(const FilmPlan& plan, const render::Stage& stage, const engine::
                                  recording.end_time(), render::film(stage, recording, plan.job.fps).size()));
   }
   const Drawn drawn{{plan.job.output.string()}, static_cast<int>(selection.moments.size())};
-  if (render::is_video(plan.job.container) && plan.resume)
+  const bool sequence = !render::is_video(plan.job.container);
+  if (sequence && plan.resume && plan.whole) refuse_surplus(selection, plan.job);
+  if (!sequence && plan.resume)
     draw_film_by_frames(selection, plan, stage, recording, show);
   else
     draw_selection(plan.resume ? unfinished(selection, plan.job) : selection, plan.job, stage, recording, show);
+  if (sequence && plan.whole && plan.job.overwrite) remove_surplus(selection, plan.job, show == ShowProgress::never);
   return drawn;
 }
 
@@ -130,9 +132,10 @@ int render_scene(const RenderWish& wish, const Arguments& arguments) {
   const bool video = render::is_video(plan.job.container) && plan.stills.empty();
   plan.job.metadata["fingerprint"] = fingerprint(video ? ResultKind::whole : ResultKind::frame, scene, arguments);
   plan.job.look_around = check_interrupted;
-  if (wish.dry_run) {
-    dry_run(scene, plan, wish.scene.json);
-    return kDone;
+  if (wish.dry_run) return tell_estimate(scene, plan, wish.scene.json);
+  if (!wish.max_memory.empty()) {
+    const double ceiling = parse_bytes("--max-memory", wish.max_memory);
+    hold_to_memory(estimate_film(scene, plan_of(scene), plan), ceiling, plan.job.workers, wish.scene.quiet);
   }
   prepare_output(plan);
   const OutputLock lock(plan.job.output);
@@ -168,7 +171,9 @@ std::function<int()> declare_render(Arguments& arguments) {
   declare_progress(arguments, wish->scene);
   declare_film(arguments, wish->film);
   arguments.flag("--list-cameras", wish->list_cameras, "name the scene's cameras and stop");
-  arguments.flag("--dry-run", wish->dry_run, "print steps and frames at most, and stop");
+  arguments.flag("--dry-run", wish->dry_run, "print the frames, steps, bytes and seconds to expect, and stop");
+  arguments.option("--max-memory", wish->max_memory, "SIZE",
+                   "take no more memory than this (2 GB): fewer processes, or an error before the start");
   return [wish, arguments] { return render_scene(*wish, arguments); };
 }
 

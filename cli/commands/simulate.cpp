@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/estimate.h"
 #include "cli/exit.h"
 #include "cli/output/csv.h"
 #include "cli/output/fingerprint.h"
@@ -23,6 +24,8 @@ struct SimulateWish {
   std::string folder;
   bool overwrite = false;
   bool resume = false;
+  bool dry_run = false;
+  std::string max_memory;
 };
 
 constexpr const char* kFiles[] = {"trajectory.csv", "contacts.csv", "summary.json"};
@@ -39,10 +42,20 @@ bool is_finished(const std::filesystem::path& folder, const std::string& mark) {
                   (folder / "summary.json").string()));
 }
 
+int tell_estimate(const scenes::Scene& scene, const SimulateWish& wish) {
+  const Estimate estimate = estimate_results(scene, plan_of(scene));
+  if (wish.scene.json)
+    fmt::print("{}\n", estimate_json(estimate).dump(2));
+  else
+    fmt::print("{}: {}\n", wish.folder, estimate_text(estimate, scene.model.settings.step));
+  return kDone;
+}
+
 int simulate(const SimulateWish& wish, const Arguments& arguments) {
   // what cannot be written is told before the work, not after it
   const scenes::Scene scene = load_scene(wish.scene);
   const std::filesystem::path folder = wish.folder;
+  if (wish.dry_run) return tell_estimate(scene, wish);
   make_writable_folder(folder);
   if (wish.resume && wish.overwrite) throw UsageError("--resume keeps what --overwrite replaces; give one of them");
   for (const char* name : kFiles) refuse_existing(folder / name, wish.overwrite || wish.resume);
@@ -53,6 +66,10 @@ int simulate(const SimulateWish& wish, const Arguments& arguments) {
     return kDone;
   }
 
+  if (!wish.max_memory.empty()) {
+    int none = 0;
+    hold_to_memory(estimate_results(scene, plan_of(scene)), parse_bytes("--max-memory", wish.max_memory), none, wish.scene.quiet);
+  }
   const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
   const std::vector<engine::Metric> metrics = engine::measure(scene.model, recording);
   nlohmann::ordered_json summary = summary_json(scene, recording, metrics);
@@ -88,6 +105,9 @@ std::function<int()> declare_simulate(Arguments& arguments) {
   arguments.required_option("-o,--output", wish->folder, "DIR", "folder for the three files; made if missing");
   arguments.flag("--overwrite", wish->overwrite, "replace files that exist");
   arguments.flag("--resume", wish->resume, "begin, or go on where the same command was stopped; keeps a finished result");
+  arguments.flag("--dry-run", wish->dry_run, "print the steps, bytes and seconds to expect, and stop");
+  arguments.option("--max-memory", wish->max_memory, "SIZE",
+                   "take no more memory than this (2 GB), or end with an error before the start");
   return [wish, arguments] { return simulate(*wish, arguments); };
 }
 
