@@ -75,6 +75,8 @@ void check_before_parsing(std::string_view text, const std::string& name) {
     if (c == '\n') ++line;
     if (!quotes.empty()) {
       if (c == '\\' && quotes[0] == '"') {
+        if (i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) >= 0x80)
+          refuse("a backslash before a letter beyond ASCII");
         if (i + 1 < text.size() && text[i + 1] != '\n') ++i;
       } else if (text.substr(i).starts_with(quotes) || (c == '\n' && quotes.size() == 1)) {
         i += quotes.size() - 1;
