@@ -168,6 +168,13 @@ std::vector<std::string> audit(const std::vector<RawPart>& parts, const std::str
   return out;
 }
 
+int open_edges(const engine::TriangleMesh& mesh) {
+  int open = 0;
+  for (int t = 0; t < static_cast<int>(mesh.triangles().size()); ++t)
+    for (int edge = 0; edge < 3; ++edge) open += mesh.neighbour(t, edge) < 0;
+  return open;
+}
+
 std::shared_ptr<const ImportedMesh> import_mesh(Builder& builder, Reader& r, std::string_view key) {
   const std::string name = r.text(key);
   if (name.empty()) return nullptr;

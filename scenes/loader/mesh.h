@@ -46,6 +46,9 @@ struct ImportedMesh {
 /// which is collected.
 std::shared_ptr<const ImportedMesh> import_mesh(Builder&, Reader&, std::string_view key);
 
+/// Edges of triangles that no other triangle shares: a closed surface has none.
+int open_edges(const engine::TriangleMesh&);
+
 /// What is odd about a mesh (without changing it): not finite, degenerate, duplicate, inside out.
 std::vector<std::string> audit(const std::vector<RawPart>&, const std::string& file);
 

@@ -332,7 +332,11 @@ void read_vehicle(Builder& builder, Reader scene) {
   need(r, "inertia", "\"550 2500 2700 kg m^2\"");
   if (builder.errors.count() != errors_before) return;
   // the library has its trailers, buses and bicycles; a mesh of the user's is most likely a car
-  const Meshes meshes = read_meshes(builder, r, scene.has("mesh") || !scene.has("model") ? Origin::user : Origin::library);
+  const Origin origin = scene.has("mesh") || !scene.has("model") ? Origin::user : Origin::library;
+  const Meshes meshes = read_meshes(builder, r, origin);
+  if (meshes.bodywork && origin == Origin::user)
+    if (const int open = open_edges(*meshes.bodywork->solid); open > 0)
+      r.warn("mesh", fmt::format("is open at {} edges; what comes from behind its faces goes through", open));
 
   engine::Body body;
   body.name = vehicle.name;

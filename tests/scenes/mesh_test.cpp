@@ -165,6 +165,14 @@ TEST(MeshFrame, HoldsForBodiesToo) {
   EXPECT_LT((box.upper - engine::Vec3(2, 0.009, 0.007)).norm(), 1e-6);
 }
 
+TEST(MeshAudit, WarnsOfHoles) {
+  const SceneFolder folder;
+  const std::string whole = box(4);
+  // without its last face, a quad
+  folder.write("car.obj", whole.substr(0, whole.rfind("f")));
+  EXPECT_THAT(folder.load(kCar).warnings, Contains(HasSubstr("is open at 4 edges")));
+}
+
 TEST(MeshAudit, CountsDegenerateAndDuplicateTriangles) {
   RawPart part;
   part.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0};
