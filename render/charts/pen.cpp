@@ -5,6 +5,8 @@
 #include <cmath>
 #include <memory>
 
+#include "render/text/fonts.h"
+
 namespace render::charts {
 namespace {
 
@@ -14,6 +16,7 @@ struct Unref {
 using Layout = std::unique_ptr<PangoLayout, Unref>;
 
 Layout layout_of(cairo_t* c, const std::string& text, double size, bool bold, double wrap) {
+  require_font();
   Layout layout(pango_cairo_create_layout(c));
   PangoFontDescription* font = pango_font_description_from_string(bold ? "DejaVu Sans Bold" : "DejaVu Sans");
   // a layout counts in device units, which are points here

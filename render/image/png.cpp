@@ -16,6 +16,7 @@ namespace render {
 namespace {
 
 constexpr png_uint_32 kLargest = 16384;  // [pixels] a side
+constexpr png_uint_32 kMostChunks = 64;  // texts and the like; ours have ten
 
 struct FileCloser {
   void operator()(std::FILE* f) const { std::fclose(f); }
@@ -28,6 +29,19 @@ using FilePtr = std::unique_ptr<std::FILE, FileCloser>;
   throw RenderError(std::string(static_cast<const char*>(png_get_error_ptr(png))) + ": " + message);
 }
 void ignore(png_structp, png_const_charp) {}
+
+/// libpng makes room for what a chunk announces before it looks whether it is there.
+void refuse_endless_chunks(std::FILE* file, png_structp png) {
+  std::fseek(file, 0, SEEK_END);
+  const long size = std::ftell(file);
+  unsigned char head[4];
+  for (long at = 8; std::fseek(file, at, SEEK_SET) == 0 && std::fread(head, 1, sizeof head, file) == sizeof head;) {
+    const auto length = static_cast<long>(png_get_uint_32(head));
+    if (length > size - at) png_error(png, "a chunk is longer than the file");
+    at += 12 + length;  // length, name and checksum around it
+  }
+  std::rewind(file);
+}
 
 /// A few bytes can announce a gigabyte of pixels. Deflate makes at most 1032 bytes of one (zlib's technical notes).
 void refuse_what_the_file_cannot_hold(png_structp png, png_infop info, const std::filesystem::path& path) {
@@ -100,7 +114,9 @@ Image read_png(const std::filesystem::path& path, TextChunks* text) {
   png_infop info = png_create_info_struct(png);
   Image image;
   try {
+    refuse_endless_chunks(file.get(), png);
     png_init_io(png, file.get());
+    png_set_chunk_cache_max(png, kMostChunks);
     png_set_user_limits(png, kLargest, kLargest);
     png_set_chunk_malloc_max(png, 8u << 20);
     png_read_info(png, info);
@@ -141,7 +157,9 @@ PngFormat png_format(const std::filesystem::path& path) {
   png_infop info = png_create_info_struct(png);
   PngFormat format;
   try {
+    refuse_endless_chunks(file.get(), png);
     png_init_io(png, file.get());
+    png_set_chunk_cache_max(png, kMostChunks);
     png_set_user_limits(png, kLargest, kLargest);
     png_set_chunk_malloc_max(png, 8u << 20);
     png_read_info(png, info);

@@ -9,6 +9,7 @@
 
 #include "render/matrix.h"
 #include "render/text/charts.h"
+#include "render/text/fonts.h"
 
 namespace render {
 namespace {
@@ -154,6 +155,7 @@ std::vector<PanelBox> place_labels(const DrawList& list, int width, int height) 
 
 void draw_labels(const DrawList& list, Image& image) {
   if (list.labels.empty() && list.charts.empty()) return;
+  require_font();
   const double scale = image.height / 1080.0 * static_cast<double>(list.scale);
   // cairo wants premultiplied BGRA; the picture is opaque, so only the order differs
   std::vector<std::uint8_t> bgra(image.rgba.size());

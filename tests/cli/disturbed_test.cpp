@@ -70,6 +70,15 @@ TEST_F(Disturbed, WithoutHomeAndEnvironment) {
   EXPECT_EQ(under_shell(folder, "env -i $P render ball.toml --size 64x64 --fps 10 -j 1 -o a.mp4 >/dev/null 2>&1"), 0);
 }
 
+TEST_F(Disturbed, WithoutAFontNoPictureIsMade) {
+  // a picture without its letters lacks the words that it is a simulation
+  folder.write("fonts.conf", "<?xml version=\"1.0\"?><fontconfig><dir>none</dir><cachedir>cache</cachedir></fontconfig>");
+  EXPECT_EQ(under_shell(folder, "FONTCONFIG_FILE=$PWD/fonts.conf $P render ball.toml --size 64x64 --at 0.1s -o a.png 2>message"),
+            3);
+  EXPECT_THAT(contents(folder / "message"), HasSubstr("the system has no font; install DejaVu Sans"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
+}
+
 TEST_F(Disturbed, TooFewDescriptorsAreToldAndNothingIsLeft) {
   // 3 is closed first: what runs the tests in parallel leaves descriptors open
   EXPECT_EQ(under_shell(folder, "(exec 3>&-; ulimit -n 4; exec $P render ball.toml --size 64x64 -j 1 -o a.mp4) 2>message"), 3);

@@ -1,0 +1,37 @@
+#include "render/text/fonts.h"
+
+#include <cairo/cairo.h>
+#include <pango/pangocairo.h>
+
+#include <string>
+
+#include "render/error.h"
+
+namespace render {
+namespace {
+
+bool letters_can_be_drawn() {
+  cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
+  cairo_t* cairo = cairo_create(surface);
+  PangoLayout* layout = pango_cairo_create_layout(cairo);
+  PangoFontDescription* font = pango_font_description_from_string(kFont);
+  pango_layout_set_font_description(layout, font);
+  pango_font_description_free(font);
+  pango_layout_set_text(layout, "Simulation 0123456789", -1);
+  PangoRectangle ink;
+  pango_layout_get_extents(layout, &ink, nullptr);
+  const bool drawn = ink.width > 0 && pango_layout_get_unknown_glyphs_count(layout) == 0;
+  g_object_unref(layout);
+  cairo_destroy(cairo);
+  cairo_surface_destroy(surface);
+  return drawn;
+}
+
+}  // namespace
+
+void require_font() {
+  static const bool drawn = letters_can_be_drawn();
+  if (!drawn) throw RenderError(std::string("drawing letters: the system has no font; install ") + kFont + " (fonts-dejavu-core)");
+}
+
+}  // namespace render
