@@ -1,8 +1,8 @@
 #include "cli/estimate.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 #include <sys/resource.h>
+#include <cstdlib>
 
 #include <algorithm>
 #include <charconv>

@@ -7,8 +7,8 @@ void parser_lost() {
 }
 }  // namespace
 #define TOML_ASSERT(holds) (static_cast<bool>(holds) ? void() : parser_lost())
-#include <stdint.h>
 #include <toml++/impl/preprocessor.h>
+#include <cstdint>
 // its tables of letters are undefined for most letters beyond ASCII, where they mean "none of ours"
 #undef TOML_UNREACHABLE
 #define TOML_UNREACHABLE return false
