@@ -1,5 +1,6 @@
 #include "engine/solver/articulation.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 namespace engine {
@@ -23,6 +24,14 @@ Eigen::Matrix<double, K, K> inverse_small(const Eigen::Matrix<double, K, K>& A) 
     out.template topLeftCorner<3, 3>() = Pi - out.template topRightCorner<3, R>() * PiQ.transpose();
     return out;
   }
+}
+
+/// Of J H^-1 J^T of a joint. A fixed one with long levers on light inertias leaves the blocks half the digits; it is rare enough
+/// for Cholesky.
+template <int K>
+Eigen::Matrix<double, K, K> inverse_of_joint(const Eigen::Matrix<double, K, K>& A) {
+  if constexpr (K == 6) return A.llt().solve(Mat6::Identity());
+  return inverse_small<K>(A);
 }
 
 }  // namespace
@@ -49,7 +58,7 @@ void Articulation::eliminate(Factor& f, const Mat6& J_c, const Mat6& J_p, const 
   const Mat6 Hi = inverse_spd(H);
   const Eigen::Matrix<double, 6, K> HJ = Hi * Jc.transpose();
   const Eigen::Matrix<double, K, K> A = Jc * HJ;
-  const Eigen::Matrix<double, K, K> Ai = inverse_small<K>(A);
+  const Eigen::Matrix<double, K, K> Ai = inverse_of_joint<K>(A);
   auto E = f.E.leftCols<K>();
   E.noalias() = HJ * Ai;
   f.D = Hi;

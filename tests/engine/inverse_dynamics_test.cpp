@@ -1,0 +1,198 @@
+// Forward dynamics of the factorised joints, undone by Newton's and Euler's equations written anew: what was put in must come back.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "engine/solver/articulation.h"
+#include "tests/engine/experiment.h"
+
+namespace {
+
+using namespace engine;
+using namespace engine::test;
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  Vec3 vector(double size) {
+    std::normal_distribution<double> normal(0, size);
+    return {normal(engine_), normal(engine_), normal(engine_)};
+  }
+  Quat attitude() {
+    std::normal_distribution<double> normal;
+    return Quat(normal(engine_), normal(engine_), normal(engine_), normal(engine_)).normalized();
+  }
+  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  Mat3 inertia() {
+    // principal moments of three point masses on the axes: every triangle inequality holds
+    const Vec3 m(between(0.01, 0.1), between(0.01, 0.1), between(0.01, 0.1));
+    const Mat3 R = attitude().toRotationMatrix();
+    return R * Vec3(m.y() + m.z(), m.z() + m.x(), m.x() + m.y()).asDiagonal() * R.transpose();
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+struct Experiment {
+  Model model;
+  std::vector<Pose> X;
+  std::vector<Twist> V;
+};
+
+/// Axes the joint leaves to the child, world: columns, `count` of them.
+struct FreeAxes {
+  Mat3 axis = Mat3::Identity();
+  int count = 0;
+};
+
+FreeAxes free_axes(const Joint& joint, const Pose& X_WP, const Pose& X_WC) {
+  const Vec3 y_P = X_WP.q * (joint.X_PF.q * Vec3::UnitY()), x_C = X_WC.q * (joint.X_CF.q * Vec3::UnitX());
+  FreeAxes out;
+  switch (joint.kind) {
+    case JointKind::fixed:
+      break;
+    case JointKind::revolute:
+      out.axis.col(0) = y_P;
+      out.count = 1;
+      break;
+    case JointKind::universal:
+      out.axis.col(0) = y_P;
+      out.axis.col(1) = x_C;
+      out.count = 2;
+      break;
+    default:
+      out.count = 3;
+  }
+  return out;
+}
+
+/// A free chain of three bodies on two joints of a kind, in a random state that the joints allow.
+Experiment chain(JointKind kind, Random& random) {
+  Experiment e;
+  for (int b = 0; b < 3; ++b) {
+    Body body;
+    body.mass = random.between(0.3, 20);
+    body.inertia_B = random.inertia();
+    body.X_WB = {random.vector(1), random.attitude()};
+    e.model.bodies.push_back(body);
+  }
+  e.X = {e.model.bodies[0].X_WB};
+  e.V = {{random.vector(3), random.vector(5)}};
+  for (int j = 0; j < 2; ++j) {
+    Joint joint;
+    joint.kind = kind;
+    joint.parent = j;
+    joint.child = j + 1;
+    joint.X_PF = {random.vector(0.3), random.attitude()};
+    joint.X_CF = {random.vector(0.3), random.attitude()};
+    const double a = random.between(-2, 2), b = random.between(-2, 2);
+    Quat q_FF = Quat::Identity();
+    if (kind == JointKind::revolute) q_FF = Eigen::AngleAxisd(a, Vec3::UnitY());
+    if (kind == JointKind::universal) q_FF = Eigen::AngleAxisd(a, Vec3::UnitY()) * Eigen::AngleAxisd(b, Vec3::UnitX());
+    if (kind == JointKind::spherical || kind == JointKind::ragdoll) q_FF = random.attitude();
+    Pose X_WC;
+    X_WC.q = e.X.back().q * joint.X_PF.q * q_FF * joint.X_CF.q.conjugate();
+    X_WC.p = e.X.back() * joint.X_PF.p - X_WC.q * joint.X_CF.p;
+    const FreeAxes axes = free_axes(joint, e.X.back(), X_WC);
+    Twist V_C{Vec3::Zero(), e.V.back().w};
+    for (int i = 0; i < axes.count; ++i) V_C.w += random.between(-6, 6) * axes.axis.col(i);
+    V_C.v = e.V.back().v + e.V.back().w.cross(e.X.back().q * joint.X_PF.p) - V_C.w.cross(X_WC.q * joint.X_CF.p);
+    e.X.push_back(X_WC);
+    e.V.push_back(V_C);
+    e.model.joints.push_back(joint);
+  }
+  return e;
+}
+
+class JointKinds : public testing::TestWithParam<JointKind> {};
+INSTANTIATE_TEST_SUITE_P(Every, JointKinds,
+                         testing::Values(JointKind::fixed, JointKind::revolute, JointKind::universal, JointKind::spherical,
+                                         JointKind::ragdoll));
+
+TEST_P(JointKinds, InverseDynamicsGivesBackForcesAndJointTorques) {
+  Random random(20 + static_cast<unsigned>(GetParam()));
+  for (int trial = 0; trial < 200; ++trial) {
+    const Experiment e = chain(GetParam(), random);
+    const std::size_t n = e.X.size();
+
+    // forward: forces and moments on every body, torques in the joints along their free axes
+    std::vector<Vec3> F(n), M(n);
+    std::vector<Vec3> torque(2, Vec3::Zero());
+    std::vector<Vec6> force(n), a(n, Vec6::Zero());
+    for (std::size_t b = 0; b < n; ++b) {
+      F[b] = random.vector(50);
+      M[b] = random.vector(10);
+      const Mat3 I = inertia_W(e.model.bodies[b], e.X[b].q);
+      force[b] << F[b], M[b] - e.V[b].w.cross(I * e.V[b].w);
+    }
+    for (std::size_t j = 0; j < 2; ++j) {
+      const FreeAxes axes = free_axes(e.model.joints[j], e.X[j], e.X[j + 1]);
+      for (int i = 0; i < axes.count; ++i) torque[j][i] = random.between(-20, 20);
+      for (int i = 0; i < axes.count; ++i) {
+        force[j + 1].tail<3>() += torque[j][i] * axes.axis.col(i);
+        force[j].tail<3>() -= torque[j][i] * axes.axis.col(i);
+      }
+    }
+    const Topology topology = build_topology(e.model, {});
+    Articulation articulation(e.model);
+    articulation.reset(topology);
+    articulation.factor(topology, 0, e.X, nullptr);
+    articulation.set_bias(topology, 0, e.X, e.V);
+    articulation.solve(topology, 0, force, a, Articulation::Bias::from_rows);
+
+    // inverse, from the last body inwards: what each must get from its joint, by Newton and Euler
+    Vec3 F_joint = Vec3::Zero(), M_joint = Vec3::Zero();  // on the body at hand from its child, about the child's joint
+    for (std::size_t b = n; b-- > 0;) {
+      const Body& body = e.model.bodies[b];
+      const Mat3 R = e.X[b].q.toRotationMatrix();
+      const Vec3 w_B = R.transpose() * e.V[b].w, alpha_B = R.transpose() * a[b].tail<3>();
+      const Vec3 rate_B = body.inertia_B * alpha_B + w_B.cross(body.inertia_B * w_B);  // of angular momentum
+      const Vec3 need_F = body.mass * a[b].head<3>() - F[b];
+      const Vec3 need_M = R * rate_B - M[b];
+      Vec3 got_F = Vec3::Zero(), got_M = Vec3::Zero();
+      if (b + 1 < n) {
+        got_F = -F_joint;
+        got_M = -M_joint - (R * e.model.joints[b].X_PF.p).cross(F_joint);
+      }
+      if (b == 0) {
+        // the root hangs on nothing: its own balance must close with what was put in
+        EXPECT_LT((need_F - got_F).norm(), 1e-9 * (1 + F[0].norm() + F_joint.norm())) << trial;
+        EXPECT_LT((need_M - got_M).norm(), 1e-9 * (1 + M[0].norm() + F_joint.norm() + M_joint.norm())) << trial;
+        break;
+      }
+      const Joint& joint = e.model.joints[b - 1];
+      F_joint = need_F - got_F;
+      M_joint = need_M - got_M - (R * joint.X_CF.p).cross(F_joint);
+      // along the free axes the joint gives its torque and nothing else (those of a cardan cross are at right angles)
+      const FreeAxes axes = free_axes(joint, e.X[b - 1], e.X[b]);
+      for (int i = 0; i < axes.count; ++i)
+        EXPECT_NEAR(axes.axis.col(i).dot(M_joint), torque[b - 1][i], 1e-9 * (1 + F_joint.norm() + M_joint.norm())) << trial;
+    }
+
+    // and the motion is one the joints allow: centres stay together, only free turns accelerate
+    for (std::size_t j = 0; j < 2; ++j) {
+      const Joint& joint = e.model.joints[j];
+      auto at_joint = [&](std::size_t b, const Vec3& p_B) -> Vec3 {
+        const Vec3 r = e.X[b].q * p_B;
+        return a[b].head<3>() + a[b].tail<3>().cross(r) + e.V[b].w.cross(e.V[b].w.cross(r));
+      };
+      const double size = 1 + a[j].norm() + a[j + 1].norm() + e.V[j].w.squaredNorm() + e.V[j + 1].w.squaredNorm();
+      EXPECT_LT((at_joint(j, joint.X_PF.p) - at_joint(j + 1, joint.X_CF.p)).norm(), 1e-9 * size) << trial;
+      const FreeAxes axes = free_axes(joint, e.X[j], e.X[j + 1]);
+      // relative turn w = sum rate_i e_i, so its acceleration is sum rate_i' e_i + rate_i e_i': take the second part off
+      const Vec3 w = e.V[j + 1].w - e.V[j].w;
+      Vec3 alpha = a[j + 1].tail<3>() - a[j].tail<3>();
+      if (axes.count == 1) alpha -= axes.axis.col(0).dot(w) * e.V[j].w.cross(axes.axis.col(0));
+      if (axes.count == 2) {
+        alpha -= axes.axis.col(0).dot(w) * e.V[j].w.cross(axes.axis.col(0));
+        alpha -= axes.axis.col(1).dot(w) * e.V[j + 1].w.cross(axes.axis.col(1));
+      }
+      for (int i = 0; i < axes.count; ++i) alpha -= axes.axis.col(i).dot(alpha) * axes.axis.col(i);
+      if (axes.count == 3) continue;
+      EXPECT_LT(alpha.norm(), 1e-9 * size) << trial;
+    }
+  }
+}
+
+}  // namespace
