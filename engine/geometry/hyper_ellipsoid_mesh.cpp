@@ -122,9 +122,10 @@ bool felt(EdgeKind kind) {
   return kind == EdgeKind::convex || kind == EdgeKind::open;
 }
 
-std::uint32_t key_of(const SurfaceContact& c, const Pose& X_MA) {
-  // octant of the point on the body and main direction of the normal: steady while the body slides from triangle to triangle
-  const Vec3 p_A = X_MA.inverse() * c.p_a;
+std::uint32_t key_of(const SurfaceContact& c, const Pose& X_MA, double exponent) {
+  // main direction of the normal and, of a body with corners, the octant of the point on it: steady while the body slides from
+  // triangle to triangle, and while a round one rolls
+  const Vec3 p_A = exponent < kFlatExponent ? Vec3(Vec3::Zero()) : Vec3(X_MA.inverse() * c.p_a);
   int axis = 0;
   c.normal.cwiseAbs().maxCoeff(&axis);
   const int octant = (p_A.x() > 0) + 2 * (p_A.y() > 0) + 4 * (p_A.z() > 0);
@@ -200,7 +201,7 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
   keep_the_telling(scratch.candidates, 0.25 * shape.semi_axes.minCoeff(), out);
   std::uint32_t used = 0;
   for (SurfaceContact& c : out) {
-    c.key = key_of(c, X_MA) + 64 * used++;
+    c.key = key_of(c, X_MA, shape.exponent) + 64 * used++;
     c.p_a = X_WM * c.p_a;
     c.p_b = X_WM * c.p_b;
     c.normal = X_WM.q * c.normal;

@@ -7,7 +7,10 @@
 #include "engine/geometry/hyper_ellipsoid_pair.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace engine {
 namespace {
@@ -36,44 +39,92 @@ struct Found {
   bool stationary = false;
 };
 
-/// Near the flats of n > 2 the support function has all but kinks where n is across a body axis, and the maximum often lies on one:
-/// Newton stalls there. Steps along and across the six circles of kinks, halved until nothing is gained.
-/// With a guess from the last step at hand only the kinks nearby are tried.
-Found polish(const Pair& pair, Found at, bool warm) {
-  constexpr double kFirstStep = 0.02, kLastStep = 1e-9, kLastWarmStep = 1e-8;  // [rad]
-  const double nearby = warm ? 0.2 : 2.0;                                      // [-] sine of the angle to a kink
-  for (double step = kFirstStep; step > (warm ? kLastWarmStep : kLastStep); step *= 0.5) {
-    for (int round = 0; round < 8; ++round) {
-      bool better = false;
-      for (int i = 0; i < 6; ++i) {
-        const Vec3 axis = i < 3 ? pair.R_WA.col(i) : pair.R_WB.col(i - 3);
-        if (std::abs(at.n.dot(axis)) > nearby) continue;
-        const Vec3 along = at.n.cross(axis);
-        if (along.squaredNorm() < 1e-12) continue;
-        const Vec3 t = along.normalized();
-        for (const Vec3& direction : {t, Vec3(-t), Vec3(at.n.cross(t)), Vec3(-at.n.cross(t))}) {
-          const Vec3 next = (at.n + step * direction).normalized();
-          const double gap = pair.gap(next);
-          if (gap <= at.gap + 1e-15) continue;
-          at = {next, gap, false};
-          better = true;
-        }
-        // right onto the kink, when it is near
-        const Vec3 onto = (at.n - at.n.dot(axis) * axis).normalized();
-        if (std::abs(at.n.dot(axis)) < 4 * step) {
-          const double gap = pair.gap(onto);
-          if (gap > at.gap) {
-            at = {onto, gap, false};
-            better = true;
-          }
-        }
-      }
-      if (!better) break;
-    }
+/// Turns n about the unit axis w by the angle at which the gap stops growing: bisection on its slope (w x n).(d - s(n)), which
+/// knows the angle to rounding where the gap itself knows it to the root of rounding only. Returns the angle.
+double climb_about(const Pair& pair, const Vec3& w, double tolerance, Vec3& n) {
+  constexpr double kFirst = 1e-7, kGrowth = 6, kFarthest = 0.5;  // [rad]
+  const Vec3 across = w.cross(n), along = w.dot(n) * w;
+  auto turned = [&](double angle) -> Vec3 { return std::cos(angle) * (n - along) + std::sin(angle) * across + along; };
+  auto slope = [&](double angle) {
+    const Vec3 m = turned(angle);
+    return w.cross(m).dot(pair.d - pair.support_sum(m));
+  };
+  const double start = slope(0);
+  if (std::abs(start) < 1e-15) return 0;
+  const double sense = start > 0 ? 1 : -1;
+  double low = 0, high = std::max(kFirst, tolerance);
+  while (sense * slope(sense * high) > 0) {
+    low = high;
+    if (high > kFarthest) break;
+    high *= kGrowth;
   }
-  return at;
+  while (high - low > tolerance) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) break;
+    (sense * slope(sense * middle) > 0 ? low : high) = middle;
+  }
+  n = turned(sense * low).normalized();
+  return low;
 }
 
+/// One step of Newton on the tangential miss, taken if it halves it.
+bool newton(const Pair& pair, Vec3& n) {
+  auto frame_at = [](const Vec3& m) {
+    const Vec3 t1 = m.unitOrthogonal();
+    Eigen::Matrix<double, 3, 2> E;
+    E << t1, m.cross(t1);
+    return E;
+  };
+  const auto E = frame_at(n);
+  const Eigen::Vector2d miss = E.transpose() * (pair.d - pair.support_sum(n));
+  if (miss.norm() < 1e-14) return false;
+  const Eigen::Matrix2d H = E.transpose() * pair.hessian_sum(n) * E + pair.gap(n) * Eigen::Matrix2d::Identity();
+  if (!(H.determinant() > 0 && H.trace() > 0)) return false;
+  const Eigen::Vector2d step = H.inverse() * miss;
+  if (!(step.norm() < 0.1)) return false;
+  const Vec3 next = (n + E * step).normalized();
+  if ((frame_at(next).transpose() * (pair.d - pair.support_sum(next))).norm() > 0.5 * miss.norm()) return false;
+  n = next;
+  return true;
+}
+
+/// Near the flats of n > 2 the support function has all but kinks where n is across a body axis, and the maximum often lies on one:
+/// Newton stalls there. Climbs along and across the circles of kinks nearby by turns, each to where the gap stops growing.
+Found settle(const Pair& pair, Found at, double tolerance) {
+  constexpr double kNearby = 0.3;  // [-] sine of the angle to a kink
+  constexpr int kRounds = 200, kAround = 16;
+  Vec3 n = at.n;
+  for (int round = 0; round < kRounds; ++round) {
+    while (newton(pair, n)) continue;
+    double moved = 0;
+    bool kinks = false;
+    for (int i = 0; i < 6; ++i) {
+      const Vec3 axis = i < 3 ? pair.R_WA.col(i) : pair.R_WB.col(i - 3);
+      if (std::abs(n.dot(axis)) > kNearby) continue;
+      kinks = true;
+      moved = std::max(moved, climb_about(pair, n.cross(axis).normalized(), tolerance, n));
+      moved = std::max(moved, climb_about(pair, axis, tolerance, n));
+    }
+    if (!kinks) {
+      const Vec3 t = n.unitOrthogonal();
+      moved = std::max(moved, climb_about(pair, t, tolerance, n));
+      moved = std::max(moved, climb_about(pair, n.cross(t).normalized(), tolerance, n));
+    }
+    // two ridges that cross at a slant leave a narrow way up between the directions of both
+    for (int k = 0; k < kAround && moved <= 2 * tolerance; ++k) {
+      const Vec3 t = n.unitOrthogonal();
+      const double turn = std::numbers::pi * k / kAround;
+      moved = climb_about(pair, std::cos(turn) * t + std::sin(turn) * n.cross(t), tolerance, n);
+    }
+    if (moved <= 2 * tolerance) break;
+  }
+  const double gap = pair.gap(n);
+  return gap >= at.gap - 1e-15 ? Found{n, gap, false} : at;
+}
+
+constexpr double kCoarse = 1e-4;           // [rad] far enough to tell which of several maxima is the largest
+constexpr double kSameHill = 0.99995;      // [-] cosine of 0.6 deg: stalled on the way to the maximum that is known
+constexpr double kFine = 2e-11;            // [rad]
 constexpr int kSweep = 48;                 // directions
 constexpr double kGoldenAngle = 2.399963;  // [rad]
 
@@ -109,10 +160,8 @@ Found climb(const Pair& pair, Vec3 n, int iterations) {
   return {n, g, false};
 }
 
-}  // namespace
-
-std::optional<SurfaceContact> contact_of_pair(const HyperEllipsoid& A, const Pose& X_WA, const HyperEllipsoid& B, const Pose& X_WB,
-                                              double margin, Vec3& normal_guess, double* apart) {
+std::optional<SurfaceContact> search(const HyperEllipsoid& A, const Pose& X_WA, const HyperEllipsoid& B, const Pose& X_WB,
+                                     double margin, Vec3& normal_guess, double* apart) {
   const Pair pair{A, B, X_WA.q.toRotationMatrix(), X_WB.q.toRotationMatrix(), X_WA.p - X_WB.p};
   const double distance = pair.d.norm();
   const Vec3 towards = distance > 1e-12 ? Vec3(pair.d / distance) : Vec3(Vec3::UnitZ());
@@ -127,11 +176,13 @@ std::optional<SurfaceContact> contact_of_pair(const HyperEllipsoid& A, const Pos
   const bool warm = normal_guess.squaredNorm() > 0.5;
   Found best = climb(pair, warm ? normal_guess : towards, 40);
   const bool deep = best.gap < -0.1 * std::min(A.semi_axes.minCoeff(), B.semi_axes.minCoeff());
-  if (!warm || deep) {
+  if (!warm && !best.stationary) best = settle(pair, best, kCoarse);
+  // apart, the gap is concave over directions: a maximum is the only one
+  if (best.gap < 0 && (!warm || deep)) {
     auto try_from = [&](const Vec3& n) {
       if (pair.gap(n) < 2 * best.gap - 0.5 * A.semi_axes.maxCoeff()) return;
       Found found = climb(pair, n, 25);
-      if (!found.stationary && !warm) found = polish(pair, found, false);
+      if (!found.stationary && !warm && found.n.dot(best.n) < kSameHill) found = settle(pair, found, kCoarse);
       if (found.gap > best.gap + 1e-12) best = found;
     };
     if (warm) try_from(towards);
@@ -155,7 +206,7 @@ std::optional<SurfaceContact> contact_of_pair(const HyperEllipsoid& A, const Pos
     }
     best = climb(pair, best.n, 60);
   }
-  if (!best.stationary && best.gap < margin) best = polish(pair, best, warm && !deep);
+  if (best.gap < margin) best = settle(pair, best, kFine);
   normal_guess = best.n;
   if (best.gap >= margin) {
     if (apart) *apart = best.gap;
@@ -167,6 +218,24 @@ std::optional<SurfaceContact> contact_of_pair(const HyperEllipsoid& A, const Pos
   c.p_a = X_WA.p - pair.R_WA * support_point(A, pair.R_WA.transpose() * best.n);
   c.p_b = X_WB.p + pair.R_WB * support_point(B, pair.R_WB.transpose() * best.n);
   return c;
+}
+
+}  // namespace
+
+std::optional<SurfaceContact> contact_of_pair(const HyperEllipsoid& A, const Pose& X_WA, const HyperEllipsoid& B, const Pose& X_WB,
+                                              double margin, Vec3& normal_guess, double* apart) {
+  // always the same way round, so that what A gets of B is what B gets of A, to the last bit
+  const Vec3 &a = X_WA.p, &b = X_WB.p;
+  if (!std::lexicographical_compare(b.data(), b.data() + 3, a.data(), a.data() + 3))
+    return search(A, X_WA, B, X_WB, margin, normal_guess, apart);
+  Vec3 back = -normal_guess;
+  auto contact = search(B, X_WB, A, X_WA, margin, back, apart);
+  normal_guess = -back;
+  if (contact) {
+    contact->normal = -contact->normal;
+    std::swap(contact->p_a, contact->p_b);
+  }
+  return contact;
 }
 
 }  // namespace engine
