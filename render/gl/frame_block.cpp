@@ -57,6 +57,22 @@ Rectangle seen(const std::vector<Vector3d>& points, std::size_t group, const Mat
   return {left, low, right - left, high - low};
 }
 
+// the ray of a pixel, linear in its place: from the near plane to one not at infinity, where a float has run out of digits
+void set_rays(const Matrix4d& clip_to_world, int width, int height, FrameBlock& b) {
+  const auto set = [&](double depth, Float4& at_0, Float4& per_x, Float4& per_y) {
+    const auto at = [&](double x, double y) -> Vector3d {
+      const Vector4d p = clip_to_world * Vector4d(x, y, depth, 1);
+      return p.head<3>() / p[3];
+    };
+    const Vector3d corner = at(-1, -1);
+    at_0 = four(corner, 0);
+    per_x = four((at(1, -1) - corner) / width, 0);
+    per_y = four((at(-1, 1) - corner) / height, 0);
+  };
+  set(-1, b.near_0, b.near_x, b.near_y);
+  set(0.9, b.far_0, b.far_x, b.far_y);
+}
+
 // the horizon crosses the left and right edge of the picture at these rows; above both there is sky alone
 int sky_rows(const Matrix4d& clip_to_world, bool orthographic, int height) {
   if (orthographic) return height;
@@ -209,6 +225,7 @@ FrameSetup set_up_frame(const DrawList& list, const std::vector<CasterBox>& boxe
   b.ground = four({list.road.height, list.road.width / 2, list.road.centre_y}, list.road.lanes);
   b.road = four({list.road.road ? 1.0 : 0.0, list.road.metre_grid ? 1.0 : 0.0, list.road.zebra ? 1.0 : 0.0}, list.road.zebra_x);
   b.frame = four({2.0 / width, 2.0 / height, 0}, 0);
+  set_rays(out.world_to_clip.inverse(), width, height, b);
   out.sky_from = sky_rows(out.world_to_clip.inverse(), list.view.orthographic, height);
   out.near_to = near_rows(out.world_to_clip.inverse(), Vector3d(b.eye[0], b.eye[1], b.eye[2]), list.road.height,
                           list.view.orthographic, out.sky_from, height);

@@ -18,6 +18,7 @@ struct FrameBlock {
   // what sky and bare ground depend on: equal bytes up to here mean an equal background
   Matrix4 world_to_clip{}, clip_to_world{};
   Float4 eye{}, forward{}, sun{}, ground{}, road{}, frame{};
+  Float4 near_0{}, near_x{}, near_y{}, far_0{}, far_x{}, far_y{};
   // what things add to it
   Matrix4 world_to_shadow{};
   Float4 shadow{}, shadow_size{}, occlusion{};
@@ -26,7 +27,7 @@ struct FrameBlock {
   std::array<Float4, 3 * kBoxOccluders> box_rows{};
   std::array<Float4, kBoxOccluders> box_half{};
 };
-static_assert(offsetof(FrameBlock, world_to_shadow) == 2 * sizeof(Matrix4) + 6 * sizeof(Float4));
+static_assert(offsetof(FrameBlock, world_to_shadow) == 2 * sizeof(Matrix4) + 12 * sizeof(Float4));
 
 /// Whether the background without things is the same picture.
 bool same_background(const FrameBlock&, const FrameBlock&);

@@ -11,8 +11,9 @@
 namespace render::gl {
 
 /// The samplers of all shaders, in the order of their texture units.
-constexpr const char* kSamplers[] = {"noise_map",     "shadow_map", "shadow_probe", "shadow_depth",
+constexpr const char* kSamplers[] = {"noise_map",     "shadow_map", "shadow_depth", "shadow_bounds",
                                      "occlusion_map", "seen_map",   "depth_map",    "material_map"};
+constexpr unsigned kBoundsUnit = 3;
 
 /// Vertex and fragment shader, linked. The uniform block `Frame` sits at binding 0.
 class Program {

@@ -6,13 +6,16 @@ namespace render::gl {
 
 extern const char* const kFrameBlock;
 extern const char* const kCommon;
-extern const char* const kScreenVertex;
+extern const char* const kTileVertex;
 extern const char* const kSkyFragment;
 extern const char* const kOcclusionFragment;
 extern const char* const kGroundFragment;
 extern const char* const kGroundPattern;
 extern const char* const kObjectVertex;
 extern const char* const kObjectFragment;
+extern const char* const kSeenDepthFragment;
+extern const char* const kSurfaces;  // before the next two
+extern const char* const kCountFragment;
 extern const char* const kShadeFragment;
 extern const char* const kDepthVertex;
 extern const char* const kDepthFragment;

@@ -13,6 +13,8 @@ layout(std140) uniform Frame {
   vec4 ground;            // x height, y road half width, z road centre, w lanes
   vec4 road;              // x road, y metre grid, z zebra, w zebra position
   vec4 frame;             // xy two over the picture's width and height
+  vec4 near_0, near_x, near_y;  // a pixel's ray from here ...
+  vec4 far_0, far_x, far_y;     // ... to here: at the corner, and per pixel right and up
   mat4 world_to_shadow;   // to 0..1
   vec4 shadow;            // xy one texel in metres, z depth range in metres, w width of penumbra filter in metres
   vec4 shadow_size;       // xy extent of the map in metres
@@ -27,8 +29,8 @@ layout(std140) uniform Frame {
 const char* const kCommon = R"(
 uniform sampler2D noise_map;
 uniform sampler2DShadow shadow_map;    // the nearest four depths, filtered
-uniform sampler2DShadow shadow_probe;  // the nearest depth
 uniform sampler2D shadow_depth;
+uniform sampler2D shadow_bounds;       // least and largest depth within the filter's reach
 uniform sampler2D occlusion_map;
 
 const vec3 kSunLight = vec3(2.75, 2.58, 2.30);
@@ -79,65 +81,58 @@ float dither() { return (fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06
 
 #if SHADOW == 2
 const int kBlockers = 14, kFilter = 24;
-const float kWidest = 0.10;       // [m] radius of the penumbra filter
 #else
-const int kBlockers = 6, kFilter = 12;
-const float kWidest = 0.05;
+const int kBlockers = 8, kFilter = 12;
 #endif
 
 #if SHADOW > 0
-// Contact hardening: the farther the blocker, the wider the filter (Fernando 2005). llvmpipe runs both sides of an `if`, but leaves a
-// loop when no pixel is left in it: the filter is paid for only where nine probes disagree.
+// Contact hardening: the farther the blocker, the wider the filter (Fernando 2005). llvmpipe runs both sides of an `if` and the first
+// turn of a loop, but leaves the loop when no pixel is left in it: blockers are looked for only where the least and largest depth
+// around leave it open, the filter runs only where some are found and some are not.
+const float kWidest = WIDEST;     // [m] radius of the penumbra filter
 const float kSunSpread = 0.030;   // [rad] wider than the true 0.0093: a hazy sun reads better
+const mat2 kTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // the golden angle: places spread evenly over a disc
 // `wanted` 0: no work
 float sunlight(vec3 p, vec3 n, float wanted) {
   vec3 at = (world_to_shadow * vec4(p + n * 1.5 * max(shadow.x, shadow.y), 1.0)).xyz;
   at.z = min(at.z, 1.0);
-  vec2 w = kWidest / shadow_size.xy, h = 0.6 * w;
-  float probes = texture(shadow_probe, at);
-  probes += texture(shadow_probe, vec3(at.xy + w, at.z)) + texture(shadow_probe, vec3(at.xy - w, at.z));
-  probes += texture(shadow_probe, vec3(at.x + w.x, at.y - w.y, at.z)) + texture(shadow_probe, vec3(at.x - w.x, at.y + w.y, at.z));
-  probes += texture(shadow_probe, vec3(at.x + h.x, at.yz)) + texture(shadow_probe, vec3(at.x - h.x, at.yz));
-  probes += texture(shadow_probe, vec3(at.x, at.y + h.y, at.z)) + texture(shadow_probe, vec3(at.x, at.y - h.y, at.z));
-  int edge = wanted > 0.5 && probes > 0.5 && probes < 8.5 ? 1 : 0;
+  vec2 bounds = textureLod(shadow_bounds, at.xy, 0.0).xy;
+  int open = wanted > 0.5 && at.z > bounds.x && at.z <= bounds.y ? kBlockers : 0;
 #if SHADOW == 2
   float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  vec2 start = vec2(cos(turn), sin(turn));
 #else
-  float turn = 0.0;
+  vec2 start = vec2(1.0, 0.0);
 #endif
+  vec2 widest = kWidest / shadow_size.xy, d = start;
   float blocker = 0.0, found = 0.0;
-  for (int i = 0; i < edge * kBlockers; ++i) {
-    float r = sqrt((float(i) + 0.5) / float(kBlockers)), a = float(i) * 2.3999632 + turn;
-    float z = texture(shadow_depth, at.xy + r * vec2(cos(a), sin(a)) * w).r;
+  for (int i = 0; i < open; ++i) {
+    float z = textureLod(shadow_depth, at.xy + sqrt((float(i) + 0.5) / float(kBlockers)) * d * widest, 0.0).r;
     float hit = step(z, at.z - 0.0002);
     blocker += z * hit;
     found += hit;
+    d = kTurn * d;
   }
-  float gap = found > 0.0 ? (at.z - blocker / found) * shadow.z : 0.0;
+  float gap = (at.z - blocker / max(found, 1.0)) * shadow.z;
   vec2 spread = clamp(gap * kSunSpread, 1.2 * max(shadow.x, shadow.y), kWidest) / shadow_size.xy;
-  float lit = 0.0;
-  for (int i = 0; i < edge * kFilter; ++i) {
-    float r = sqrt((float(i) + 0.5) / float(kFilter)), a = float(i) * 2.3999632 + turn;
-    lit += texture(shadow_map, vec3(at.xy + r * vec2(cos(a), sin(a)) * spread, at.z));
+  int edge = found > 0.5 && found < float(kBlockers) - 0.5 ? kFilter : 0;
+  float lit = open > 0 ? step(found, 0.5) : step(at.z, bounds.x), sum = 0.0;
+  d = start;
+  for (int i = 0; i < edge; ++i) {
+    sum += textureLod(shadow_map, vec3(at.xy + sqrt((float(i) + 0.5) / float(kFilter)) * d * spread, at.z), 0.0);
+    d = kTurn * d;
   }
-  return edge == 1 ? lit / float(kFilter) : step(4.5, probes);
+  return edge > 0 ? sum / float(kFilter) : lit;
 }
 #else
 float sunlight(vec3 p, vec3 n, float wanted) { return 1.0; }
 #endif
 )";
 
-const char* const kScreenVertex = R"(
-out vec3 near_point;
-out vec3 far_point;
-void main() {
-  vec2 xy = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-  vec4 a = clip_to_world * vec4(xy, -1.0, 1.0);
-  vec4 b = clip_to_world * vec4(xy, 0.9, 1.0);   // not the far plane, where a float has run out of digits
-  near_point = a.xyz / a.w;
-  far_point = b.xyz / b.w;
-  gl_Position = vec4(xy, 0.0, 1.0);
-}
+const char* const kTileVertex = R"(
+layout(location = 0) in vec2 corner;   // pixels
+uniform float depth;                   // 0..1
+void main() { gl_Position = vec4(corner * frame.xy - 1.0, depth * 2.0 - 1.0, 1.0); }
 )";
 
 const char* const kCopyVertex = R"(

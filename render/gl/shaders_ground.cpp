@@ -20,6 +20,16 @@ float grain(vec2 p, float tile, float size) {
   return (textureLod(noise_map, p / tile, 0.0).r - 0.5) * clamp(1.4 - 0.4 * texels, 0.0, 1.0);
 }
 
+vec3 grass_colour(float fine, float middle, float wide) {
+  return mix(vec3(0.085, 0.110, 0.045), vec3(0.135, 0.145, 0.065), clamp(0.5 + 1.8 * wide + 1.0 * middle, 0.0, 1.0)) *
+         (1.0 + 1.5 * fine + 0.5 * middle);
+}
+
+vec3 pavement_colour(vec2 p, vec2 w, float y, float fine, float middle, float wide) {
+  return vec3(0.215, 0.21, 0.2) * (1.0 + 0.45 * fine + 0.15 * middle + 0.25 * wide) *
+         (1.0 - 0.4 * max(bars(p.x, 0.6, 0.005, w.x), bars(y, 0.6, 0.005, w.y)));
+}
+
 // colour of the ground at p, filtered over the footprint w (x, y)
 vec3 ground_colour(vec2 p, vec2 w) {
   float size = 0.7 * max(w.x, w.y);
@@ -27,40 +37,52 @@ vec3 ground_colour(vec2 p, vec2 w) {
   float middle = grain(p + vec2(3.7, 1.3), 6.3, size);
   float wide = grain(p.yx + vec2(11.0, 5.0), 41.0, size);
   float y = p.y - ground.z;
+#if GRASS
+  vec3 c = grass_colour(fine, middle, wide);
+#else
+#if PAVED
+  vec3 c = pavement_colour(p, w, y, fine, middle, wide);
+#else
   vec3 asphalt = vec3(0.118, 0.117, 0.118) * (1.0 + 0.95 * fine + 0.55 * middle + 0.40 * wide);
   vec3 c = asphalt;
-  if (road.x > 0.5) {
-    float half_width = ground.y;
-    // wheels polish two tracks in each lane
-    float lane = 2.0 * half_width / max(ground.w, 1.0);
-    float track = abs(abs(fract((y + half_width) / lane) - 0.5) * lane - 0.75);
-    c *= 1.0 + 0.07 * (1.0 - smoothstep(0.1, 0.5, track)) - 0.03;
-    vec3 white = vec3(0.62, 0.62, 0.60) * (0.93 + 0.55 * fine + 0.18 * middle);
-    float worn = clamp(1.02 + 0.7 * middle, 0.0, 1.0);
-    float paint = bar(abs(y), half_width - 0.25, 0.06, w.y);
-    float broken = bars(p.x, 9.0, 1.5, w.x);
-    for (int i = 1; i < int(ground.w); ++i) paint = max(paint, broken * bar(y, -half_width + lane * float(i), 0.06, w.y));
-    float inside = bar(y, 0.0, half_width - 0.45, w.y);
-    float clear_of_zebra = 1.0 - road.z * bar(p.x, road.w, 2.4, w.x);
-    paint = max(paint * clear_of_zebra, road.z * inside * bar(p.x, road.w, 1.75, w.x) * bars(y, 1.0, 0.25, w.y));
-    c = mix(c, white, paint * worn);
-    // kerb stone, pavement of slabs, grass
-    float off = abs(y) - half_width;
-    vec3 kerb = vec3(0.25, 0.245, 0.235) * (1.0 + 0.4 * middle + 0.3 * fine);
-    vec3 pavement = vec3(0.215, 0.21, 0.2) * (1.0 + 0.45 * fine + 0.15 * middle + 0.25 * wide);
-    pavement *= 1.0 - 0.4 * max(bars(p.x, 0.6, 0.005, w.x), bars(y, 0.6, 0.005, w.y));
-    vec3 grass = mix(vec3(0.085, 0.110, 0.045), vec3(0.135, 0.145, 0.065), clamp(0.5 + 1.8 * wide + 1.0 * middle, 0.0, 1.0)) *
-                 (1.0 + 1.5 * fine + 0.5 * middle);
-    c = mix(c, kerb, clamp(off / w.y + 0.5, 0.0, 1.0));
-    c = mix(c, pavement, clamp((off - 0.15) / w.y + 0.5, 0.0, 1.0));
-    c = mix(c, grass, clamp((off - 2.15 - 0.1 * (middle + fine)) / max(w.y, 0.02) + 0.5, 0.0, 1.0));
-  } else {
-    c = vec3(0.165, 0.165, 0.168) * (1.0 + 0.7 * fine + 0.45 * middle + 0.30 * wide);
-  }
-  if (road.y > 0.5 || road.x < 0.5) {
-    float line = max(bars(p.x, 1.0, 0.008, w.x), bars(p.y, 1.0, 0.008, w.y));
-    c = mix(c, vec3(0.42), 0.55 * line);
-  }
+#if ROAD
+  float half_width = ground.y;
+  // wheels polish two tracks in each lane
+  float lane = 2.0 * half_width / max(ground.w, 1.0);
+  float track = abs(abs(fract((y + half_width) / lane) - 0.5) * lane - 0.75);
+  c *= 1.0 + 0.07 * (1.0 - smoothstep(0.1, 0.5, track)) - 0.03;
+#if !PLAIN
+  vec3 white = vec3(0.62, 0.62, 0.60) * (0.93 + 0.55 * fine + 0.18 * middle);
+  float worn = clamp(1.02 + 0.7 * middle, 0.0, 1.0);
+  float paint = bar(abs(y), half_width - 0.25, 0.06, w.y);
+  float broken = bars(p.x, 9.0, 1.5, w.x);
+  for (int i = 1; i < int(ground.w); ++i) paint = max(paint, broken * bar(y, -half_width + lane * float(i), 0.06, w.y));
+#if ZEBRA
+  float inside = bar(y, 0.0, half_width - 0.45, w.y);
+  float clear_of_zebra = 1.0 - bar(p.x, road.w, 2.4, w.x);
+  paint = max(paint * clear_of_zebra, inside * bar(p.x, road.w, 1.75, w.x) * bars(y, 1.0, 0.25, w.y));
+#endif
+  c = mix(c, white, paint * worn);
+#endif
+#if !ROADWAY
+  // kerb stone, pavement of slabs, grass
+  float off = abs(y) - half_width;
+  vec3 kerb = vec3(0.25, 0.245, 0.235) * (1.0 + 0.4 * middle + 0.3 * fine);
+  vec3 pavement = pavement_colour(p, w, y, fine, middle, wide);
+  vec3 grass = grass_colour(fine, middle, wide);
+  c = mix(c, kerb, clamp(off / w.y + 0.5, 0.0, 1.0));
+  c = mix(c, pavement, clamp((off - 0.15) / w.y + 0.5, 0.0, 1.0));
+  c = mix(c, grass, clamp((off - 2.15 - 0.1 * (middle + fine)) / max(w.y, 0.02) + 0.5, 0.0, 1.0));
+#endif
+#else
+  c = vec3(0.165, 0.165, 0.168) * (1.0 + 0.7 * fine + 0.45 * middle + 0.30 * wide);
+#endif
+#if GRID
+  float line = max(bars(p.x, 1.0, 0.008, w.x), bars(p.y, 1.0, 0.008, w.y));
+  c = mix(c, vec3(0.42), 0.55 * line);
+#endif
+#endif
+#endif
   return max(c, vec3(0.005));
 }
 
@@ -93,21 +115,21 @@ float occlusion_at(vec3 p) {
 }
 
 void main() {
-  vec2 p = occlusion.xy + occlusion.zw * gl_FragCoord.xy / 256.0;
+  vec2 p = occlusion.xy + occlusion.zw * gl_FragCoord.xy / float(OCCLUSION);
   colour = vec4(occlusion_at(vec3(p, ground.x)));
 }
 )";
 
 const char* const kSkyFragment = R"(
-in vec3 near_point;
-in vec3 far_point;
 out vec4 colour;
-void main() { colour = vec4(to_screen(sky_light(normalize(far_point - near_point))) + dither(), 1.0); }
+void main() {
+  vec3 d = far_0.xyz - near_0.xyz + gl_FragCoord.x * (far_x.xyz - near_x.xyz) + gl_FragCoord.y * (far_y.xyz - near_y.xyz);
+  colour = vec4(to_screen(sky_light(normalize(d))) + dither(), 1.0);
+}
 )";
 
 const char* const kGroundFragment = R"(
-in vec3 near_point;
-in vec3 far_point;
+uniform float sure_light;  // of the sun, where the tile leaves no doubt
 out vec4 colour;
 
 // where the ray meets the ground; behind or beside the horizon: very far
@@ -118,10 +140,12 @@ vec2 meet(vec3 a, vec3 b) {
 }
 
 void main() {
+  vec3 near_point = near_0.xyz + gl_FragCoord.x * near_x.xyz + gl_FragCoord.y * near_y.xyz;
+  vec3 far_point = far_0.xyz + gl_FragCoord.x * far_x.xyz + gl_FragCoord.y * far_y.xyz;
   vec3 d = normalize(far_point - near_point);
   vec2 p = meet(near_point, far_point);
-  vec2 px = meet(near_point + dFdx(near_point), far_point + dFdx(far_point));
-  vec2 py = meet(near_point + dFdy(near_point), far_point + dFdy(far_point));
+  vec2 px = meet(near_point + near_x.xyz, far_point + far_x.xyz);
+  vec2 py = meet(near_point + near_y.xyz, far_point + far_y.xyz);
   vec2 w = max(abs(px - p) + abs(py - p), vec2(1e-4));
 #if !NEAR
   float hits = step(1e-5, -d.z);
@@ -131,7 +155,11 @@ void main() {
 #if CASTERS
   vec3 p3 = vec3(p, ground.x);
   open = texture(occlusion_map, (p - occlusion.xy) / occlusion.zw).r;
+#if SHADOW > 0
   lit = sunlight(p3, vec3(0, 0, 1), 1.0);
+#else
+  lit = sure_light;
+#endif
 #endif
   vec3 light = kSunLight * max(sun.z, 0.0) * lit * mix(open, 1.0, 0.6) + ambient_light(vec3(0, 0, 1), 1.0) * open;
   c *= light;

@@ -78,13 +78,69 @@ void main() {
 }
 )";
 
-// Light for what the four samples of a pixel see: once where they see one smooth surface, else each for itself.
-const char* const kShadeFragment = R"(
-uniform sampler2D seen_map;        // of the object pass, SAMPLES a side to a pixel
+// Depth of the nearest sample of a pixel.
+const char* const kSeenDepthFragment = R"(
 uniform sampler2D depth_map;
-uniform sampler2D material_map;    // four texels a row
+uniform vec2 origin;
+void main() {
+  ivec2 at = ivec2(floor(gl_FragCoord.xy) - origin) * SAMPLES;
+  float nearest = 1.0;
+  for (int i = 0; i < SAMPLES * SAMPLES; ++i) nearest = min(nearest, texelFetch(depth_map, at + ivec2(i % SAMPLES, i / SAMPLES), 0).r);
+  gl_FragDepth = nearest;
+}
+)";
+
+// For the two shaders below.
+const char* const kSurfaces = R"(
+uniform sampler2D seen_map;        // of the object pass, SAMPLES a side to a pixel
 uniform vec2 origin;               // of the object pass, pixels of the picture
 out vec4 colour;
+
+// The samples of a pixel, and which of them show the first surface that is seen, which another: nearly no pixel shows three.
+struct Seen {
+  vec4 a, b, c, d;
+  vec4 first, second;   // a sample of each
+  vec4 one, rest;       // 1 where a sample shows the first surface, another one
+};
+
+// one surface: the same material, normals within some 15 degrees. At the octahedron's folds a surface may look like two; that costs
+// time alone
+float alike(vec4 a, vec4 b) { return a.z == b.z && max(abs(a.x - b.x), abs(a.y - b.y)) < 0.07 ? 1.0 : 0.0; }
+
+Seen look(ivec2 at) {
+  Seen s;
+  s.a = texelFetch(seen_map, at, 0);
+#if SAMPLES == 1
+  s.one = vec4(step(1e-6, s.a.z), 0.0, 0.0, 0.0);
+  s.rest = vec4(0.0);
+  s.b = s.c = s.d = s.first = s.second = s.a;
+#else
+  s.b = texelFetch(seen_map, at + ivec2(1, 0), 0);
+  s.c = texelFetch(seen_map, at + ivec2(0, 1), 0);
+  s.d = texelFetch(seen_map, at + ivec2(1, 1), 0);
+  vec4 full = step(1e-6, vec4(s.a.z, s.b.z, s.c.z, s.d.z));
+  s.first = full.x > 0.5 ? s.a : full.y > 0.5 ? s.b : full.z > 0.5 ? s.c : s.d;
+  s.one = full * vec4(alike(s.first, s.a), alike(s.first, s.b), alike(s.first, s.c), alike(s.first, s.d));
+  s.rest = full - s.one;
+  s.second = s.rest.y > 0.5 ? s.b : s.rest.z > 0.5 ? s.c : s.d;
+#endif
+  return s;
+}
+)";
+
+// How many surfaces the samples of a pixel show, as a depth: 0, 0.5 or 1; and the share of the pixel they cover.
+const char* const kCountFragment = R"(
+void main() {
+  Seen s = look(ivec2(floor(gl_FragCoord.xy) - origin) * SAMPLES);
+  colour = vec4(dot(s.one + s.rest, vec4(1.0 / float(SAMPLES * SAMPLES))));
+  gl_FragDepth = 0.5 * (step(0.5, dot(s.one, s.one)) + step(0.5, dot(s.rest, s.rest)));
+}
+)";
+
+// Light of the first surface of a pixel, or of the second.
+const char* const kShadeFragment = R"(
+uniform sampler2D depth_map;
+uniform sampler2D material_map;    // four texels a row
 
 vec3 normal_of(vec2 f) {
   f = f * 2.0 - 1.0;
@@ -111,7 +167,7 @@ vec3 light(vec3 p, vec3 n, float id, float grain) {
   vec4 soft = texelFetch(material_map, ivec2(3, row), 0);    // wrap, sheen, grain, terrain
   vec3 v = eye.w > 0.5 ? -forward.xyz : normalize(eye.xyz - p);
   float toward = dot(n, sun.xyz), ndl = max(toward, 0.0), ndv = clamp(dot(n, v), 0.0, 1.0);
-  float lit = sunlight(p, n, step(0.0, toward));
+  float lit = sunlight(p, n, step(-soft.x, toward));
   float height = p.z - ground.x;
   vec3 sky = ambient_light(n, mix(0.30, 1.0, smoothstep(0.0, 0.9, height))) * mix(0.62, 1.0, smoothstep(-0.05, 0.45, height));
   vec3 r = reflect(-v, n);
@@ -139,39 +195,27 @@ vec3 light(vec3 p, vec3 n, float id, float grain) {
 void main() {
   vec2 pixel = floor(gl_FragCoord.xy);
   ivec2 at = ivec2(pixel - origin) * SAMPLES;
+  Seen s = look(at);
 #if SAMPLES == 1
-  vec4 s = texelFetch(seen_map, at, 0);
-  float depth = texelFetch(depth_map, at, 0).r;
-  colour = vec4(light(place_of(pixel + 0.5, depth), normal_of(s.xy), floor(s.z * 65535.0 + 0.5) - 1.0, s.w), 1.0) * step(1e-6, s.z);
-#if DEPTH
-  gl_FragDepth = depth;
-#endif
+  vec4 mean = s.a;
+  vec3 p = place_of(pixel + 0.5, texelFetch(depth_map, at, 0).r);
+  float share = s.one.x;
 #else
-  vec4 a = texelFetch(seen_map, at, 0), b = texelFetch(seen_map, at + ivec2(1, 0), 0);
-  vec4 c = texelFetch(seen_map, at + ivec2(0, 1), 0), d = texelFetch(seen_map, at + ivec2(1, 1), 0);
-  vec3 na = normal_of(a.xy), nb = normal_of(b.xy), nc = normal_of(c.xy), nd = normal_of(d.xy);
-  vec4 za = vec4(texelFetch(depth_map, at, 0).r, texelFetch(depth_map, at + ivec2(1, 0), 0).r,
-                 texelFetch(depth_map, at + ivec2(0, 1), 0).r, texelFetch(depth_map, at + ivec2(1, 1), 0).r);
-  bool same = a.z == b.z && a.z == c.z && a.z == d.z && min(dot(na, nd), dot(nb, nc)) > 0.95;
-  float empty = 1.0 - step(1e-6, a.z + b.z + c.z + d.z);
-  vec3 n = normalize(na + nb + nc + nd);
-  float depth = dot(za, vec4(0.25));
-  int count = empty > 0.5 ? 0 : same ? 1 : 4;
-  vec4 sum = vec4(0.0);
-  // a loop is left when no pixel is left in it; it does not run for what is alike
-  for (int i = 0; i < count; ++i) {
-    vec4 s = i == 0 ? a : i == 1 ? b : i == 2 ? c : d;
-    vec3 m = i == 0 ? na : i == 1 ? nb : i == 2 ? nc : nd;
-    float z = i == 0 ? za.x : i == 1 ? za.y : i == 2 ? za.z : za.w;
-    vec2 inside = vec2(0.25 + 0.5 * float(i & 1), 0.25 + 0.5 * float(i >> 1));
-    vec3 p = same ? place_of(pixel + 0.5, depth) : place_of(pixel + inside, z);
-    sum += vec4(light(p, same ? n : m, floor(s.z * 65535.0 + 0.5) - 1.0, same ? 0.25 * (a.w + b.w + c.w + d.w) : s.w), 1.0) * step(1e-6, s.z);
-  }
-  colour = sum / max(same ? 1.0 : 4.0, 1.0);
-#if DEPTH
-  gl_FragDepth = min(min(za.x, za.y), min(za.z, za.w));
+#if SECOND
+  vec4 w = s.rest * vec4(0.0, alike(s.second, s.b), alike(s.second, s.c), alike(s.second, s.d));
+  float share = dot(s.rest, vec4(0.25)), id = s.second.z;
+#else
+  vec4 w = s.one;
+  float share = dot(s.one, vec4(0.25)), id = s.first.z;
 #endif
+  w /= max(dot(w, vec4(1.0)), 1.0);
+  vec4 z = vec4(texelFetch(depth_map, at, 0).r, texelFetch(depth_map, at + ivec2(1, 0), 0).r,
+                texelFetch(depth_map, at + ivec2(0, 1), 0).r, texelFetch(depth_map, at + ivec2(1, 1), 0).r);
+  vec4 mean = w.x * s.a + w.y * s.b + w.z * s.c + w.w * s.d;
+  mean.z = id;
+  vec3 p = place_of(pixel + 0.25 + 0.5 * vec2(w.y + w.w, w.z + w.w), dot(z, w));
 #endif
+  colour = share > 0.0 ? share * vec4(light(p, normal_of(mean.xy), floor(mean.z * 65535.0 + 0.5) - 1.0, mean.w), 1.0) : vec4(0.0);
 }
 )";
 

@@ -49,8 +49,14 @@ void shadow_sampler(const Sampler& s, GLint mode, GLint filter) {
 
 }  // namespace
 
-Targets::Targets(int w, int h, int ow, int oh, int sample_side, int shadow_size)
-    : width(w), height(h), out_width(ow), out_height(oh), samples(sample_side), shadow_map_size(shadow_size) {
+Targets::Targets(int w, int h, int ow, int oh, int sample_side, int shadow_size, int occlusion_side)
+    : width(w),
+      height(h),
+      out_width(ow),
+      out_height(oh),
+      samples(sample_side),
+      shadow_map_size(shadow_size),
+      occlusion_size(occlusion_side) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
   if (w > largest || h > largest)
@@ -62,6 +68,11 @@ Targets::Targets(int w, int h, int ow, int oh, int sample_side, int shadow_size)
   attach(picture_colour, GL_COLOR_ATTACHMENT0, GL_RGBA8, w, h);
   attach(picture_depth, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, w, h);
   finish("picture");
+  // the picture again, with a depth that counts the surfaces in each pixel
+  glBindFramebuffer(GL_FRAMEBUFFER, *surfaces);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, *picture_colour);
+  attach(surfaces_depth, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT16, w, h);
+  finish("surface");
   // a large picture is drawn in bands, so that memory does not grow with its area times the samples
   band_width = w;
   band_height = std::clamp(kSeenPixels / (w * samples * samples), 16, h);
@@ -69,7 +80,7 @@ Targets::Targets(int w, int h, int ow, int oh, int sample_side, int shadow_size)
   allocate(seen_depth, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, band_width * samples, band_height * samples);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, *seen_depth, 0);
   finish("object");
-  texture_target(occlusion, occlusion_colour, kOcclusionSize, kOcclusionSize, GL_R16, "occlusion");
+  texture_target(occlusion, occlusion_colour, occlusion_side, occlusion_side, GL_R16, "occlusion");
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
   for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_BORDER);
   constexpr std::array<GLfloat, 4> kOpen{1, 1, 1, 1};
@@ -80,14 +91,14 @@ Targets::Targets(int w, int h, int ow, int oh, int sample_side, int shadow_size)
     finish("output");
   }
 
-  allocate(shadow_depth, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, shadow_size, shadow_size);
+  // float: read back as it is
+  allocate(shadow_depth, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, shadow_size, shadow_size);
   glBindFramebuffer(GL_FRAMEBUFFER, *shadow);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, *shadow_depth, 0);
   glDrawBuffer(GL_NONE);
   glReadBuffer(GL_NONE);
   finish("shadow");
   shadow_sampler(compare, GL_COMPARE_REF_TO_TEXTURE, GL_LINEAR);
-  shadow_sampler(probe, GL_COMPARE_REF_TO_TEXTURE, GL_NEAREST);
   shadow_sampler(plain, GL_NONE, GL_NEAREST);
 }
 

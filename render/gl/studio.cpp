@@ -1,0 +1,106 @@
+#include "render/gl/studio.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <vector>
+
+#include "render/gl/noise.h"
+#include "render/gl/pieces.h"
+#include "render/gl/shaders.h"
+
+namespace render::gl {
+namespace {
+
+constexpr int kWidestFine = 4096;  // [pixels] four times that is the largest texture
+
+}  // namespace
+
+Spend spend(Quality q, int width, int height) {
+  if (q == Quality::draft) return {1, 1, 512, 1, 0.05, 128, 0.5};
+  if (q == Quality::standard) return {1, 2, 1024, 1, 0.05, 128, 0.2};
+  return {std::max(width, height) > kWidestFine ? 1 : 2, 2, 2048, 2, 0.10, 256, 0.2};
+}
+
+std::string ground_switches(const RoadLook& road) {
+  std::string on;
+  if (road.road) on += " ROAD";
+  if (!road.road || road.metre_grid) on += " GRID";
+  if (road.zebra) on += " ZEBRA";
+  return on;
+}
+
+Studio::Studio(int w, int h, Quality q)
+    : cost(spend(q, w, h)), targets(w * cost.scale, h * cost.scale, w, h, cost.samples, cost.shadow_map_size, cost.occlusion_size) {
+  const std::vector<std::uint8_t> grain = grain_picture();
+  glBindTexture(GL_TEXTURE_2D, *noise_);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, kNoiseSize, kNoiseSize, 0, GL_RED, GL_UNSIGNED_BYTE, grain.data());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glBindBuffer(GL_UNIFORM_BUFFER, *block_);
+  glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameBlock), nullptr, GL_DYNAMIC_DRAW);
+}
+
+const Program& Studio::program(const Variant& v) {
+  std::unique_ptr<Program>& p = programs_[v];
+  if (!p) {
+    std::string defines =
+        fmt::format("#define KIND {}\n#define SHADOW {}\n#define SAMPLES {}\n#define WIDEST {:.3f}\n#define OCCLUSION {}\n", v.kind,
+                    v.shadow, cost.samples, cost.shadow_reach, cost.occlusion_size);
+    for (const std::string name :
+         {"SHELL", "CASTERS", "NEAR", "ROAD", "GRID", "ZEBRA", "ROADWAY", "PLAIN", "PAVED", "GRASS", "SECOND"})
+      defines += fmt::format("#define {} {}\n", name, v.options.find(name) != std::string::npos ? 1 : 0);
+    defines += fmt::format("#define TERRAIN {}\n", v.kind == kTerrainKind ? 1 : 0);
+    const bool ground = v.fragment == kGroundFragment || v.fragment == kStripFragment || v.kind == kTerrainKind;
+    const bool surfaces = v.fragment == kCountFragment || v.fragment == kShadeFragment;
+    p = std::make_unique<Program>(defines, std::string(kFrameBlock) + v.vertex,
+                                  std::string(kFrameBlock) + kCommon + (ground ? kGroundPattern : "") + (surfaces ? kSurfaces : "") + v.fragment);
+  }
+  p->use();
+  return *p;
+}
+
+void Studio::bind_inputs(const FrameSetup& frame, const MaterialTable& materials) {
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, *block_);
+  glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof(FrameBlock), &frame.block);
+  // in the order of kSamplers
+  const GLuint shadow = *targets.shadow_depth;
+  const GLuint textures[] = {*noise_,
+                             shadow,
+                             shadow,
+                             *targets.shadow_bounds,
+                             *targets.occlusion_colour,
+                             *targets.seen_colour,
+                             *targets.seen_depth,
+                             materials.texture()};
+  const GLuint samplers[] = {0, *targets.compare, *targets.plain, *targets.plain, 0, 0, 0, 0};
+  static_assert(std::size(textures) == std::size(kSamplers) && std::size(samplers) == std::size(kSamplers));
+  for (GLuint unit = 0; unit < std::size(textures); ++unit) {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, textures[unit]);
+    glBindSampler(unit, samplers[unit]);
+  }
+}
+
+void Studio::fill(const std::vector<Rectangle>& rectangles) {
+  std::vector<float> corners;
+  for (const Rectangle& r : rectangles) {
+    if (r.width <= 0 || r.height <= 0) continue;
+    const float x0 = static_cast<float>(r.x), y0 = static_cast<float>(r.y);
+    const float x1 = static_cast<float>(r.x + r.width), y1 = static_cast<float>(r.y + r.height);
+    corners.insert(corners.end(), {x0, y0, x1, y0, x1, y1, x0, y0, x1, y1, x0, y1});
+  }
+  if (corners.empty()) return;
+  glBindVertexArray(*corners_array_);
+  glBindBuffer(GL_ARRAY_BUFFER, *corners_);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(float)), corners.data(), GL_STREAM_DRAW);
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 2 * sizeof(float), nullptr);
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners.size() / 2));
+}
+
+}  // namespace render::gl

@@ -1,0 +1,65 @@
+// What all passes of a frame share: the quality's price list, the pictures they draw into, the compiled shaders and their inputs.
+#pragma once
+
+#include <compare>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/gl/frame_block.h"
+#include "render/gl/materials.h"
+#include "render/gl/names.h"
+#include "render/gl/program.h"
+#include "render/gl/targets.h"
+#include "render/renderer.h"
+
+namespace render::gl {
+
+struct Spend {  // what a quality level costs
+  int scale;    // pictures are drawn so many times larger a side
+  int samples;  // a side to a pixel
+  int shadow_map_size;
+  int shadow_filter;    // SHADOW in the shaders
+  double shadow_reach;  // [m] radius of the widest penumbra
+  int occlusion_size;   // texels a side of the occlusion map
+  double pixel_share;   // [pixels] of tessellation
+};
+
+Spend spend(Quality, int width, int height);
+
+/// Shader text with its switches.
+struct Variant {
+  const char* vertex;
+  const char* fragment;
+  int kind = 0, shadow = 0;
+  std::string options{};  // switches that are on
+  auto operator<=>(const Variant&) const = default;
+};
+
+/// Switches of the ground's pattern: what this ground has on it, and no more.
+std::string ground_switches(const RoadLook&);
+
+class Studio {
+ public:
+  Studio(int width, int height, Quality);
+
+  /// Compiled at first sight, in use from here on.
+  const Program& program(const Variant&);
+  /// Frame block and textures, for all passes of a frame.
+  void bind_inputs(const FrameSetup&, const MaterialTable&);
+  /// The rectangles of the bound framebuffer, with kTileVertex in use.
+  void fill(const std::vector<Rectangle>&);
+
+  const Spend cost;
+  Targets targets;
+  VertexArray nothing;  // for shaders that make their own vertices
+
+ private:
+  Texture noise_;
+  Buffer block_, corners_;
+  VertexArray corners_array_;
+  std::map<Variant, std::unique_ptr<Program>> programs_;
+};
+
+}  // namespace render::gl
