@@ -40,6 +40,13 @@ struct Mesh {
   std::vector<std::uint32_t> indices;
   std::vector<Part> parts;
   std::vector<Material> materials;
+  /// The same surface with fewer triangles, for where it is seen small; coarser from one to the next, part by part as above.
+  struct Level {
+    double tolerance = 0;  // [m] it stays this near
+    std::vector<std::uint32_t> indices;
+    std::vector<Part> parts;
+  };
+  std::vector<Level> levels;
 };
 
 /// Something that moves with one body of the Recording.

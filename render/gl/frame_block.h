@@ -21,7 +21,7 @@ struct FrameBlock {
   Float4 near_0{}, near_x{}, near_y{}, far_0{}, far_x{}, far_y{};
   // what things add to it
   Matrix4 world_to_shadow{};
-  Float4 shadow{}, shadow_size{}, occlusion{};
+  Float4 shadow{}, shadow_size{}, occlusion{0, 0, 1, 1};
   std::array<std::int32_t, 4> counts{};
   std::array<Float4, 3 * kRoundOccluders> round_rows{};
   std::array<Float4, 3 * kBoxOccluders> box_rows{};

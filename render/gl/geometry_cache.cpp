@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
-#include <span>
 
+#include "render/surface/simplify.h"
 #include "render/surface/tessellate.h"
 
 namespace render::gl {
@@ -14,8 +13,7 @@ namespace {
 // position and normal interleaved
 constexpr GLsizei kStride = 6 * sizeof(float);
 
-void fill(Geometry& g, const std::vector<float>& positions, const std::vector<float>& normals,
-          const std::vector<std::uint32_t>& indices) {
+void set_vertices(Geometry& g, const std::vector<float>& positions, const std::vector<float>& normals) {
   std::vector<float> data;
   data.reserve(positions.size() * 2);
   g.lower = {1e30f, 1e30f, 1e30f};
@@ -27,17 +25,34 @@ void fill(Geometry& g, const std::vector<float>& positions, const std::vector<fl
     }
     for (const auto* part : {&positions, &normals}) data.insert(data.end(), {(*part)[v], (*part)[v + 1], (*part)[v + 2]});
   }
-  g.index_count = indices.size();
   glBindVertexArray(*g.array);
   glBindBuffer(GL_ARRAY_BUFFER, *g.vertices);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data.size() * sizeof(float)), data.data(), GL_STATIC_DRAW);
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, *g.indices);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
-               GL_STATIC_DRAW);
   for (GLuint i = 0; i < 2; ++i) {
     glEnableVertexAttribArray(i);
     glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, kStride, reinterpret_cast<const void*>(std::size_t{i} * 3 * sizeof(float)));
   }
+}
+
+void set_indices(Geometry& g, const std::vector<std::uint32_t>& indices) {
+  g.levels = {{0, {{0, static_cast<std::uint32_t>(indices.size()), 0}}}};
+  glBindVertexArray(*g.array);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, *g.indices);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
+               GL_STATIC_DRAW);
+}
+
+/// All levels of the mesh, one behind the other.
+void set_levels(Geometry& g, const Mesh& mesh) {
+  std::vector<std::uint32_t> indices = mesh.indices;
+  std::vector<Geometry::Level> levels{{0, parts_of(mesh)}};
+  for (const Mesh::Level& coarse : mesh.levels.empty() ? coarser_levels(mesh) : mesh.levels) {
+    levels.push_back({coarse.tolerance, coarse.parts});
+    for (Mesh::Part& run : levels.back().runs) run.first += static_cast<std::uint32_t>(indices.size());
+    indices.insert(indices.end(), coarse.indices.begin(), coarse.indices.end());
+  }
+  set_indices(g, indices);
+  g.levels = std::move(levels);
 }
 
 // area-weighted sums of face normals; the shader turns them to the side that is seen
@@ -83,19 +98,6 @@ int winding(const Mesh& mesh, const Geometry& g) {
   return volume > 0 ? 1 : -1;
 }
 
-// Corners at the same place are one vertex, whatever their normals.
-std::vector<std::uint32_t> welded(const Mesh& mesh) {
-  const std::size_t n = mesh.positions.size() / 3;
-  std::vector<std::uint32_t> order(n), same(n);
-  std::iota(order.begin(), order.end(), 0u);
-  const auto place = [&](std::uint32_t v) { return std::span(mesh.positions).subspan(3 * std::size_t{v}, 3); };
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return std::ranges::lexicographical_compare(place(a), place(b)); });
-  for (std::size_t i = 0; i < n; ++i)
-    same[order[i]] = i > 0 && std::ranges::equal(place(order[i]), place(order[i - 1])) ? same[order[i - 1]] : order[i];
-  return same;
-}
-
 // Every edge is run along once each way, but for a few borders: what is laid on the body as a sheet, a missing underside.
 bool of_one_winding(const Mesh& mesh) {
   constexpr double kBorders = 0.05, kWrong = 0.002;  // of the edges
@@ -119,6 +121,12 @@ bool of_one_winding(const Mesh& mesh) {
 
 }  // namespace
 
+const Geometry::Level& level_within(const Geometry& g, double tolerance) {
+  std::size_t i = 0;
+  while (i + 1 < g.levels.size() && g.levels[i + 1].tolerance <= tolerance) ++i;
+  return g.levels[i];
+}
+
 const Geometry& GeometryCache::ellipsoid(const engine::HyperEllipsoid& e, double tolerance) {
   constexpr std::array<int, 6> kLevels{4, 8, 12, 18, 28, 44};
   std::vector<Level>& levels = ellipsoids_[{e.semi_axes[0], e.semi_axes[1], e.semi_axes[2], e.exponent}];
@@ -126,7 +134,8 @@ const Geometry& GeometryCache::ellipsoid(const engine::HyperEllipsoid& e, double
     if (levels.size() <= i) {
       const Tessellation t = tessellate(e, kLevels[i]);
       Level level{kLevels[i], largest_gap(e, t), std::make_unique<Geometry>()};
-      fill(*level.geometry, t.positions, t.normals, t.indices);
+      set_vertices(*level.geometry, t.positions, t.normals);
+      set_indices(*level.geometry, t.indices);
       level.geometry->closed = 1;
       level.geometry->shell = true;
       levels.push_back(std::move(level));
@@ -143,7 +152,8 @@ const Geometry& GeometryCache::mesh(const std::shared_ptr<const Mesh>& mesh) {
     known.geometry = std::make_unique<Geometry>();
     const bool has_normals = mesh->normals.size() == mesh->positions.size();
     const std::vector<float> normals = has_normals ? mesh->normals : face_sums(mesh->positions, mesh->indices);
-    fill(*known.geometry, mesh->positions, normals, mesh->indices);
+    set_vertices(*known.geometry, mesh->positions, normals);
+    set_levels(*known.geometry, *mesh);
     known.geometry->closed = winding(*mesh, *known.geometry);
     known.geometry->shell = known.geometry->closed != 0 && of_one_winding(*mesh);
   }
@@ -151,12 +161,19 @@ const Geometry& GeometryCache::mesh(const std::shared_ptr<const Mesh>& mesh) {
 }
 
 const Geometry& GeometryCache::skin(const SkinItem& item, std::size_t i) {
-  while (skins_.size() <= i) skins_.push_back(std::make_unique<Geometry>());
-  Geometry& g = *skins_[i];
+  if (skins_.size() <= i) skins_.resize(i + 1);
+  KnownMesh& known = skins_[i];
+  if (known.mesh != item.topology) {
+    known.mesh = item.topology;
+    known.geometry = std::make_unique<Geometry>();
+    set_levels(*known.geometry, *item.topology);
+    // closed and turned outward, as render/surface/skin makes them
+    known.geometry->closed = 1;
+    known.geometry->shell = true;
+  }
   const bool has_normals = item.normals.size() == item.positions.size();
-  const std::vector<float> normals = has_normals ? item.normals : face_sums(item.positions, item.topology->indices);
-  fill(g, item.positions, normals, item.topology->indices);
-  return g;
+  set_vertices(*known.geometry, item.positions, has_normals ? item.normals : face_sums(item.positions, item.topology->indices));
+  return *known.geometry;
 }
 
 }  // namespace render::gl

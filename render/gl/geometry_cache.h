@@ -13,15 +13,23 @@
 namespace render::gl {
 
 struct Geometry {
+  /// Triangles that stay within `tolerance` [m] of the finest, a run of indices a part.
+  struct Level {
+    double tolerance = 0;
+    std::vector<Mesh::Part> runs;
+  };
   VertexArray array;
   Buffer vertices;
   Buffer indices;
-  std::size_t index_count = 0;
+  std::vector<Level> levels;     // finest first
   std::array<float, 3> lower{};  // box in its own frame [m]
   std::array<float, 3> upper{};
   int closed = 0;      // 1 counter-clockwise outside, -1 clockwise, 0 a sheet or a soup
   bool shell = false;  // nearly watertight and of one winding: back faces need no drawing
 };
+
+/// The coarsest level within `tolerance` [m].
+const Geometry::Level& level_within(const Geometry&, double tolerance);
 
 class GeometryCache {
  public:
@@ -29,7 +37,7 @@ class GeometryCache {
   const Geometry& ellipsoid(const engine::HyperEllipsoid&, double tolerance);
   /// Uploaded at first sight and kept while the mesh lives.
   const Geometry& mesh(const std::shared_ptr<const Mesh>&);
-  /// Uploaded anew at each call; the i-th skin of the frame reuses the i-th buffer.
+  /// Vertices are uploaded anew at each call; the i-th skin of the frame reuses the i-th buffer.
   const Geometry& skin(const SkinItem&, std::size_t i);
 
  private:
@@ -45,7 +53,7 @@ class GeometryCache {
   };
   std::map<Shape, std::vector<Level>> ellipsoids_;
   std::map<const Mesh*, KnownMesh> meshes_;
-  std::vector<std::unique_ptr<Geometry>> skins_;
+  std::vector<KnownMesh> skins_;
 };
 
 }  // namespace render::gl

@@ -14,14 +14,7 @@ void draw_piece(Studio& studio, const Piece& piece) {
   p.set("opacity", piece.opacity);
   p.set("closed", static_cast<float>(g.closed));
   p.set("axes", piece.axes);
-  if (g.shell) {
-    glEnable(GL_CULL_FACE);
-    glCullFace(g.closed > 0 ? GL_BACK : GL_FRONT);
-  }
-  glBindVertexArray(*g.array);
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(piece.count), GL_UNSIGNED_INT,
-                 reinterpret_cast<const void*>(piece.first * sizeof(std::uint32_t)));
-  glDisable(GL_CULL_FACE);
+  draw_run(g, *piece.level, piece.run);
 }
 
 }  // namespace
@@ -80,6 +73,7 @@ void light_objects(Studio& studio, const DrawList& list, const Rectangle& r, boo
   glDepthFunc(GL_LEQUAL);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
+  glBindFramebuffer(GL_FRAMEBUFFER, *studio.targets.picture);
 }
 
 }  // namespace render::gl

@@ -10,7 +10,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSmallMesh = 1.5;  // [m] across: a wheel, a crate; occludes as something round
+constexpr double kLevelShare = 0.6;  // [pixels] that a coarser level may be off: its tolerance is a bound, seldom reached
+constexpr double kSmallMesh = 1.5;   // [m] across: a wheel, a crate; occludes as something round
 constexpr Matrix4 kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
 CasterBox box_of(const Geometry& g, const Matrix4& model) {
@@ -57,6 +58,17 @@ void add_feet(const SkinItem& skin, double ground, std::vector<CasterBox>& boxes
 
 }  // namespace
 
+void draw_run(const Geometry& g, const Geometry::Level& level, std::size_t run) {
+  if (g.shell) {
+    glEnable(GL_CULL_FACE);
+    glCullFace(g.closed > 0 ? GL_BACK : GL_FRONT);
+  }
+  glBindVertexArray(*g.array);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(level.runs[run].count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(std::size_t{level.runs[run].first} * sizeof(std::uint32_t)));
+  glDisable(GL_CULL_FACE);
+}
+
 std::vector<Piece> collect(const DrawList& list, GeometryCache& geometry, MaterialTable& table, double pixel_share, int height,
                            std::vector<CasterBox>& boxes) {
   std::vector<Piece> out;
@@ -69,41 +81,47 @@ std::vector<Piece> collect(const DrawList& list, GeometryCache& geometry, Materi
     const double pixel = 2 / (focal * height) * (list.view.orthographic ? 1.0 : away);
     const Geometry& g = geometry.ellipsoid(e.shape, pixel_share * pixel);
     const int kind = e.raster ? kWireKind : static_cast<int>(e.material.kind);
-    out.push_back({&g, 0, g.index_count, table.add(e.material, false), e.material.opacity, kind, e.model,
+    out.push_back({&g, &g.levels[0], 0, table.add(e.material, false), e.material.opacity, kind, e.model,
                    to_float(e.shape.semi_axes), !e.raster});
     boxes.push_back(box_of(g, e.model));
     boxes.back().round = true;
     boxes.back().casts = !e.raster;
   }
-  const auto add = [&](const Geometry& g, std::size_t first, std::size_t count, const Material& m, const Matrix4& model,
-                       bool terrain) {
-    const int kind = terrain ? kTerrainKind : static_cast<int>(m.kind);
-    out.push_back({&g, first, count, table.add(m, terrain), m.opacity, kind, model, {}, !terrain});
+  const auto pixel_at = [&](const CasterBox& box) {  // [m] at its nearest
+    const double away = std::max((box.centre - eye).norm() - box.half_edges.norm(), 0.3);
+    return 2 / (focal * height) * (list.view.orthographic ? 1.0 : away);
   };
-  const auto add_parts = [&](const Mesh& mesh, const Geometry& g, const Matrix4& model, const std::vector<Material>& paint,
-                             bool terrain) {
-    for (const Mesh::Part& part : mesh.parts) {
-      const std::size_t m = static_cast<std::size_t>(std::max(part.material, 0));
-      add(g, part.first, part.count,
-          m < paint.size()            ? paint[m]
-          : m < mesh.materials.size() ? mesh.materials[m]
-                                      : Material{},
-          model, terrain);
+  const auto add_parts = [&](const Mesh& mesh, const Geometry& g, const Geometry::Level& level, const Matrix4& model,
+                             const std::vector<Material>& paint, bool terrain) {
+    for (std::size_t run = 0; run < level.runs.size(); ++run) {
+      if (level.runs[run].count == 0) continue;
+      const std::size_t m = static_cast<std::size_t>(std::max(level.runs[run].material, 0));
+      const Material material = m < paint.size() ? paint[m] : m < mesh.materials.size() ? mesh.materials[m] : Material{};
+      out.push_back({&g,
+                     &level,
+                     run,
+                     table.add(material, terrain),
+                     material.opacity,
+                     terrain ? kTerrainKind : static_cast<int>(material.kind),
+                     model,
+                     {},
+                     !terrain});
     }
-    if (mesh.parts.empty()) add(g, 0, g.index_count, paint.empty() ? Material{} : paint[0], model, terrain);
   };
   for (const MeshItem& item : list.meshes) {
     const Geometry& g = geometry.mesh(item.mesh);
-    if (g.index_count == 0) continue;
+    if (item.mesh->indices.empty()) continue;
     const bool terrain = item.mesh == list.road.terrain;
-    add_parts(*item.mesh, g, item.model, item.materials, terrain && list.road.road);
-    if (!terrain) boxes.push_back(box_of(g, item.model));
+    const CasterBox box = box_of(g, item.model);
+    add_parts(*item.mesh, g, level_within(g, terrain ? 0 : kLevelShare * pixel_at(box)), item.model, item.materials,
+              terrain && list.road.road);
+    if (!terrain) boxes.push_back(box);
   }
   for (std::size_t i = 0; i < list.skins.size(); ++i) {
     const Geometry& g = geometry.skin(list.skins[i], i);
-    if (g.index_count == 0) continue;
-    add_parts(*list.skins[i].topology, g, kIdentity, {}, false);
+    if (list.skins[i].topology->indices.empty()) continue;
     CasterBox box = box_of(g, kIdentity);
+    add_parts(*list.skins[i].topology, g, level_within(g, kLevelShare * pixel_at(box)), kIdentity, {}, false);
     box.round = true;
     box.occludes = false;  // its feet do
     boxes.push_back(box);

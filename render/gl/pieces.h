@@ -14,14 +14,18 @@ constexpr int kTerrainKind = 8, kWireKind = 9;
 
 struct Piece {
   const Geometry* geometry;
-  std::size_t first, count;
-  int row;  // of the material table
+  const Geometry::Level* level;
+  std::size_t run;  // of the level's
+  int row;          // of the material table
   float opacity;
   int kind;
   Matrix4 model;
   Float3 axes;  // [m] of an ellipsoid
   bool casts;
 };
+
+/// The triangles of a run, with the piece's model and material set.
+void draw_run(const Geometry&, const Geometry::Level&, std::size_t run);
 
 /// What the frame shows. `pixel_share`: tessellations stay within this part of a pixel at their distance, `height` pixels high.
 std::vector<Piece> collect(const DrawList&, GeometryCache&, MaterialTable&, double pixel_share, int height,

@@ -132,21 +132,17 @@ const char* const kGroundFragment = R"(
 uniform float sure_light;  // of the sun, where the tile leaves no doubt
 out vec4 colour;
 
-// where the ray meets the ground; behind or beside the horizon: very far
-vec2 meet(vec3 a, vec3 b) {
-  float fall = a.z - b.z;
-  float s = fall > 1e-6 ? (a.z - ground.x) / fall : 1e5;
-  return a.xy + (b.xy - a.xy) * clamp(s, 0.0, 1e5);
-}
-
 void main() {
   vec3 near_point = near_0.xyz + gl_FragCoord.x * near_x.xyz + gl_FragCoord.y * near_y.xyz;
   vec3 far_point = far_0.xyz + gl_FragCoord.x * far_x.xyz + gl_FragCoord.y * far_y.xyz;
   vec3 d = normalize(far_point - near_point);
-  vec2 p = meet(near_point, far_point);
-  vec2 px = meet(near_point + near_x.xyz, far_point + far_x.xyz);
-  vec2 py = meet(near_point + near_y.xyz, far_point + far_y.xyz);
-  vec2 w = max(abs(px - p) + abs(py - p), vec2(1e-4));
+  // where the ray meets the ground, and how far that moves from pixel to pixel; behind or beside the horizon: very far
+  vec3 ray = far_point - near_point;
+  float per_fall = -1.0 / min(ray.z, -1e-6);
+  float s = min((near_point.z - ground.x) * per_fall, 1e5);
+  vec2 p = near_point.xy + s * ray.xy;
+  vec3 along_x = near_x.xyz + s * (far_x.xyz - near_x.xyz), along_y = near_y.xyz + s * (far_y.xyz - near_y.xyz);
+  vec2 w = max(abs(along_x.xy + ray.xy * (along_x.z * per_fall)) + abs(along_y.xy + ray.xy * (along_y.z * per_fall)), vec2(1e-4));
 #if !NEAR
   float hits = step(1e-5, -d.z);
 #endif

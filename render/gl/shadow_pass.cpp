@@ -23,17 +23,11 @@ void draw_map(Studio& studio, const std::vector<Piece>& pieces, const FrameSetup
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.5f, 4.0f);
   const Program& p = studio.program({kDepthVertex, kDepthFragment});
+  const double tolerance = static_cast<double>(std::max(frame.block.shadow[0], frame.block.shadow[1]));  // a texel
   for (const Piece& piece : pieces) {
     if (!piece.casts) continue;
     p.set("model_to_clip", to_gl(frame.world_to_shadow_clip * from_gl(piece.model)));
-    if (piece.geometry->shell) {
-      glEnable(GL_CULL_FACE);
-      glCullFace(piece.geometry->closed > 0 ? GL_BACK : GL_FRONT);
-    }
-    glBindVertexArray(*piece.geometry->array);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(piece.count), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(piece.first * sizeof(std::uint32_t)));
-    glDisable(GL_CULL_FACE);
+    draw_run(*piece.geometry, level_within(*piece.geometry, tolerance), piece.run);
   }
   glDisable(GL_POLYGON_OFFSET_FILL);
 }

@@ -17,11 +17,12 @@ void text(cairo_t* c, const std::string& what, double x, double y, double align)
   cairo_show_text(c, what.c_str());
 }
 
-void set(cairo_t* c, const Float4& k) {
-  cairo_set_source_rgba(c, k[0], k[1], k[2], k[3]);
-}
-
 }  // namespace
+
+void paint_with(cairo_t* c, const Float4& k) {
+  cairo_set_source_rgba(c, static_cast<double>(k[2]), static_cast<double>(k[1]), static_cast<double>(k[0]),
+                        static_cast<double>(k[3]));
+}
 
 std::array<double, 4> chart_box(const ChartItem& chart, int width, int height) {
   const double scale = height / 1080.0;
@@ -37,7 +38,7 @@ void draw_chart(cairo_t* c, const ChartItem& chart, int width, int height) {
   cairo_save(c);
   cairo_rectangle(c, x0, y0, w, h);
   cairo_clip(c);
-  cairo_set_source_rgba(c, 0.08, 0.09, 0.10, 0.72);
+  paint_with(c, {0.08f, 0.09f, 0.10f, 0.72f});
   cairo_paint(c);
   cairo_select_font_face(c, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(c, kText * scale);
@@ -46,24 +47,24 @@ void draw_chart(cairo_t* c, const ChartItem& chart, int width, int height) {
   auto py = [&](double v) { return bottom - (bottom - top) * v / chart.ceiling; };
 
   // frame: title, names in their colours, axes with numbers at both ends
-  cairo_set_source_rgba(c, 1, 1, 1, 0.95);
+  paint_with(c, {1, 1, 1, 0.95f});
   text(c, chart.title, x0 + 12 * scale, y0 + 20 * scale, 0);
   double at = x0 + 12 * scale;
   for (const ChartItem::Series& s : chart.series) {
-    set(c, s.colour);
+    paint_with(c, s.colour);
     const std::string name = "\u25a0 " + s.name;
     text(c, name, at, y0 + 40 * scale, 0);
     cairo_text_extents_t extents;
     cairo_text_extents(c, name.c_str(), &extents);
     at += extents.x_advance + 16 * scale;
   }
-  cairo_set_source_rgba(c, 0.8, 0.85, 0.9, 0.9);
+  paint_with(c, {0.8f, 0.85f, 0.9f, 0.9f});
   for (const double share : {0.0, 0.5, 1.0})
     text(c, fmt::format("{:g}", share * chart.ceiling), left - 6 * scale, py(share * chart.ceiling) + 5 * scale, 1);
   text(c, "0", px(0), bottom + 18 * scale, 0.5);
   text(c, fmt::format("{:.2g} s", chart.end), right, bottom + 18 * scale, 1);
   cairo_set_line_width(c, std::max(1.0, 1 * scale));
-  cairo_set_source_rgba(c, 1, 1, 1, 0.25);
+  paint_with(c, {1, 1, 1, 0.25f});
   for (const double share : {0.0, 0.5, 1.0}) {
     cairo_move_to(c, left, py(share * chart.ceiling));
     cairo_line_to(c, right, py(share * chart.ceiling));
@@ -71,7 +72,7 @@ void draw_chart(cairo_t* c, const ChartItem& chart, int width, int height) {
   cairo_stroke(c);
 
   for (const ChartItem::Series& s : chart.series) {
-    set(c, s.colour);
+    paint_with(c, s.colour);
     cairo_set_line_width(c, 2.4 * scale);
     cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
     for (const auto& p : s.points) cairo_line_to(c, px(p[0]), py(p[1]));

@@ -7,6 +7,9 @@
 
 namespace render {
 
+/// For surfaces laid over a picture's memory: cairo counts blue first where the picture has red, so the hue is handed over swapped.
+void paint_with(cairo_t*, const Float4& colour);
+
 /// Left, top, width and height [pixels], kept inside the frame.
 std::array<double, 4> chart_box(const ChartItem&, int width, int height);
 

@@ -95,7 +95,7 @@ void rounded(cairo_t* c, const PanelBox& b, double r) {
 void draw_one(cairo_t* c, const LabelItem& label, const PanelBox& box, double scale) {
   if (label.plate) {
     rounded(c, box, 7 * scale);
-    cairo_set_source_rgba(c, 0.08, 0.09, 0.10, 0.72);
+    paint_with(c, {0.08f, 0.09f, 0.10f, 0.72f});
     cairo_fill(c);
   }
   double y = box.y + kPadY * scale;
@@ -103,12 +103,12 @@ void draw_one(cairo_t* c, const LabelItem& label, const PanelBox& box, double sc
     const Line line(c, label.lines[i], label.sizes[i] * scale);
     const double x = std::round(box.x + kPadX * scale);
     if (!label.plate) {  // a soft dark edge keeps bare text readable on any ground
-      cairo_set_source_rgba(c, 0, 0, 0, 0.55);
+      paint_with(c, {0, 0, 0, 0.55f});
       cairo_move_to(c, x + 1, std::round(y) + 1);
       pango_cairo_show_layout(c, line.layout());
     }
     const Float4& k = label.colours[i];
-    cairo_set_source_rgba(c, k[0], k[1], k[2], k[3]);
+    paint_with(c, k);
     cairo_move_to(c, x, std::round(y));
     pango_cairo_show_layout(c, line.layout());
     y += line.height() + kGap * scale;
@@ -157,17 +157,10 @@ void draw_labels(const DrawList& list, Image& image) {
   if (list.labels.empty() && list.charts.empty()) return;
   require_font();
   const double scale = image.height / 1080.0 * static_cast<double>(list.scale);
-  // cairo wants premultiplied BGRA; the picture is opaque, so only the order differs
-  std::vector<std::uint8_t> bgra(image.rgba.size());
-  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
-    bgra[i] = image.rgba[i + 2];
-    bgra[i + 1] = image.rgba[i + 1];
-    bgra[i + 2] = image.rgba[i];
-    bgra[i + 3] = 255;
-  }
   {
+    // cairo counts blue first where the picture has red: the hues are handed over swapped (see paint_with)
     const SurfacePtr surface(
-        cairo_image_surface_create_for_data(bgra.data(), CAIRO_FORMAT_RGB24, image.width, image.height, 4 * image.width));
+        cairo_image_surface_create_for_data(image.rgba.data(), CAIRO_FORMAT_RGB24, image.width, image.height, 4 * image.width));
     const CairoPtr cairo(cairo_create(surface.get()));
     for (const ChartItem& chart : list.charts) draw_chart(cairo.get(), chart, image.width, image.height);
     const std::vector<PanelBox> boxes = place_labels(list, image.width, image.height);
@@ -175,11 +168,7 @@ void draw_labels(const DrawList& list, Image& image) {
       if (boxes[i].shown) draw_one(cairo.get(), list.labels[i], boxes[i], scale);
     cairo_surface_flush(surface.get());
   }
-  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
-    image.rgba[i] = bgra[i + 2];
-    image.rgba[i + 1] = bgra[i + 1];
-    image.rgba[i + 2] = bgra[i];
-  }
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
 }
 
 }  // namespace render

@@ -1,0 +1,248 @@
+// Q sums the squared distances to planes n.x + d = 0 of what has fallen onto a corner so far:
+//   Q(x) = sum (n.x + d)^2,  kept as the ten numbers of a symmetric 4x4 matrix.
+// Corner u falls onto its neighbour v at the cost (Q_u + Q_v)(v); as no term of the sum exceeds it, its root bounds each distance.
+#include "render/surface/simplify.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <queue>
+#include <span>
+#include <tuple>
+
+namespace render {
+namespace {
+
+using Corner = std::uint32_t;  // a place; several vertices may lie there
+using Quadric = Eigen::Matrix4d;
+
+constexpr double kTurn = 0.5;        // [-] least cosine between a triangle before and after
+constexpr double kSmoothEdge = 0.9;  // [-] least cosine between normals of one place that are no crease
+
+struct Triangle {
+  std::array<std::uint32_t, 3> vertices;
+  int part = 0;
+  bool alive = true;
+};
+
+class Collapse {
+ public:
+  explicit Collapse(const Mesh& mesh) : mesh_(mesh), parts_(parts_of(mesh)), corner_(welded(mesh)) {
+    const std::size_t n = corner_.size();
+    q_.assign(n, Quadric::Zero());
+    around_.resize(n);
+    members_.resize(n);
+    stamp_.assign(n, 0);
+    for (std::uint32_t v = 0; v < n; ++v) members_[corner_[v]].push_back(v);
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      for (std::uint32_t t = 0; t + 2 < parts_[p].count; t += 3) add(&mesh.indices[parts_[p].first + t], static_cast<int>(p));
+    add_planes();
+    for (Corner c = 0; c < n; ++c)
+      for (const Corner other : neighbours(c))
+        if (c < other) push(c, other);
+  }
+
+  void run(double tolerance) {
+    while (!heap_.empty() && heap_.top().cost <= tolerance * tolerance) {
+      const Candidate next = heap_.top();
+      heap_.pop();
+      if (stamp_[next.from] == next.stamp_from && stamp_[next.onto] == next.stamp_onto && allowed(next.from, next.onto))
+        fall(next.from, next.onto);
+    }
+  }
+
+  Mesh::Level level(double tolerance) const {
+    Mesh::Level out;
+    out.tolerance = tolerance;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      Mesh::Part part = parts_[p];
+      part.first = static_cast<std::uint32_t>(out.indices.size());
+      for (const Triangle& t : triangles_)
+        if (t.alive && t.part == static_cast<int>(p)) out.indices.insert(out.indices.end(), t.vertices.begin(), t.vertices.end());
+      part.count = static_cast<std::uint32_t>(out.indices.size()) - part.first;
+      out.parts.push_back(part);
+    }
+    return out;
+  }
+
+ private:
+  struct Candidate {
+    double cost;
+    Corner from, onto;
+    std::uint32_t stamp_from, stamp_onto;
+    bool operator<(const Candidate& o) const {
+      return std::tie(o.cost, o.from, o.onto) < std::tie(cost, from, onto);
+    }  // least on top
+  };
+
+  Eigen::Vector3d at(std::uint32_t v) const {
+    return {mesh_.positions[3 * std::size_t{v}], mesh_.positions[3 * std::size_t{v} + 1], mesh_.positions[3 * std::size_t{v} + 2]};
+  }
+  Eigen::Vector3d normal(std::uint32_t v) const {
+    if (mesh_.normals.size() != mesh_.positions.size()) return Eigen::Vector3d::Zero();
+    return {mesh_.normals[3 * std::size_t{v}], mesh_.normals[3 * std::size_t{v} + 1], mesh_.normals[3 * std::size_t{v} + 2]};
+  }
+  Eigen::Vector3d area(const std::array<std::uint32_t, 3>& v) const { return (at(v[1]) - at(v[0])).cross(at(v[2]) - at(v[0])); }
+
+  void add(const std::uint32_t* v, int part) {
+    const std::array<std::uint32_t, 3> corners{corner_[v[0]], corner_[v[1]], corner_[v[2]]};
+    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
+    const std::uint32_t t = static_cast<std::uint32_t>(triangles_.size());
+    triangles_.push_back({{v[0], v[1], v[2]}, part, true});
+    for (const Corner c : corners) around_[c].push_back(t);
+  }
+
+  // planes of the triangles, and through each edge that must stay where it is a plane square to its triangle
+  void add_planes() {
+    std::map<std::pair<Corner, Corner>, std::vector<std::uint32_t>> edges;
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Corner a = corner_[triangles_[t].vertices[k]], b = corner_[triangles_[t].vertices[(k + 1) % 3]];
+        edges[std::minmax(a, b)].push_back(t);
+      }
+    for (const Triangle& t : triangles_) {
+      const Eigen::Vector3d n = area(t.vertices).normalized();
+      for (const std::uint32_t v : t.vertices) add_plane(corner_[v], n, at(t.vertices[0]));
+    }
+    for (const auto& [edge, sides] : edges) {
+      if (smooth(edge.first, sides) && smooth(edge.second, sides)) continue;
+      const Eigen::Vector3d along = at(edge.second) - at(edge.first);
+      for (const std::uint32_t t : sides) {
+        const Eigen::Vector3d n = area(triangles_[t].vertices).cross(along).normalized();
+        for (const Corner c : {edge.first, edge.second}) add_plane(c, n, at(edge.first));
+      }
+    }
+  }
+  void add_plane(Corner c, const Eigen::Vector3d& n, const Eigen::Vector3d& through) {
+    Eigen::Vector4d plane;
+    plane << n, -n.dot(through);
+    if (plane.allFinite()) q_[c] += plane * plane.transpose();
+  }
+  bool smooth(Corner c, const std::vector<std::uint32_t>& sides) const {
+    if (sides.size() != 2 || triangles_[sides[0]].part != triangles_[sides[1]].part) return false;
+    std::array<Eigen::Vector3d, 2> n{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    for (std::size_t k = 0; k < 2; ++k)
+      for (const std::uint32_t v : triangles_[sides[k]].vertices)
+        if (corner_[v] == c) n[k] = normal(v);
+    return n[0].dot(n[1]) >= kSmoothEdge || n[0].isZero();
+  }
+
+  std::vector<Corner> neighbours(Corner c) const {
+    std::vector<Corner> out;
+    for (const std::uint32_t t : around_[c])
+      if (triangles_[t].alive)
+        for (const std::uint32_t v : triangles_[t].vertices)
+          if (corner_[v] != c) out.push_back(corner_[v]);
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+  }
+
+  void push(Corner a, Corner b) {
+    const Quadric q = q_[a] + q_[b];
+    const auto cost = [&](Corner c) { return std::max(0.0, at(c).homogeneous().dot(q * at(c).homogeneous())); };
+    const double onto_a = cost(a), onto_b = cost(b);
+    if (onto_a < onto_b) std::swap(a, b);
+    heap_.push({std::min(onto_a, onto_b), a, b, stamp_[a], stamp_[b]});
+  }
+
+  // the surface stays a surface, and no triangle turns away from where it and its normals look
+  bool allowed(Corner from, Corner onto) const {
+    std::size_t shared = 0;
+    for (const std::uint32_t t : around_[from]) {
+      if (!triangles_[t].alive) continue;
+      std::array<std::uint32_t, 3> v = triangles_[t].vertices;
+      const Eigen::Vector3d before = area(v);
+      bool dies = false;
+      for (std::uint32_t& k : v) {
+        dies |= corner_[k] == onto;
+        if (corner_[k] == from) k = onto;
+      }
+      if (dies) {
+        ++shared;
+        continue;
+      }
+      const Eigen::Vector3d after = area(v);
+      if (after.dot(before) <= kTurn * after.norm() * before.norm()) return false;
+    }
+    const std::vector<Corner> a = neighbours(from), b = neighbours(onto);
+    std::vector<Corner> both;
+    std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+    return shared > 0 && both.size() == shared;
+  }
+
+  void fall(Corner from, Corner onto) {
+    for (const std::uint32_t t : around_[from]) {
+      Triangle& triangle = triangles_[t];
+      if (!triangle.alive) continue;
+      const bool dies = std::any_of(triangle.vertices.begin(), triangle.vertices.end(), [&](auto v) { return corner_[v] == onto; });
+      if (dies) {
+        triangle.alive = false;
+        continue;
+      }
+      for (std::uint32_t& v : triangle.vertices)
+        if (corner_[v] == from) v = nearest_normal(onto, normal(v));
+      around_[onto].push_back(t);
+    }
+    around_[from].clear();
+    std::erase_if(around_[onto], [&](std::uint32_t t) { return !triangles_[t].alive; });
+    q_[onto] += q_[from];
+    ++stamp_[from];
+    ++stamp_[onto];
+    for (const Corner other : neighbours(onto)) push(onto, other);
+  }
+
+  std::uint32_t nearest_normal(Corner c, const Eigen::Vector3d& n) const {
+    return *std::max_element(members_[c].begin(), members_[c].end(),
+                             [&](std::uint32_t a, std::uint32_t b) { return normal(a).dot(n) < normal(b).dot(n); });
+  }
+
+  const Mesh& mesh_;
+  std::vector<Mesh::Part> parts_;
+  std::vector<Corner> corner_;                       // of each vertex
+  std::vector<std::vector<std::uint32_t>> members_;  // vertices of each corner
+  std::vector<Triangle> triangles_;
+  std::vector<std::vector<std::uint32_t>> around_;  // triangles at each corner
+  std::vector<Quadric> q_;
+  std::vector<std::uint32_t> stamp_;  // counts a corner's changes: older candidates are void
+  std::priority_queue<Candidate> heap_;
+};
+
+}  // namespace
+
+std::vector<Mesh::Part> parts_of(const Mesh& mesh) {
+  if (!mesh.parts.empty()) return mesh.parts;
+  return {{0, static_cast<std::uint32_t>(mesh.indices.size()), 0}};
+}
+
+std::vector<std::uint32_t> welded(const Mesh& mesh) {
+  const std::size_t n = mesh.positions.size() / 3;
+  std::vector<std::uint32_t> order(n), same(n);
+  std::iota(order.begin(), order.end(), 0u);
+  const auto place = [&](std::uint32_t v) { return std::span(mesh.positions).subspan(3 * std::size_t{v}, 3); };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    if (std::ranges::equal(place(a), place(b))) return a < b;
+    return std::ranges::lexicographical_compare(place(a), place(b));
+  });
+  for (std::size_t i = 0; i < n; ++i)
+    same[order[i]] = i > 0 && std::ranges::equal(place(order[i]), place(order[i - 1])) ? same[order[i - 1]] : order[i];
+  return same;
+}
+
+std::vector<Mesh::Level> coarser_levels(const Mesh& mesh) {
+  constexpr std::size_t kFewest = 500, kMost = 400'000;                  // triangles: below it does not pay, above it takes seconds
+  constexpr double kTolerances[] = {0.001, 0.002, 0.004, 0.008, 0.016};  // [m]
+  std::vector<Mesh::Level> out;
+  if (mesh.indices.size() < 3 * kFewest || mesh.indices.size() > 3 * kMost) return out;
+  Collapse collapse(mesh);
+  for (const double tolerance : kTolerances) {
+    collapse.run(tolerance);
+    out.push_back(collapse.level(tolerance));
+  }
+  return out;
+}
+
+}  // namespace render
