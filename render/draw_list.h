@@ -44,6 +44,7 @@ struct SkinItem {
   std::shared_ptr<const Mesh> topology;  // indices, parts, materials
   std::vector<float> positions;
   std::vector<float> normals;
+  std::vector<Material> materials;  // one per material of the topology, repainted; empty: as they are
 };
 
 /// Anti-aliased line on top of the picture, width in pixels at 1080 lines. `outline` draws a dark edge.
@@ -87,6 +88,7 @@ struct LabelItem {
   std::array<float, 2> anchor{0, 0};  // where in the frame
   std::array<float, 2> pivot{0, 0};   // which point of the panel sits there
   bool plate = true;                  // translucent plate behind
+  bool leader = false;                // a line to the world point where the panel had to stand away from it
 };
 
 /// A small diagram over time, drawn up to now.

@@ -66,7 +66,7 @@ bool OverlayPass::project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb
   return true;
 }
 
-void OverlayPass::capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour) {
+void OverlayPass::capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour, Ends ends) {
   float dx = b.x - a.x, dy = b.y - a.y;
   const float length = std::hypot(dx, dy);
   if (length > 1e-4f) {
@@ -77,9 +77,12 @@ void OverlayPass::capsule(const Pixel& a, const Pixel& b, float half_a, float ha
     dy = 0;
   }
   const float pad = 1;
+  const bool square = ends == Ends::square;
   auto vertex = [&](const Pixel& p, float half, float along_sign, float side) {
-    const float across = side * (half + pad), along = along_sign * (half + pad);
-    const float at = along_sign < 0 ? -(half + pad) : length + half + pad;
+    const float across = side * (half + pad), along = along_sign * (square ? pad : half + pad);
+    const float at = along_sign < 0 ? along : length + along;
+    // a taper goes on beyond its ends, so that its width is linear over the piece
+    if (square && length > 1e-4f) half = half_a + (half_b - half_a) * at / length;
     const float values[kFloats] = {p.x + dx * along - dy * across,
                                    p.y + dy * along + dx * across,
                                    std::clamp(p.z, 0.f, 1.f),
@@ -91,7 +94,7 @@ void OverlayPass::capsule(const Pixel& a, const Pixel& b, float half_a, float ha
                                    at,
                                    half,
                                    length,
-                                   0};
+                                   square ? 1.0f : 0.0f};
     vertices_.insert(vertices_.end(), values, values + kFloats);
   };
   vertex(a, half_a, -1, -1);
@@ -113,20 +116,19 @@ void OverlayPass::polyline(const LineItem& line, float extra, const Float4& colo
 void OverlayPass::arrow(const ArrowItem& item, float extra, const Float4& colour) {
   Pixel a{}, b{};
   if (!project(item.from, item.to, a, b)) return;
-  const float half = 0.5f * item.width * scale_;
+  const float half = 0.5f * item.width * scale_, edge = extra * scale_;
   const float length = std::hypot(b.x - a.x, b.y - a.y);
-  const float head = std::min(5.5f * half, length);
-  auto on = [&](float s) { return Pixel{a.x + (b.x - a.x) * s, a.y + (b.y - a.y) * s, a.z + (b.z - a.z) * s, true}; };
-  const float neck = length > 0 ? 1 - head / length : 0;
-  capsule(a, on(neck), half + extra * scale_, half + extra * scale_, colour);
-  // the head: a taper of short pieces
-  constexpr int kPieces = 14;
-  for (int i = 0; i < kPieces; ++i) {
-    const float s = static_cast<float>(i) / kPieces;
-    const float wide = 2.2f * half * (1 - s) + 0.25f + extra * scale_;
-    const Pixel p = on(neck + (1 - neck) * s), q = on(neck + (1 - neck) * (s + 1.0f / kPieces));
-    capsule(p, q, wide, wide, colour);
-  }
+  if (length < 2 * half) return;  // seen from its end: the marker tells of it
+  const float head = std::min(6.0f * half, 0.75f * length), wide = 0.42f * head;
+  auto on = [&](float pixels) {
+    const float s = pixels / length;
+    return Pixel{a.x + (b.x - a.x) * s, a.y + (b.y - a.y) * s, a.z + (b.z - a.z) * s, true};
+  };
+  capsule(a, on(length - head), half + edge, half + edge, colour);
+  // the outline of a wedge as far from its sides as from its base: its tip moves on by more than that
+  const float slope = wide / head, ahead = edge * std::sqrt(1 + slope * slope) / slope;
+  capsule(on(length - head - edge), on(length + ahead), wide + edge * (slope + std::sqrt(1 + slope * slope)), 0, colour,
+          Ends::square);
 }
 
 void OverlayPass::flush(bool depth_tested) {

@@ -25,7 +25,8 @@ class OverlayPass {
   };
   void begin(const DrawList&, int width, int height);
   bool project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb) const;
-  void capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour);
+  enum class Ends { round, square };
+  void capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour, Ends = Ends::round);
   void polyline(const LineItem&, float extra, const Float4& colour);
   void arrow(const ArrowItem&, float extra, const Float4& colour);
   void flush(bool depth_tested);

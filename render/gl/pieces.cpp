@@ -121,7 +121,7 @@ std::vector<Piece> collect(const DrawList& list, GeometryCache& geometry, Materi
     const Geometry& g = geometry.skin(list.skins[i], i);
     if (list.skins[i].topology->indices.empty()) continue;
     CasterBox box = box_of(g, kIdentity);
-    add_parts(*list.skins[i].topology, g, level_within(g, kLevelShare * pixel_at(box)), kIdentity, {}, false);
+    add_parts(*list.skins[i].topology, g, level_within(g, kLevelShare * pixel_at(box)), kIdentity, list.skins[i].materials, false);
     box.round = true;
     box.occludes = false;  // its feet do
     boxes.push_back(box);

@@ -33,7 +33,7 @@ uniform sampler2D shadow_depth;
 uniform sampler2D shadow_bounds;       // least and largest depth within the filter's reach
 uniform sampler2D occlusion_map;
 
-const vec3 kSunLight = vec3(2.75, 2.58, 2.30);
+const vec3 kSunLight = vec3(1.95, 1.83, 1.63);
 const vec3 kZenith = vec3(0.24, 0.41, 0.68);
 const vec3 kHorizon = vec3(0.78, 0.84, 0.90);
 
@@ -60,8 +60,8 @@ vec3 surroundings(vec3 d) {
 
 // light of the half sphere around n, without the sun
 vec3 ambient_light(vec3 n, float near_ground) {
-  vec3 above = mix(vec3(0.50, 0.60, 0.74), vec3(0.66, 0.68, 0.70), sun.w);
-  vec3 below = vec3(0.26, 0.245, 0.225) * near_ground;
+  vec3 above = mix(vec3(0.36, 0.43, 0.53), vec3(0.47, 0.49, 0.50), sun.w);
+  vec3 below = vec3(0.19, 0.18, 0.165) * near_ground;
   return mix(below, above, 0.5 + 0.5 * n.z);
 }
 

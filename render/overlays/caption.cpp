@@ -52,14 +52,13 @@ void add_caption(const Frame& frame, DrawList& list) {
 
 void add_disclaimer(const Frame& frame, DrawList& list) {
   LabelItem label;
-  label.anchor = {0.988f, 0.985f};
+  label.anchor = {0.984f, 0.972f};
   label.pivot = {1, 1};
-  label.plate = false;
   label.lines = {"Simulation, not footage"};
   if (!frame.stage.provenance.empty()) label.lines.push_back(frame.stage.provenance);
-  label.sizes.assign(label.lines.size(), 15);
+  label.sizes.assign(label.lines.size(), 16);
   label.colours.assign(label.lines.size(), {0.92f, 0.94f, 0.96f, 0.95f});
-  label.sizes[0] = 17;
+  label.sizes[0] = 19;
   list.labels.push_back(label);
 }
 

@@ -74,8 +74,9 @@ void add_forces(const Frame& frame, DrawList& list) {
   label.sizes = {20, 20};
   label.colours = {{1, 1, 1, 1}, {1, 0.68f, 0.25f, 1}};
   label.at_world_point = true;
-  label.world = to_float(largest->point + Vec3(0, 0, 0.35));
-  label.pivot = {-0.9f, 2.1f};  // clear of the figure it speaks of
+  label.world = to_float(largest->point);
+  label.pivot = {-0.7f, 3.2f};  // clear of the figure it speaks of
+  label.leader = true;
   list.labels.push_back(label);
 }
 

@@ -32,6 +32,11 @@ void add_one(const Frame& frame, const Dimension& d, DrawList& list) {
     item.points = {to_float(p), to_float(q)};
     item.colour = kColour;
     item.width = 2.4f;
+    // where something stands before it, it is seen through, pale
+    item.hidden_behind = true;
+    list.lines.push_back(item);
+    item.hidden_behind = item.outline = false;
+    item.colour[3] = 0.35f;
     list.lines.push_back(std::move(item));
   };
   line(a, b);

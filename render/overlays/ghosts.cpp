@@ -3,6 +3,7 @@
 
 #include "render/matrix.h"
 #include "render/overlays/overlay.h"
+#include "render/surface/skin.h"
 
 namespace render {
 namespace {
@@ -45,7 +46,15 @@ void add_shape(DrawList& list, const engine::HyperEllipsoid& shape, const Pose& 
 void add(const Frame& frame, DrawList& list) {
   for (const PersonActor& person : frame.stage.persons) {
     if (person.segments.empty()) continue;
-    for (const engine::Snapshot* s : instants(frame, person.segments.front().body))
+    const std::vector<const engine::Snapshot*> when = instants(frame, person.segments.front().body);
+    if (person.look == PersonLook::skin && person.skin) {
+      for (const engine::Snapshot* s : when) {
+        list.skins.push_back(bent_skin(person, *s));
+        for (const Material& m : person.skin->mesh->materials) list.skins.back().materials.push_back(pale(m));
+      }
+      continue;
+    }
+    for (const engine::Snapshot* s : when)
       for (const PersonActor::Segment& segment : person.segments)
         add_shape(list, segment.shape, s->bodies[static_cast<std::size_t>(segment.body)].X_WB, segment.material);
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "render/surface/skin_field.h"
 
@@ -117,6 +118,15 @@ class Wardrobe {
       of_segment_.push_back(static_cast<int>(at - materials_.begin()));
       if (at == materials_.end()) materials_.push_back(s.material);
     }
+    for (std::size_t i = 0; i < person.segments.size(); ++i)
+      if (person.segments[i].name.ends_with("head") && person.segments[i].material.kind == MaterialKind::skin) head_ = i;
+    if (!head_) return;
+    head_axes_ = person.segments[*head_].shape.semi_axes;
+    Material hair;
+    hair.name = "hair";
+    hair.kind = MaterialKind::cloth;
+    hair.colour = {0.035f, 0.022f, 0.014f};
+    materials_.push_back(hair);
   }
   std::vector<double> distances(const Vec3& x) const {
     std::vector<double> each, out(materials_.size(), 1e9);
@@ -125,14 +135,24 @@ class Wardrobe {
       double& d = out[static_cast<std::size_t>(of_segment_[i])];
       d = std::min(d, each[i]);
     }
+    if (head_) out.back() = each[*head_] - hair(field_.poses()[*head_].inverse() * x);
     return out;
   }
   const std::vector<Material>& materials() const { return materials_; }
 
  private:
+  /// [m] grows from the hairline into the hair, which is high over the face and low at the neck. x in the head's axes: x forward, z
+  /// up.
+  double hair(const Vec3& x) const {
+    constexpr double kHairline = 0.08, kRise = 0.62;  // [-] of the head's height over its middle; from back to front
+    return x.z() - head_axes_.z() * (kHairline + kRise * x.x() / head_axes_.x());
+  }
+
   const SkinField& field_;
   std::vector<Material> materials_;
   std::vector<int> of_segment_;
+  std::optional<std::size_t> head_;
+  Vec3 head_axes_ = Vec3::Ones();
 };
 
 /// Triangles by material; those between two are cut where both are equally near.
@@ -270,6 +290,15 @@ void bend_skin(const Skin& skin, std::span<const Pose> X_WS, std::vector<float>&
       normals[3 * v + static_cast<std::size_t>(i)] = static_cast<float>(n_W[i]);
     }
   }
+}
+
+SkinItem bent_skin(const PersonActor& person, const engine::Snapshot& now) {
+  std::vector<Pose> X_WS;
+  for (const PersonActor::Segment& s : person.segments) X_WS.push_back(now.bodies[static_cast<std::size_t>(s.body)].X_WB);
+  SkinItem item;
+  item.topology = person.skin->mesh;
+  bend_skin(*person.skin, X_WS, item.positions, item.normals);
+  return item;
 }
 
 }  // namespace render

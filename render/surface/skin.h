@@ -11,7 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "render/stage.h"
+#include "engine/recording.h"
+#include "render/draw_list.h"
 
 namespace render {
 
@@ -29,5 +30,8 @@ struct Skin {
 
 /// Vertices and normals for segments at X_WS (one a segment). Three floats each, resized as needed.
 void bend_skin(const Skin&, std::span<const Pose> X_WS, std::vector<float>& positions, std::vector<float>& normals);
+
+/// The skin of a person (of look `skin`) at one instant.
+SkinItem bent_skin(const PersonActor&, const engine::Snapshot&);
 
 }  // namespace render

@@ -92,6 +92,19 @@ void rounded(cairo_t* c, const PanelBox& b, double r) {
   cairo_close_path(c);
 }
 
+/// From the edge of the panel to what it speaks of, light with a dark edge.
+void draw_leader(cairo_t* c, const PanelBox& box, double x, double y, double scale) {
+  const double from_x = std::clamp(x, box.x, box.x + box.width), from_y = std::clamp(y, box.y, box.y + box.height);
+  if (std::hypot(x - from_x, y - from_y) < 8 * scale) return;
+  for (const bool edge : {true, false}) {
+    paint_with(c, edge ? Float4{0, 0, 0, 0.55f} : Float4{1, 1, 1, 0.85f});
+    cairo_set_line_width(c, std::max(1.0, (edge ? 3.4 : 1.5) * scale));
+    cairo_move_to(c, from_x, from_y);
+    cairo_line_to(c, x, y);
+    cairo_stroke(c);
+  }
+}
+
 void draw_one(cairo_t* c, const LabelItem& label, const PanelBox& box, double scale) {
   if (label.plate) {
     rounded(c, box, 7 * scale);
@@ -164,6 +177,11 @@ void draw_labels(const DrawList& list, Image& image) {
     const CairoPtr cairo(cairo_create(surface.get()));
     for (const ChartItem& chart : list.charts) draw_chart(cairo.get(), chart, image.width, image.height);
     const std::vector<PanelBox> boxes = place_labels(list, image.width, image.height);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      double x = 0, y = 0;
+      if (boxes[i].shown && list.labels[i].leader && anchor_of(list, list.labels[i], image.width, image.height, x, y))
+        draw_leader(cairo.get(), boxes[i], x, y, scale);
+    }
     for (std::size_t i = 0; i < boxes.size(); ++i)
       if (boxes[i].shown) draw_one(cairo.get(), list.labels[i], boxes[i], scale);
     cairo_surface_flush(surface.get());
