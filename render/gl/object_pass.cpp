@@ -7,14 +7,13 @@ namespace {
 
 void draw_piece(Studio& studio, const Piece& piece) {
   const Geometry& g = *piece.geometry;
-  const Program& p =
-      studio.program({kObjectVertex, kObjectFragment, piece.kind, 0, g.shell && piece.kind != kWireKind ? "SHELL" : ""});
+  const Program& p = studio.program({kObjectVertex, kObjectFragment, piece.kind, 0, piece.culling == Culling::on ? "SHELL" : ""});
   p.set("model", piece.model);
   p.set("material", static_cast<float>(piece.row));
   p.set("opacity", piece.opacity);
   p.set("closed", static_cast<float>(g.closed));
   p.set("axes", piece.axes);
-  draw_run(g, *piece.level, piece.run);
+  draw_run(g, *piece.level, piece.run, piece.culling);
 }
 
 }  // namespace

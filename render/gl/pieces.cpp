@@ -10,8 +10,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLevelShare = 0.6;  // [pixels] that a coarser level may be off: its tolerance is a bound, seldom reached
-constexpr double kSmallMesh = 1.5;   // [m] across: a wheel, a crate; occludes as something round
+// [pixels] that a coarser level may be off. What is laid on a body, a seam or a lamp, lies a millimetre or two before it and must
+// not sink in; a skin is one surface
+constexpr double kMeshShare = 0.15, kSkinShare = 0.6;
+constexpr double kSmallMesh = 1.5;  // [m] across: a wheel, a crate; occludes as something round
 constexpr Matrix4 kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
 CasterBox box_of(const Geometry& g, const Matrix4& model) {
@@ -23,6 +25,13 @@ CasterBox box_of(const Geometry& g, const Matrix4& model) {
   b.half_edges = X.topLeftCorner<3, 3>() * half.asDiagonal();
   b.round = 2 * half.norm() < kSmallMesh;
   return b;
+}
+
+// whether the point lies in the mesh's box
+bool holds(const Geometry& g, const Matrix4& model, const Vector3d& point) {
+  const Vector3d p = (from_gl(model).inverse() * point.homogeneous()).head<3>();
+  const Vector3d lower(g.lower[0], g.lower[1], g.lower[2]), upper(g.upper[0], g.upper[1], g.upper[2]);
+  return (p.array() >= lower.array()).all() && (p.array() <= upper.array()).all();
 }
 
 // what stands on the ground of a moving surface: its lowest part, in two halves (two feet)
@@ -58,8 +67,8 @@ void add_feet(const SkinItem& skin, double ground, std::vector<CasterBox>& boxes
 
 }  // namespace
 
-void draw_run(const Geometry& g, const Geometry::Level& level, std::size_t run) {
-  if (g.shell) {
+void draw_run(const Geometry& g, const Geometry::Level& level, std::size_t run, Culling culling) {
+  if (culling == Culling::on) {
     glEnable(GL_CULL_FACE);
     glCullFace(g.closed > 0 ? GL_BACK : GL_FRONT);
   }
@@ -82,7 +91,7 @@ std::vector<Piece> collect(const DrawList& list, GeometryCache& geometry, Materi
     const Geometry& g = geometry.ellipsoid(e.shape, pixel_share * pixel);
     const int kind = e.raster ? kWireKind : static_cast<int>(e.material.kind);
     out.push_back({&g, &g.levels[0], 0, table.add(e.material, false), e.material.opacity, kind, e.model,
-                   to_float(e.shape.semi_axes), !e.raster});
+                   to_float(e.shape.semi_axes), !e.raster, e.raster ? Culling::off : Culling::on});
     boxes.push_back(box_of(g, e.model));
     boxes.back().round = true;
     boxes.back().casts = !e.raster;
@@ -93,19 +102,15 @@ std::vector<Piece> collect(const DrawList& list, GeometryCache& geometry, Materi
   };
   const auto add_parts = [&](const Mesh& mesh, const Geometry& g, const Geometry::Level& level, const Matrix4& model,
                              const std::vector<Material>& paint, bool terrain) {
+    const bool within = !list.view.orthographic && holds(g, model, eye);
     for (std::size_t run = 0; run < level.runs.size(); ++run) {
       if (level.runs[run].count == 0) continue;
       const std::size_t m = static_cast<std::size_t>(std::max(level.runs[run].material, 0));
       const Material material = m < paint.size() ? paint[m] : m < mesh.materials.size() ? mesh.materials[m] : Material{};
-      out.push_back({&g,
-                     &level,
-                     run,
-                     table.add(material, terrain),
-                     material.opacity,
-                     terrain ? kTerrainKind : static_cast<int>(material.kind),
-                     model,
-                     {},
-                     !terrain});
+      const int kind = terrain ? kTerrainKind : static_cast<int>(material.kind);
+      if (within && material.kind == MaterialKind::glass) continue;  // from within, panes are clear
+      const Culling culling = g.shell && !within ? Culling::on : Culling::off;
+      out.push_back({&g, &level, run, table.add(material, terrain), material.opacity, kind, model, {}, !terrain, culling});
     }
   };
   for (const MeshItem& item : list.meshes) {
@@ -113,7 +118,7 @@ std::vector<Piece> collect(const DrawList& list, GeometryCache& geometry, Materi
     if (item.mesh->indices.empty()) continue;
     const bool terrain = item.mesh == list.road.terrain;
     const CasterBox box = box_of(g, item.model);
-    add_parts(*item.mesh, g, level_within(g, terrain ? 0 : kLevelShare * pixel_at(box)), item.model, item.materials,
+    add_parts(*item.mesh, g, level_within(g, terrain ? 0 : kMeshShare * pixel_at(box)), item.model, item.materials,
               terrain && list.road.road);
     if (!terrain) boxes.push_back(box);
   }
@@ -121,7 +126,7 @@ std::vector<Piece> collect(const DrawList& list, GeometryCache& geometry, Materi
     const Geometry& g = geometry.skin(list.skins[i], i);
     if (list.skins[i].topology->indices.empty()) continue;
     CasterBox box = box_of(g, kIdentity);
-    add_parts(*list.skins[i].topology, g, level_within(g, kLevelShare * pixel_at(box)), kIdentity, list.skins[i].materials, false);
+    add_parts(*list.skins[i].topology, g, level_within(g, kSkinShare * pixel_at(box)), kIdentity, list.skins[i].materials, false);
     box.round = true;
     box.occludes = false;  // its feet do
     boxes.push_back(box);

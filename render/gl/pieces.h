@@ -12,6 +12,9 @@ namespace render::gl {
 // KIND of the object shader: enum MaterialKind, then these
 constexpr int kTerrainKind = 8, kWireKind = 9;
 
+/// From within a body its inside is seen.
+enum class Culling { on, off };
+
 struct Piece {
   const Geometry* geometry;
   const Geometry::Level* level;
@@ -22,10 +25,11 @@ struct Piece {
   Matrix4 model;
   Float3 axes;  // [m] of an ellipsoid
   bool casts;
+  Culling culling;  // of what faces away
 };
 
 /// The triangles of a run, with the piece's model and material set.
-void draw_run(const Geometry&, const Geometry::Level&, std::size_t run);
+void draw_run(const Geometry&, const Geometry::Level&, std::size_t run, Culling);
 
 /// What the frame shows. `pixel_share`: tessellations stay within this part of a pixel at their distance, `height` pixels high.
 std::vector<Piece> collect(const DrawList&, GeometryCache&, MaterialTable&, double pixel_share, int height,

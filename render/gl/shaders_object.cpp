@@ -187,7 +187,7 @@ vec3 light(vec3 p, vec3 n, float id, float grain) {
   float half_cosine = max(dot(n, normalize(sun.xyz + v)), 0.0);
   c += reflects * mirror;
   c += kSunLight * lit * ndl * (paint * lobes.x * shine(half_cosine, lobes.y) + lobes.z * shine(half_cosine, lobes.w));
-  c = mix(c, paint * sky * 0.12 + 0.004, inside);
+  c = mix(c, paint * sky * 0.25 + 0.006, inside);
   float far_m = eye.w > 0.5 ? 0.0 : length(p - eye.xyz);
   return to_screen(mix(c, haze_colour(), haze_at(far_m)));
 }

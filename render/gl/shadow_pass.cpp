@@ -27,7 +27,8 @@ void draw_map(Studio& studio, const std::vector<Piece>& pieces, const FrameSetup
   for (const Piece& piece : pieces) {
     if (!piece.casts) continue;
     p.set("model_to_clip", to_gl(frame.world_to_shadow_clip * from_gl(piece.model)));
-    draw_run(*piece.geometry, level_within(*piece.geometry, tolerance), piece.run);
+    draw_run(*piece.geometry, level_within(*piece.geometry, tolerance), piece.run,
+             piece.geometry->shell ? Culling::on : Culling::off);
   }
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
