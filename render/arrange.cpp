@@ -123,4 +123,13 @@ DrawList arrange(const Stage& stage, const engine::Recording& recording, const M
   return list;
 }
 
+SkinItem bent_skin(const PersonActor& person, const engine::Snapshot& now) {
+  std::vector<Pose> X_WS;
+  for (const PersonActor::Segment& s : person.segments) X_WS.push_back(now.bodies[static_cast<std::size_t>(s.body)].X_WB);
+  SkinItem item;
+  item.topology = person.skin->mesh;
+  bend_skin(*person.skin, X_WS, item.positions, item.normals);
+  return item;
+}
+
 }  // namespace render

@@ -30,4 +30,7 @@ enum class Layer { all, scene, sheet };
 /// One frame from Moment::camera. `aspect` = width / height. Unknown camera asserts (the loader has checked).
 DrawList arrange(const Stage&, const engine::Recording&, const Moment&, double aspect, Layer = Layer::all);
 
+/// The skin of a person (of look `skin`) at one instant.
+SkinItem bent_skin(const PersonActor&, const engine::Snapshot&);
+
 }  // namespace render

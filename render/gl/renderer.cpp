@@ -3,9 +3,9 @@
 #include "render/renderer.h"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
+#include <ctime>
 #include <utility>
 #include <vector>
 
@@ -25,9 +25,7 @@ using namespace gl;
 
 /// Processor time of this process [ms]: what a pass costs, whatever else keeps the machine busy.
 double processor_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+  return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 }  // namespace

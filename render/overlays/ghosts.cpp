@@ -3,7 +3,6 @@
 
 #include "render/matrix.h"
 #include "render/overlays/overlay.h"
-#include "render/surface/skin.h"
 
 namespace render {
 namespace {

@@ -292,13 +292,4 @@ void bend_skin(const Skin& skin, std::span<const Pose> X_WS, std::vector<float>&
   }
 }
 
-SkinItem bent_skin(const PersonActor& person, const engine::Snapshot& now) {
-  std::vector<Pose> X_WS;
-  for (const PersonActor::Segment& s : person.segments) X_WS.push_back(now.bodies[static_cast<std::size_t>(s.body)].X_WB);
-  SkinItem item;
-  item.topology = person.skin->mesh;
-  bend_skin(*person.skin, X_WS, item.positions, item.normals);
-  return item;
-}
-
 }  // namespace render

@@ -11,8 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/recording.h"
-#include "render/draw_list.h"
+#include "render/stage.h"
 
 namespace render {
 
@@ -30,8 +29,5 @@ struct Skin {
 
 /// Vertices and normals for segments at X_WS (one a segment). Three floats each, resized as needed.
 void bend_skin(const Skin&, std::span<const Pose> X_WS, std::vector<float>& positions, std::vector<float>& normals);
-
-/// The skin of a person (of look `skin`) at one instant.
-SkinItem bent_skin(const PersonActor&, const engine::Snapshot&);
 
 }  // namespace render
