@@ -49,7 +49,7 @@ void add(const Frame& frame, DrawList& list) {
     if (person.look == PersonLook::skin && person.skin) {
       for (const engine::Snapshot* s : when) {
         list.skins.push_back(bent_skin(person, *s));
-        for (const Material& m : person.skin->mesh->materials) list.skins.back().materials.push_back(pale(m));
+        for (const Material& m : list.skins.back().topology->materials) list.skins.back().materials.push_back(pale(m));
       }
       continue;
     }
