@@ -90,20 +90,20 @@ void Recorder::tally(const World& world, double time, double duration) {
 void Recorder::sample(const World& world, const State& state, Recording& recording) {
   if (world.model.settings.contact_law != ContactLaw::compliant || world.model.persons.empty()) return;
   if (recording.heads.empty()) {
-    for (int p = 0; p < static_cast<int>(world.model.persons.size()); ++p) {
-      recording.heads.push_back({p, {}, {}});
-      const int head = world.model.persons[p].head;
-      head_velocity_.push_back(head < 0 ? Vec3(Vec3::Zero()) : world.model.bodies[head].V_WB.v);
-    }
+    for (int p = 0; p < static_cast<int>(world.model.persons.size()); ++p) recording.heads.push_back({p, {}, {}});
+    recording.peak_acceleration.assign(world.model.bodies.size(), 0);
+    for (const Body& body : world.model.bodies) velocity_.push_back(body.fixed ? Vec3(Vec3::Zero()) : body.V_WB.v);
   }
   const double step = state.time - sampled_;
   for (std::size_t p = 0; p < world.model.persons.size(); ++p) {
     const int head = world.model.persons[p].head;
     if (head < 0) continue;
-    const Vec3& v = state.V_WB[head].v;
     recording.heads[p].time.push_back(state.time - 0.5 * step);
-    recording.heads[p].acceleration.push_back((v - head_velocity_[p]).norm() / step);
-    head_velocity_[p] = v;
+    recording.heads[p].acceleration.push_back((state.V_WB[head].v - velocity_[head]).norm() / step);
+  }
+  for (std::size_t b = 0; b < velocity_.size(); ++b) {
+    recording.peak_acceleration[b] = std::max(recording.peak_acceleration[b], (state.V_WB[b].v - velocity_[b]).norm() / step);
+    velocity_[b] = state.V_WB[b].v;
   }
   sampled_ = state.time;
 }

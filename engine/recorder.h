@@ -46,8 +46,8 @@ class Recorder {
   std::vector<char> support_;                              // per body: carried its person when that was released
   std::vector<double> last_ground_;                        // [s] per person: last time on the ground
   std::size_t exchanges_told_ = 0;
-  std::vector<Vec3> head_velocity_;  // [m/s] per person, at the last sample
-  double sampled_ = 0;               // [s] when that was
+  std::vector<Vec3> velocity_;  // [m/s] per body, at the last sample
+  double sampled_ = 0;          // [s] when that was
   double initial_energy_ = 0;
   double last_energy_ = 0;
   double energy_rise_ = 0;  // [J] largest between two snapshots

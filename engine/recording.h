@@ -134,6 +134,7 @@ struct Recording {
   std::vector<Snapshot> snapshots;        // never empty after simulate()
   std::vector<Event> events;
   std::vector<HeadMotion> heads;
+  std::vector<double> peak_acceleration;  // [m/s^2] per body: largest mean over a step; with the compliant law and persons only
   std::vector<PlanLine> plan;
   std::vector<EffectCost> costs;
   Diagnostics diagnostics;

@@ -104,7 +104,7 @@ double three_ms_clip(const std::vector<double>& t, const std::vector<double>& a)
 
 std::string why_no_head_injury(const Model& model) {
   if (model.settings.contact_law == ContactLaw::compliant) return "";
-  return "Default-Auto exchanges impulses in an instant: an acceleration whose integral HIC takes does not exist";
+  return "Default-Auto exchanges impulses in an instant: there is no acceleration to integrate or to have a peak";
 }
 
 std::vector<AbsentMetric> absent_metrics(const Model& model, const Recording& recording) {
@@ -112,10 +112,16 @@ std::vector<AbsentMetric> absent_metrics(const Model& model, const Recording& re
   const std::string reason = why_no_head_injury(model);
   if (reason.empty()) return out;
   for (const Person& person : model.persons) {
-    const bool struck = std::any_of(recording.events.begin(), recording.events.end(),
-                                    [&](const Event& e) { return e.kind == "head_impact" && e.body_a == person.head; });
-    if (!struck) continue;
-    for (const char* key : {"hic15", "hic36", "three_ms_g"}) out.push_back({key, person.name, reason});
+    const auto happened = [&](const Event& e, const char* kind) {
+      return e.kind == kind && std::find(person.bodies.begin(), person.bodies.end(), e.body_a) != person.bodies.end();
+    };
+    const auto any = [&](const char* kind) {
+      return std::any_of(recording.events.begin(), recording.events.end(), [&](const Event& e) { return happened(e, kind); });
+    };
+    if (any("head_impact"))
+      for (const char* key : {"hic15", "hic36", "three_ms_g"}) out.push_back({key, person.name, reason});
+    if (any("first_contact") || any("head_impact") || any("ground_contact"))
+      out.push_back({"peak_acceleration_mps2", person.name, reason});
   }
   return out;
 }

@@ -35,6 +35,10 @@ void measure_throw(const Model&, const Recording&, int person, std::vector<Metri
 /// place of impact, taken at the last snapshot before it; wrap-around distance, if the vehicle came with its front.
 void measure_head(const Model&, const Recording&, int person, std::vector<Metric>&);
 
+/// Of every part of a person: largest acceleration of its centre, mean over a step, free fall counting one g. Only with the
+/// compliant law: a rigid impact changes velocities in an instant.
+void measure_segments(const Model&, const Recording&, int person, std::vector<Metric>&);
+
 /// Length [m] of a taut tape in the vertical longitudinal plane through the head's impact `point_B` (body axes of the vehicle):
 /// from the ground straight up in front of the foremost part, over the front and bonnet, to the point. The contour is the
 /// silhouette of the collision mesh within 0.15 m to either side; a taut tape bridges hollows, so it is that silhouette's convex
@@ -64,7 +68,8 @@ double three_ms_clip(const std::vector<double>& times, const std::vector<double>
 /// could be integrated does not exist.
 std::string why_no_head_injury(const Model&);
 
-/// Head injury measures of every person whose head was struck, where the contact law cannot give them.
+/// Head injury measures of every person whose head was struck, and the peak accelerations of every person's parts, where the
+/// contact law cannot give them.
 std::vector<AbsentMetric> absent_metrics(const Model&, const Recording&);
 
 }  // namespace engine

@@ -1,6 +1,7 @@
 // The compliant contact law against its closed forms, and what locating its events is worth.
 #include <gtest/gtest.h>
 
+#include "engine/measure/metrics.h"
 #include "tests/engine/experiment.h"
 
 namespace {
@@ -172,6 +173,14 @@ TEST(HeadInjury, IsMeasuredWithTheCompliantLaw) {
   // the change of speed in the bounce, and S d/m - g at the turn
   EXPECT_NEAR(sum, v * (1 + std::sqrt(0.5)), 0.06 * v);
   EXPECT_NEAR(peak, v * std::sqrt(50e3), 0.03 * v * std::sqrt(50e3));
+  // the peak of every part is measured, the head's being that of its series
+  std::vector<Metric> out;
+  measure_segments(model, run, 0, out);
+  ASSERT_EQ(out.size(), 1u);
+  EXPECT_EQ(out[0].key, "peak_acceleration_mps2");
+  EXPECT_EQ(out[0].object, model.bodies[0].name);
+  EXPECT_EQ(out[0].value, peak);
+  EXPECT_TRUE(simulate(on_ground(0.01)).peak_acceleration.empty());
 }
 
 }  // namespace

@@ -276,10 +276,11 @@ TEST(HeadMetrics, StruckHeadSaysWhyItHasNoCriterion) {
   Model model = person_and_car();
   Recording run = head_on_bonnet();
   const auto absent = absent_metrics(model, run);
-  ASSERT_EQ(absent.size(), 3u);
+  ASSERT_EQ(absent.size(), 4u);
   EXPECT_EQ(absent[0].key, "hic15");
   EXPECT_EQ(absent[0].object, "pedestrian");
   EXPECT_EQ(absent[0].reason, why_no_head_injury(model));
+  EXPECT_EQ(absent[3].key, "peak_acceleration_mps2");
   run.events.clear();
   EXPECT_TRUE(absent_metrics(model, run).empty());
 }
