@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "cli/apart.h"
 #include "cli/command.h"
 #include "cli/exit.h"
 #include "cli/output/whole_file.h"
@@ -29,12 +30,9 @@ struct Figure {
   const char* name;
   std::vector<std::string> (*draw)(const render::Stage&, const engine::Recording&, const render::FigureJob&);
 };
-constexpr Figure kFigures[] = {{"site_diagram", render::site_diagram},
-                               {"contact_map", render::contact_map},
-                               {"time_histories", render::time_histories},
-                               {"vehicle_histories", render::vehicle_histories},
-                               {"stroboscopic", render::stroboscopic_still},
-                               {"contact_sheet", render::contact_sheet}};
+constexpr Figure kFigures[] = {{"site_diagram", render::site_diagram},       {"contact_map", render::contact_map},
+                               {"time_histories", render::time_histories},   {"vehicle_histories", render::vehicle_histories},
+                               {"stroboscopic", render::stroboscopic_still}, {"contact_sheet", render::contact_sheet}};
 
 /// Last time a vehicle pushed the person before it landed, as the measures take it.
 std::optional<double> released(const engine::Model& model, const engine::Recording& recording, int person, double landed) {
@@ -101,7 +99,7 @@ int draw_figures(const FigureWish& wish) {
 
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   for (const Figure& figure : kFigures) {
-    const std::vector<std::string> written = figure.draw(scene.stage, recording, job);
+    const std::vector<std::string> written = apart(figure.name, [&] { return figure.draw(scene.stage, recording, job); });
     if (written.empty() && !wish.scene.quiet) fmt::print(stderr, "{}: the run has nothing to show there\n", figure.name);
     for (const std::string& file : written) {
       files.push_back(file);

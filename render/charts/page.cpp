@@ -11,6 +11,7 @@
 
 #include "render/charts/chart.h"
 #include "render/error.h"
+#include "render/publish.h"
 
 namespace render::charts {
 namespace {
@@ -73,9 +74,7 @@ std::string write(const Page& page, const std::filesystem::path& file, double sc
     check(cairo_status(cairo.get()), file);
     check(finish(surface.get(), part.c_str()), file);
   }
-  std::error_code problem;
-  std::filesystem::rename(part, file, problem);
-  if (problem) throw RenderError(fmt::format("naming the figure {}: {}", file.string(), problem.message()));
+  publish(part, file);
   return file.string();
 }
 
@@ -89,6 +88,7 @@ cairo_status_t finished(cairo_surface_t* surface, const char*) {
 std::vector<std::string> write_page(const Page& page, const std::filesystem::path& base) {
   const auto pdf = [&page](const char* file) {
     cairo_surface_t* surface = cairo_pdf_surface_create(file, kWidth, kHeight);
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, nullptr);  // equal figures, equal files
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, page.title.c_str());
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_SUBJECT, page.footer.c_str());
     return surface;

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "render/error.h"
+#include "render/publish.h"
+#include "render/text/fonts.h"
 
 namespace render {
 namespace {
@@ -25,15 +27,17 @@ void write_one(cairo_surface_t* surface, const std::filesystem::path& file, cons
   const cairo_status_t status = cairo_surface_status(surface);
   cairo_surface_destroy(surface);
   if (status != CAIRO_STATUS_SUCCESS) throw RenderError("cannot write " + file.string() + ": " + cairo_status_to_string(status));
-  std::filesystem::rename(file.string() + ".part", file);
+  publish(file.string() + ".part", file);
 }
 
 }  // namespace
 
 std::vector<std::string> write_sheets(const std::filesystem::path& folder, const std::string& name, const std::string& title,
                                       const std::function<void(cairo_t*)>& draw) {
+  require_font();
   const std::filesystem::path pdf = folder / (name + ".pdf"), svg = folder / (name + ".svg");
   cairo_surface_t* paper = cairo_pdf_surface_create((pdf.string() + ".part").c_str(), kSheetWidth * kPoint, kSheetHeight * kPoint);
+  cairo_pdf_surface_set_metadata(paper, CAIRO_PDF_METADATA_CREATE_DATE, nullptr);  // equal figures, equal files
   cairo_pdf_surface_set_metadata(paper, CAIRO_PDF_METADATA_TITLE, title.c_str());
   write_one(paper, pdf, draw);
   write_one(cairo_svg_surface_create((svg.string() + ".part").c_str(), kSheetWidth * kPoint, kSheetHeight * kPoint), svg, draw);

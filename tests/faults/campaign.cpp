@@ -127,6 +127,7 @@ class Campaign {
     jobs_ = {{"film", {"render", scene, "-o", "film.mp4"}},
              {"film_frame_by_frame", {"render", scene, "-o", "film.mp4", "--resume"}},
              {"frames", {"render", scene, "-o", "frames"}},
+             {"figures", {"figure", scene, "-o", "figures", "--size", "64x64", "--quality", "draft"}},
              {"results", {"simulate", scene, "-o", "results"}}};
     for (std::size_t i = 0; i < 3; ++i) jobs_[i].arguments.insert(jobs_[i].arguments.end(), picture.begin(), picture.end());
   }
@@ -206,7 +207,9 @@ class Campaign {
   }
 
   static std::vector<std::string> resume(const Job& job) {
-    return job.name == "film_frame_by_frame" ? std::vector<std::string>{} : std::vector<std::string>{"--resume"};
+    if (job.name == "film_frame_by_frame") return {};  // has it already
+    // figures take a second and are made anew
+    return {job.name == "figures" ? "--overwrite" : "--resume"};
   }
 
   bool complain(const Job& job, const std::string& what, const fs::path& folder = {}) {
