@@ -166,8 +166,10 @@ void tell(const odd::OddScene& odd) {
 
 /// Seeds first, first + jobs ... each to its outcome.
 [[noreturn]] void work(const Wish& wish, const odd::Generator& generator, Worker& me, std::uint64_t first) {
+#if !defined(__SANITIZE_ADDRESS__)  // which maps terabytes
   const rlimit limit{kMemory, kMemory};
   setrlimit(RLIMIT_AS, &limit);
+#endif
   for (std::uint64_t seed = first; seed < wish.seed + wish.scenes; seed += static_cast<std::uint64_t>(wish.jobs)) {
     me.seed = seed;
     me.started = now();
