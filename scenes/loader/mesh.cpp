@@ -207,6 +207,10 @@ std::shared_ptr<const ImportedMesh> import_mesh(Builder& builder, Reader& r, std
   auto imported = std::make_shared<ImportedMesh>();
   imported->look = look_of(result.parts);
   imported->solid = solid_of(result.parts);
+  if (imported->solid->triangles().empty()) {
+    r.fail(key, "has no triangle with an area; there is nothing to touch");
+    return nullptr;
+  }
   cached = imported;
   return cached;
 }

@@ -232,6 +232,11 @@ Meshes read_meshes(Builder& builder, Reader& r, Origin origin) {
     const MeshFrame frame = origin == Origin::user ? vehicle_frame(r, *out.bodywork) : given_frame(r);
     out.bodywork = in_frame(builder, out.bodywork, frame);
     out.collision = in_frame(builder, out.collision, frame);
+    for (auto* mesh : {&out.bodywork, &out.collision}) {
+      if (!*mesh || !(*mesh)->solid->triangles().empty()) continue;
+      r.fail("mesh_scale", "leaves no triangle with an area; there is nothing to touch");
+      return {};
+    }
     if (origin == Origin::user && !r.has("mesh_scale")) check_scale(r, out.bodywork->solid->bounds());
   }
   const auto wheel = r.has("wheel_mesh") ? import_mesh(builder, r, "wheel_mesh") : nullptr;

@@ -148,12 +148,16 @@ void draw(const scenes::Scene& scene, const engine::Recording& recording, const 
 Outcome run(const odd::OddScene& odd, bool drawn) {
   const scenes::Scene& scene = odd.scene;
   const engine::Recording recording = engine::simulate(scene.model);
-  if (!finite(recording)) return not_finite;
+  const auto found = [](const char* what) {
+    std::printf("not finite: %s\n", what);
+    return not_finite;
+  };
+  if (!finite(recording)) return found("recording");
   for (const engine::Metric& metric : engine::measure(scene.model, recording))
-    if (!std::isfinite(metric.value)) return not_finite;
+    if (!std::isfinite(metric.value)) return found(metric.key.c_str());
   const std::vector<render::Moment> moments = render::film(scene.stage, recording, 30);
   render::story_of(scene.stage, recording, moments, 30);
-  if (!finite_film(scene, recording, moments)) return not_finite;
+  if (!finite_film(scene, recording, moments)) return found("film");
   if (drawn) draw(scene, recording, moments);
   return recording.failure ? diverged : ran;
 }

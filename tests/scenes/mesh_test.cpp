@@ -173,6 +173,16 @@ TEST(MeshAudit, WarnsOfHoles) {
   EXPECT_THAT(folder.load(kCar).warnings, Contains(HasSubstr("is open at 4 edges")));
 }
 
+TEST(MeshAudit, RefusesWhatCannotBeTouched) {
+  // what has no surface has no bounds either, and would stand nowhere
+  const SceneFolder folder;
+  folder.write("car.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+  EXPECT_THAT(folder.errors(kCar), ::testing::ElementsAre(HasSubstr("has no triangle with an area; there is nothing to touch")));
+  folder.write("car.obj", box(4));
+  EXPECT_THAT(folder.errors(kCar + "mesh_scale = 1e-12\n"),
+              ::testing::ElementsAre(HasSubstr("mesh_scale is 1e-12, leaves no triangle with an area")));
+}
+
 TEST(MeshAudit, CountsDegenerateAndDuplicateTriangles) {
   RawPart part;
   part.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0};
