@@ -53,7 +53,7 @@ Camera beside(const std::vector<Vec3>& points, double aspect) {
   const double distance = height / 2 / std::tan(camera.vertical_fov / 2);
   camera.target = first + 0.5 * (low + high) * way;
   camera.target.z() = 0.8 + 0.04 * height;  // a little above what lies on the road: the caption stands in the lower part
-  camera.position = camera.target + distance * (side + Vec3(0, 0, 0.12));
+  camera.position = camera.target + distance * (side + Vec3(0, 0, 0.22));
   return camera;
 }
 
@@ -67,8 +67,9 @@ Camera beside_person(const PersonFacts& p, const engine::Recording& recording) {
   camera.kind = CameraKind::follow;
   camera.follow = p.name;
   camera.vertical_fov = 0.5;
-  camera.target = Vec3(0, 0, 0.9);
-  camera.position = 7.5 * Vec3(way.y(), -way.x(), 0) + Vec3(0, 0, 2.1);
+  // what struck it comes from behind, and is to be seen too
+  camera.target = -1.1 * way + Vec3(0, 0, 0.9);
+  camera.position = camera.target + 9.5 * Vec3(way.y(), -way.x(), 0) + Vec3(0, 0, 1.4);
   return camera;
 }
 

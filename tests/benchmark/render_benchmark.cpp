@@ -173,6 +173,7 @@ int main(int argc, char** argv) {
     std::string fixed = b.scene.stage.cameras.front().name, moving = fixed;
     for (const Camera& c : b.scene.stage.cameras) {
       if (c.kind == CameraKind::follow || c.kind == CameraKind::orbit) moving = c.name;
+      if (c.kind == CameraKind::fixed && c.follow.empty()) fixed = c.name;
     }
     fmt::print("{}: fixed camera {}, moving camera {}, {} frames each\n", argv[1], fixed, moving, b.frames);
     table(b, fixed, moving);

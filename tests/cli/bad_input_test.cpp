@@ -130,11 +130,11 @@ TEST_P(BadCommandIsRefused, WithItsMessageAndExitCode) {
 INSTANTIATE_TEST_SUITE_P(
     Commands, BadCommandIsRefused,
     testing::Values(
-        BadCommand{
-            "no_command",
-            {},
-            kAuthor,
-            ": no command given; take one of render, simulate, plan, study, figure, check, compare, library, schema, version"},
+        BadCommand{"no_command",
+                   {},
+                   kAuthor,
+                   ": no command given; take one of render, simulate, plan, study, figure, check, compare, snapshot, library, "
+                   "schema, version"},
         BadCommand{"unknown_command", {"rendr"}, kAuthor, ": unknown command rendr; did you mean render?"},
         BadCommand{"unknown_option",
                    {"render", "ball.toml", "--siz", "64x64"},
