@@ -59,6 +59,9 @@ void add_forces(const Frame& frame, DrawList& list) {
       for (const auto& c : s.contacts)
         if (c.kind == engine::ContactKind::vehicle && of_interest(c) && (!largest || c.force.norm() > held.force.norm())) {
           held = c;
+          // the label goes on with the part it speaks of
+          const auto part = static_cast<std::size_t>(c.body_a);
+          held.point = frame.now.bodies[part].X_WB * (s.bodies[part].X_WB.inverse() * c.point);
           largest = &held;
         }
     }
