@@ -133,14 +133,22 @@ Series solver_tolerances(const scenes::Scene& scene, const StudyOptions&) {
 }
 
 Series mesh_details(const scenes::Scene& scene, const StudyOptions&) {
-  if (scene.model.vehicles.empty()) return {};
+  std::vector<std::string> meshed;
+  double own = 0;
+  for (const engine::Vehicle& vehicle : scene.model.vehicles)
+    if (const auto* mesh = std::get_if<engine::MeshShape>(&scene.model.bodies[vehicle.body].shape)) {
+      meshed.push_back(vehicle.name);
+      own = std::max(own, mesh->tolerance);
+    }
+  if (meshed.empty()) return {};
   Series series{"mesh detail", "bound", "the detail of the collision mesh", false, false, {}};
-  for (const double bound : {0.04, 0.02, 0.01, 0.005, 0.0025}) {
-    Setting setting{fmt::format("mesh within {:g} mm", 1e3 * bound), {}, {}, bound, 0, false};
-    for (const engine::Vehicle& vehicle : scene.model.vehicles)
-      setting.overrides.push_back(fmt::format("vehicle.{}.mesh_tolerance={:g} mm", vehicle.name, 1e3 * bound));
+  for (const double bound : {0.04, 0.02, 0.01, 0.005, 0.0025, 0.0}) {
+    Setting setting{bound > 0 ? fmt::format("mesh within {:g} mm", 1e3 * bound) : "full mesh", {}, {}, bound, 0, false};
+    for (const std::string& name : meshed)
+      setting.overrides.push_back(fmt::format("vehicle.{}.mesh_tolerance={:g} mm", name, 1e3 * bound));
     series.settings.push_back(setting);
   }
+  series.own_fineness = own;
   return series;
 }
 

@@ -6,9 +6,7 @@
 #include <map>
 
 namespace engine {
-namespace {
-
-/// Nearest point of a triangle (C. Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
+// C. Ericson, Real-Time Collision Detection, 2005, section 5.1.5
 Vec3 nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
@@ -28,8 +26,6 @@ Vec3 nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
   const double sum = va + vb + vc;
   return a + vb / sum * ab + vc / sum * ac;
 }
-
-}  // namespace
 
 std::optional<NearestSurface> nearest_surface(const TriangleMesh& mesh, const Vec3& p, double reach, std::vector<int>& scratch) {
   scratch.clear();

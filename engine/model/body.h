@@ -35,6 +35,7 @@ struct SurfaceProperties {
 struct MeshShape {
   std::shared_ptr<const TriangleMesh> mesh;
   Pose X_BM;
+  double tolerance = 0;  // [m] it may be this far from the surface it stands for
 };
 
 /// A hyper-ellipsoid sits with its centre at the centre of mass, axes along the body's.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scenes/loader/builder.h"
+#include "scenes/loader/decimate.h"
 #include "scenes/loader/mesh.h"
 #include "scenes/loader/mesh_frame.h"
 
@@ -77,6 +78,9 @@ const Key kKeys[] = {
      "The bodywork. Mesh frame: x forward, y left, z up, origin on the ground midway between the axles."},
     CRASHREEL_MESH_KEYS,
     {"collision_mesh", Type::path, Dimension::none, "", "A coarser mesh for contact in the same frame; left out: the bodywork."},
+    {"mesh_tolerance", Type::number, Dimension::length, "0",
+     "The mesh for contact is thinned out; no point of either surface is farther than this from the other. 0: as it is.",
+     kNotNegative},
     {"wheel_mesh", Type::path, Dimension::none, "", "One wheel about its centre, axle along y, outside towards +y."},
     {"mass", Type::number, Dimension::mass, "", "Mass with occupants.", kPositive},
     {"cg", Type::vector3, Dimension::length, "", "Centre of mass in the mesh frame."},
@@ -362,7 +366,8 @@ void read_vehicle(Builder& builder, Reader scene) {
   const engine::Pose X_BM{-cg, engine::Quat::Identity()};
   const double heading = r.number("heading");
   const engine::Pose X_WM = mesh_pose(builder, r, meshes, heading);
-  body.shape = engine::MeshShape{meshes.collision->solid, X_BM};
+  const double tolerance = r.number("mesh_tolerance");
+  body.shape = engine::MeshShape{decimate(meshes.collision->solid, tolerance), X_BM, tolerance};
   body.X_WB = {X_WM * cg, X_WM.q.normalized()};
   if (r.has("velocity") && r.has("speed")) r.fail("velocity", "must not be given together with speed");
   body.V_WB.v = r.vector_if("velocity").value_or(r.number("speed") * engine::Vec3(std::cos(heading), std::sin(heading), 0));

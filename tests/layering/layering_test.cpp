@@ -52,7 +52,7 @@ const std::vector<Library> kLibraries = {
     {"png\\.h|zlib\\.h", {"render/image/"}},
     {"cairo.*|pango.*|ft2build\\.h|freetype.*|fontconfig.*", {"render/text/", "render/figures/", "render/charts/"}},
     {"toml\\+\\+.*|toml\\.hpp", {"scenes/loader/toml.cpp"}},
-    {"assimp/.*", {"scenes/loader/"}},
+    {"assimp/.*|meshoptimizer\\.h", {"scenes/loader/"}},
     {"CLI/.*", {"cli/command.cpp"}},
     {"nlohmann/.*", {"scenes/", "cli/"}},
     {"fmt/.*", {"render/", "scenes/", "cli/"}},
