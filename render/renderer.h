@@ -11,11 +11,24 @@ namespace render {
 
 enum class Quality { draft, standard, fine };
 
+/// What a quality level spends.
+struct Effort {
+  int scale = 1;               // pictures are drawn so many times larger a side
+  int samples = 2;             // a side to a pixel
+  int shadow_map_size = 1024;  // [pixels] a side
+  int shadow_filter = 1;       // SHADOW in the shaders: 1 plain, 2 soft
+  double shadow_reach = 0.05;  // [m] radius of the widest penumbra
+  int occlusion_size = 128;    // texels a side of the occlusion map
+  double pixel_share = 0.2;    // [pixels] that tessellation may be off
+};
+Effort effort_of(Quality, int width, int height);
+
 /// One GL context (OSMesa) and its resources. Create it in the process that draws, after any fork. Throws RenderError with what
 /// failed.
 class Renderer {
  public:
   Renderer(int width, int height, Quality);
+  Renderer(int width, int height, const Effort&);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

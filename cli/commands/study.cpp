@@ -9,8 +9,10 @@
 #include "cli/output/whole_file.h"
 #include "cli/parse.h"
 #include "cli/scene_run.h"
+#include "cli/study/effects.h"
 #include "cli/study/output.h"
 #include "cli/study/page.h"
+#include "cli/study/picture.h"
 #include "cli/study/pool.h"
 #include "cli/study/run.h"
 #include "cli/study/target.h"
@@ -25,6 +27,8 @@ struct StudyWish {
   std::string ensemble = "8";
   std::vector<std::string> inputs;
   std::string target;
+  std::string at;
+  bool effects = false, picture = false;
   bool overwrite = false;
 };
 
@@ -33,6 +37,62 @@ void write_whole(const std::filesystem::path& file, const std::string& text) {
   whole.write(text);
   whole.close();
   whole.publish();
+}
+
+/// The five files of one kind of study, and what is said of them.
+struct Report {
+  std::string name;  // "study"
+  std::string csv, text;
+  nlohmann::ordered_json json;
+  render::charts::Page page;
+};
+
+void refuse_existing_report(const StudyWish& wish, const std::string& name) {
+  for (const char* extension : {".csv", ".json", ".pdf", ".svg", ".png"})
+    refuse_existing(std::filesystem::path(wish.folder) / (name + extension), wish.overwrite);
+}
+
+void write_report(const StudyWish& wish, const Report& report) {
+  const std::filesystem::path folder = wish.folder;
+  write_whole(folder / (report.name + ".csv"), report.csv);
+  write_whole(folder / (report.name + ".json"), report.json.dump(2) + "\n");
+  render::charts::write_page(report.page, folder / report.name);
+  if (wish.scene.json)
+    fmt::print("{}\n", report.json.dump(2));
+  else
+    fmt::print("{0}{1}: {2}.csv, {2}.json, {2}.pdf, {2}.svg, {2}.png\n", report.text, wish.folder, report.name);
+}
+
+/// The moment of --at, else the first the scene is pictured at, else the middle of the run.
+render::Moment moment_of(const StudyWish& wish, const scenes::Scene& scene, const engine::Recording& recording) {
+  double time = recording.end_time() / 2;
+  if (!scene.output.stills.empty()) time = scene.output.stills.front().first;
+  if (!wish.at.empty()) time = parse_time("--at", wish.at);
+  for (const render::Shot& shot : scene.stage.shots)
+    if (time >= shot.from && time <= shot.to) return {time, shot.camera};
+  return {time, scene.stage.cameras.front().name};
+}
+
+Report of_picture(const StudyWish& wish, const scenes::Scene& scene) {
+  const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
+  const study::PictureStudy result =
+      study::study_picture(scene, recording, moment_of(wish, scene, recording), scene.output.width, scene.output.height);
+  return {"picture", study::picture_csv(result), study::picture_text(result), study::picture_json(scene, result),
+          study::picture_page(scene, result)};
+}
+
+Report of_effects(const scenes::Scene& scene, const study::RunWish& run) {
+  const study::EffectsStudy result = study::study_effects(scene, run);
+  return {"effects", study::effects_csv(result), study::effects_text(scene, result), study::effects_json(scene, result),
+          study::effects_page(scene, result)};
+}
+
+Report of_accuracy(const StudyWish& wish, const scenes::Scene& scene, const study::RunWish& run) {
+  const study::Study result = study::run_study(scene, run);
+  Report out{"study", study::study_csv(result), study::study_text(scene, result), study::study_json(scene, result),
+             study::page_of(scene, result)};
+  if (!wish.target.empty()) out.text += "\n" + study::search(result, study::parse_target(wish.target)).text + "\n";
+  return out;
 }
 
 int run(const StudyWish& wish) {
@@ -45,22 +105,12 @@ int run(const StudyWish& wish) {
   run.inputs = wish.inputs;
   run.show = progress_of(wish.scene);
   if (!wish.target.empty()) study::parse_target(wish.target);  // refused before the work, not after it
+  if (wish.effects && wish.picture) throw UsageError("--effects and --picture are studies of their own; give one of them");
   make_writable_folder(run.folder);
-  for (const char* name : {"study.csv", "study.json", "study.pdf", "study.svg", "study.png"})
-    refuse_existing(run.folder / name, wish.overwrite);
-
-  const study::Study result = study::run_study(scene, run);
-  const nlohmann::ordered_json json = study::study_json(scene, result);
-  write_whole(run.folder / "study.csv", study::study_csv(result));
-  write_whole(run.folder / "study.json", json.dump(2) + "\n");
-  render::charts::write_page(study::page_of(scene, result), run.folder / "study");
-  if (wish.scene.json) {
-    fmt::print("{}\n", json.dump(2));
-  } else {
-    fmt::print("{}", study::study_text(scene, result));
-    fmt::print("{}: study.csv, study.json, study.pdf, study.svg, study.png\n", wish.folder);
-    if (!wish.target.empty()) fmt::print("\n{}", study::search(result, study::parse_target(wish.target)).text);
-  }
+  refuse_existing_report(wish, wish.effects ? "effects" : wish.picture ? "picture" : "study");
+  write_report(wish, wish.effects   ? of_effects(scene, run)
+                     : wish.picture ? of_picture(wish, scene)
+                                    : of_accuracy(wish, scene, run));
   return kDone;
 }
 
@@ -77,6 +127,9 @@ std::function<int()> declare_study(Arguments& arguments) {
   arguments.repeatable("--input", wish->inputs, "PATH=LOW..HIGH",
                        "range of a value of the scene, for its share of the uncertainty");
   arguments.option("--target", wish->target, "MEASURE=WIDTH", "name the cheapest setting that holds it: throw_distance=0.05m");
+  arguments.flag("--effects", wish->effects, "what each physical effect does and costs: each left out in turn");
+  arguments.flag("--picture", wish->picture, "what the quality of a picture costs: error and milliseconds a frame");
+  arguments.option("--at", wish->at, "TIME", "the moment of --picture (default: the scene's first still)");
   arguments.flag("--overwrite", wish->overwrite, "replace results that exist; finished runs are used again");
   return [wish] { return run(*wish); };
 }

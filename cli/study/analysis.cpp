@@ -244,14 +244,22 @@ void judge(Study& study, const std::map<std::string, double>& closed_form) {
   }
 }
 
-std::string main_quantity(const Study& study) {
+std::string main_of(const std::vector<std::string>& quantities) {
   constexpr const char* kWishes[] = {"throw_distance_m",      "delta_v_mps", "rebound_height_m",
                                      "head_impact_speed_mps", "travel_m",    "turned_deg"};
-  for (const bool closed_form : {true, false})
-    for (const char* wish : kWishes)
-      for (const Judgement& j : study.judgements)
-        if (j.quantity.starts_with(wish) && (!closed_form || j.error_kind == "closed_form")) return j.quantity;
-  return study.judgements.empty() ? "" : study.judgements.front().quantity;
+  for (const char* wish : kWishes)
+    for (const std::string& quantity : quantities)
+      if (quantity.starts_with(wish)) return quantity;
+  return quantities.empty() ? "" : quantities.front();
+}
+
+std::string main_quantity(const Study& study) {
+  std::vector<std::string> all, known;
+  for (const Judgement& j : study.judgements) {
+    all.push_back(j.quantity);
+    if (j.error_kind == "closed_form") known.push_back(j.quantity);
+  }
+  return main_of(known.empty() ? all : known);
 }
 
 }  // namespace cli::study

@@ -86,5 +86,7 @@ void judge(Study&, const std::map<std::string, double>& closed_form);
 
 /// The quantity a page is about: one with a closed form, else throw, head impact, delta-v, travel, whichever comes first.
 std::string main_quantity(const Study&);
+/// The same of bare names; empty if there are none.
+std::string main_of(const std::vector<std::string>& quantities);
 
 }  // namespace cli::study

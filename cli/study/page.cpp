@@ -150,13 +150,8 @@ charts::Page page_of(const scenes::Scene& scene, const Study& study) {
   charts::Page page;
   const std::string quantity = main_quantity(study);
   const std::string name = scene.title.empty() ? scene.path.filename().string() : scene.title;
-  page.footer = fmt::format(
-      "crashreel {}, {} | {} | scene SHA-256 {}{}{} | times: computing on one core, warm, median | minute changes: {} m, {} of "
-      "every "
-      "speed and of gravity | measures read every {} ms",
-      CRASHREEL_VERSION, CRASHREEL_BUILD, scene.path.filename().string(), scene.sha256.substr(0, 16),
-      scene.overrides.empty() ? "" : " with ", fmt::join(scene.overrides, ", "), kPerturbedPosition, kPerturbedSpeed,
-      1e3 * study.interval);
+  page.footer = provenance_of(scene) + fmt::format(" | minute changes: {} m, {} of speeds and gravity | measures read every {} ms",
+                                                   kPerturbedPosition, kPerturbedSpeed, 1e3 * study.interval);
   const Judgement* j = study.find(quantity);
   if (!j) {
     page.title = name + ": nothing to study";

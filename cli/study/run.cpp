@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/exit.h"
@@ -14,20 +15,40 @@ namespace {
 /// The trials of one setting lie side by side: the plain run, then its members.
 struct Batch {
   std::vector<Trial> trials;
+  bool timed = true;
   std::string program = program_hash();
 
-  std::size_t add(const scenes::Scene& scene, const Setting& setting, double cost) {
-    const std::size_t first = trials.size();
-    const std::vector<std::string> overrides = runs_with(setting);
+  void add(const scenes::Scene& scene, const Setting& setting, double cost) {
+    std::vector<std::string> overrides = scene.overrides;
+    for (const std::string& text : runs_with(setting)) overrides.push_back(text);
+    const scenes::Scene loaded = scenes::load(scene.path, overrides);
     for (int member = 0; member <= setting.members; ++member) {
-      Trial trial{scene.path, scene.overrides, member, cost, ""};
-      trial.overrides.insert(trial.overrides.end(), overrides.begin(), overrides.end());
-      trial.fingerprint = fingerprint_of(trial, program);
+      Trial trial{scene.path, overrides, member, cost, timed, ""};
+      trial.fingerprint = fingerprint_of(trial, loaded, program);
       trials.push_back(std::move(trial));
     }
-    return first;
   }
 };
+
+/// What came of the settings, in the order in which they were added.
+class Results {
+ public:
+  explicit Results(std::vector<Outcome> outcomes) : outcomes_(std::move(outcomes)) {}
+  SettingResult take(const Setting& setting) {
+    const auto begin = outcomes_.begin() + static_cast<std::ptrdiff_t>(next_);
+    next_ += static_cast<std::size_t>(setting.members) + 1;
+    return summarise(setting, {begin, outcomes_.begin() + static_cast<std::ptrdiff_t>(next_)});
+  }
+
+ private:
+  std::vector<Outcome> outcomes_;
+  std::size_t next_ = 0;
+};
+
+std::vector<Outcome> run_batch(const Batch& batch, const RunWish& wish) {
+  make_writable_folder(wish.folder / "runs");
+  return run_all(batch.trials, wish.folder / "runs", wish.jobs, wish.show);
+}
 
 double cost_of(const scenes::Scene& scene, const Series& series, const Setting& setting) {
   const engine::Settings& s = scene.model.settings;
@@ -54,6 +75,19 @@ bool accepted(const scenes::Scene& scene, const std::vector<std::string>& overri
   }
 }
 
+/// The formula's answer is that of the scene as its file has it. Only what changes how it is computed leaves it true.
+bool holds_closed_form(const scenes::Scene& scene) {
+  constexpr const char* kHarmless[] = {
+      "step",          "record_interval", "scheme", "adaptive_tolerance", "solver_tolerance", "contacts_per_pair",
+      "locate_events", "stop_at_rest"};
+  return std::all_of(scene.overrides.begin(), scene.overrides.end(), [&](const std::string& text) {
+    if (text.starts_with("closed_form.")) return true;
+    const std::string key = text.substr(0, text.find('='));
+    return std::any_of(std::begin(kHarmless), std::end(kHarmless),
+                       [&](const char* harmless) { return key == std::string("simulation.") + harmless; });
+  });
+}
+
 void fill_inputs(Study& study, const std::vector<std::pair<SettingResult, SettingResult>>& ends) {
   for (std::size_t i = 0; i < study.inputs.size(); ++i)
     for (const auto& [name, low] : ends[i].first.answers) {
@@ -64,6 +98,16 @@ void fill_inputs(Study& study, const std::vector<std::pair<SettingResult, Settin
 
 }  // namespace
 
+std::vector<SettingResult> run_settings(const scenes::Scene& scene, const std::vector<Setting>& settings, const RunWish& wish) {
+  Batch batch;
+  batch.timed = wish.timed;
+  for (const Setting& setting : settings) batch.add(scene, setting, 1);
+  Results results(run_batch(batch, wish));
+  std::vector<SettingResult> out;
+  for (const Setting& setting : settings) out.push_back(results.take(setting));
+  return out;
+}
+
 Study run_study(const scenes::Scene& scene, const RunWish& wish) {
   const std::vector<Series> series =
       series_for(scene, wish.options, [&scene](const std::vector<std::string>& overrides) { return accepted(scene, overrides); });
@@ -73,6 +117,7 @@ Study run_study(const scenes::Scene& scene, const RunWish& wish) {
   for (const std::string& input : wish.inputs) study.inputs.push_back(parse_input(input));
 
   Batch batch;
+  batch.timed = wish.timed;
   for (const Series& s : series)
     for (const Setting& setting : s.settings) batch.add(scene, setting, cost_of(scene, s, setting));
   std::vector<Setting> ends;
@@ -81,26 +126,18 @@ Study run_study(const scenes::Scene& scene, const RunWish& wish) {
       ends.push_back({input.key + " " + end, {input.key + "=" + end}, {}, 0, std::min(4, wish.options.members), false});
   for (const Setting& end : ends) batch.add(scene, end, scene.model.settings.duration / scene.model.settings.step);
 
-  make_writable_folder(wish.folder / "runs");
-  const std::vector<Outcome> outcomes = run_all(batch.trials, wish.folder / "runs", wish.jobs, wish.show);
-
-  std::size_t next = 0;
-  const auto take = [&](const Setting& setting) {
-    const auto begin = outcomes.begin() + static_cast<std::ptrdiff_t>(next);
-    next += static_cast<std::size_t>(setting.members) + 1;
-    return summarise(setting, {begin, outcomes.begin() + static_cast<std::ptrdiff_t>(next)});
-  };
+  Results results(run_batch(batch, wish));
   for (const Series& s : series) {
     study.series.push_back({s, {}});
-    for (const Setting& setting : s.settings) study.series.back().settings.push_back(take(setting));
+    for (const Setting& setting : s.settings) study.series.back().settings.push_back(results.take(setting));
   }
   std::vector<std::pair<SettingResult, SettingResult>> input_results;
   for (std::size_t i = 0; i + 1 < ends.size(); i += 2) {
-    SettingResult low = take(ends[i]);
-    input_results.emplace_back(std::move(low), take(ends[i + 1]));
+    SettingResult low = results.take(ends[i]);
+    input_results.emplace_back(std::move(low), results.take(ends[i + 1]));
   }
   fill_inputs(study, input_results);
-  judge(study, scene.closed_form);
+  judge(study, holds_closed_form(scene) ? scene.closed_form : std::map<std::string, double>());
   return study;
 }
 

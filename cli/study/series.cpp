@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/plan.h"
+
 namespace cli::study {
 namespace {
 
@@ -152,6 +154,25 @@ Series mesh_details(const scenes::Scene& scene, const StudyOptions&) {
   return series;
 }
 
+Series contact_points(const scenes::Scene& scene, const StudyOptions&) {
+  // where no mesh touches by points there is nothing to number
+  const engine::Plan plan = engine::compile(scene.model);
+  if (std::none_of(plan.lines.begin(), plan.lines.end(),
+                   [](const engine::PlanLine& line) { return line.active && line.effect == "bodywork_contact"; }))
+    return {};
+  Series series{"contact points", "number", "at how many points two meshes hold each other", false, false, {}};
+  const int own = scene.model.settings.contacts_per_pair;
+  for (const int number : {4, 6, 10, 16, 24, 40})
+    series.settings.push_back({fmt::format("{} points a pair", number),
+                               {fmt::format("simulation.contacts_per_pair={}", number)},
+                               {},
+                               1.0 / number,
+                               0,
+                               false});
+  series.own_fineness = 1.0 / own;
+  return series;
+}
+
 Series recorded_instants(const scenes::Scene& scene, const StudyOptions&) {
   const engine::Settings& s = scene.model.settings;
   Series series{"recorded instants", "interval", "how often the motion is recorded", false, false, {}};
@@ -185,8 +206,9 @@ Series other_contact_law(const scenes::Scene& scene, const StudyOptions&) {
 }
 
 /// The table of series. One that does not mean anything for a scene comes back empty; one whose keys the scene refuses is left out.
-constexpr Make kSeries[] = {own_steps,           other_events,      stepping_steps, rk4_steps,         rk4_plain_steps,
-                            adaptive_tolerances, solver_tolerances, mesh_details,   recorded_instants, other_contact_law};
+constexpr Make kSeries[] = {own_steps,       other_events,        stepping_steps,    rk4_steps,
+                            rk4_plain_steps, adaptive_tolerances, solver_tolerances, mesh_details,
+                            contact_points,  recorded_instants,   other_contact_law};
 
 }  // namespace
 

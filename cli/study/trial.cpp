@@ -23,13 +23,6 @@ constexpr double kEnough = 0.4;      // [s] of measuring one trial; a long run i
 constexpr int kMostRepetitions = 7;  // more do not move a median
 constexpr double kLong = 0.25;       // [s] a run this long has warmed up within itself
 
-/// [s] this process has computed. On an idle core it passes as the clock does; what others take of a busy one is left out.
-double computed_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
 std::string bytes_of(const std::filesystem::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
@@ -38,13 +31,19 @@ std::string bytes_of(const std::filesystem::path& file) {
 
 }  // namespace
 
+double computed_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
 std::string program_hash() {
   return scenes::sha256(bytes_of("/proc/self/exe"));
 }
 
-std::string fingerprint_of(const Trial& trial, const std::string& program) {
-  const scenes::Scene scene = scenes::load(trial.scene, trial.overrides);
-  return scenes::sha256(fmt::format("{} {} {}", scene.sha256, program, trial.member));
+std::string fingerprint_of(const Trial& trial, const scenes::Scene& scene, const std::string& program) {
+  return scenes::sha256(
+      fmt::format("{} {} {} {}{}", scene.sha256, scene.assets_sha256, program, trial.member, trial.timed ? "" : " once"));
 }
 
 Outcome run(const Trial& trial) {
@@ -63,9 +62,9 @@ Outcome run(const Trial& trial) {
     out.instructions = counter.stop();
     spent += wall;
     // the first run of a short trial warms the caches
-    if (i > 0 || wall > kLong) out.wall_s.push_back(wall);
+    if (i > 0 || wall > kLong || !trial.timed) out.wall_s.push_back(wall);
     if (out.wall_s.size() >= 3 && spent > kEnough) break;
-    if (wall > kLong) break;
+    if (wall > kLong || !trial.timed) break;
   }
   out.steps = recording.steps + recording.diagnostics.substeps;
   out.end_s = recording.end_time();

@@ -16,6 +16,7 @@ struct Trial {
   std::vector<std::string> overrides;
   int member = 0;           // of the ensemble; 0: as it is
   double cost = 1;          // expected, in any unit: long trials go first
+  bool timed = true;        // repeated until its time is known
   std::string fingerprint;  // of scene, overrides, member and program
 };
 
@@ -29,10 +30,13 @@ struct Outcome {
   std::string failure;                // empty: none
 };
 
-/// What the trial's answer depends on. Throws SceneErrors if the scene does not load with its overrides.
-std::string fingerprint_of(const Trial&, const std::string& program_hash);
+/// What the trial's answer depends on; `loaded` is the scene with the trial's overrides.
+std::string fingerprint_of(const Trial&, const scenes::Scene& loaded, const std::string& program_hash);
 /// SHA-256 of the running program: a new build may give new answers.
 std::string program_hash();
+
+/// [s] this process has computed. On an idle core it passes as the clock does; what others take of a busy one is left out.
+double computed_seconds();
 
 /// Runs the trial on the calling process' core until its time is known: at least three repetitions if it is short.
 Outcome run(const Trial&);

@@ -100,6 +100,12 @@ std::string with_unit(double value, const std::string& unit) {
   return fmt::format("{:.3g} {}", value, unit);
 }
 
+std::string provenance_of(const scenes::Scene& scene) {
+  return fmt::format("crashreel {}, {} | {} | scene SHA-256 {}{}{} | times: computing on one core, warm, median", CRASHREEL_VERSION,
+                     CRASHREEL_BUILD, scene.path.filename().string(), scene.sha256.substr(0, 16),
+                     scene.overrides.empty() ? "" : " with ", fmt::join(scene.overrides, ", "));
+}
+
 std::string with_digits(double value, double uncertainty) {
   const double ratio = uncertainty > 0 && value != 0 ? std::abs(value) / uncertainty : 1e9;
   return fmt::format("{:.{}g}", value, std::clamp(static_cast<int>(std::ceil(std::log10(ratio))) + 2, 4, 10));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/study/analysis.h"
+#include "scenes/scene.h"
 
 namespace cli::study {
 
@@ -13,6 +14,9 @@ std::string cost_in_words(const Study&, const std::string& quantity);
 
 /// How good the scene's own answer is, whether minute changes matter, and whether a cheaper setting would do.
 std::vector<std::string> findings(const Study&, const Judgement&);
+
+/// Which program and scene a page comes from.
+std::string provenance_of(const scenes::Scene&);
 
 /// A number with a unit a reader grasps: "5.6 mm", "12.2 m", "0.3 deg".
 std::string with_unit(double value, const std::string& unit);

@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kSpacing = 0.10;     // [m] between the points that stand for a mesh
 constexpr double kDeepest = 0.15;     // [m] a point farther behind a surface has come from its other side
-constexpr std::size_t kMost = 10;     // contacts of one pair
 constexpr int kRing = 24;             // points round a wheel
 constexpr double kUnderWheel = 0.75;  // [-] cosine to the vehicle's up axis: surfaces nearer to level belong to the suspension
 
@@ -104,7 +103,7 @@ void touch(World& world, const State& state, int body, const TriangleMesh* mesh,
     if (points[i].wheel && c.normal.dot(up) > kUnderWheel) continue;
     out.push_back(c);
   }
-  keep_spread(out, kMost);
+  keep_spread(out, static_cast<std::size_t>(world.model.settings.contacts_per_pair));
 }
 
 void find_on_ground(World& world, const State& state, int body, int self) {

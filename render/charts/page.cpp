@@ -43,13 +43,18 @@ void draw(const Page& page, cairo_t* c) {
   y += 7;
   const double bottom = kHeight - kMargin - 6;
   const bool charts = !page.left.title.empty();
-  const double split = charts ? y + 0.60 * (bottom - y) : y;
   const double gap = 26, half = (width - gap) / 2;
-  draw_chart(pen, page.left, {kMargin, y, half, split - y - 8});
-  draw_chart(pen, page.right, {kMargin + half + gap, y, half, split - y - 8});
-  const double left = 0.46 * width;
-  draw_bars(pen, page.bars, {kMargin, split + 4, left, bottom - split - 8});
-  draw_table(pen, page.table, {kMargin + left + gap, split + 4, width - left - gap, bottom - split - 8});
+  const double split = y + (charts ? 0.60 : page.upper_left.rows.empty() ? 0.0 : 0.45) * (bottom - y);
+  const Box left{kMargin, y, half, split - y - 8}, right{kMargin + half + gap, y, half, split - y - 8};
+  draw_chart(pen, page.left, left);
+  draw_chart(pen, page.right, right);
+  if (!charts) {
+    draw_bars(pen, page.upper_left, left);
+    draw_bars(pen, page.upper_right, right);
+  }
+  const double bars = page.bars.rows.empty() ? 0 : 0.46 * width + gap;
+  draw_bars(pen, page.bars, {kMargin, split + 4, bars - gap, bottom - split - 8});
+  draw_table(pen, page.table, {kMargin + bars, split + 4, width - bars, bottom - split - 8});
   pen.black(0.5);
   pen.line(kMargin, bottom + 4, kWidth - kMargin, bottom + 4, 0.5);
   pen.black();

@@ -63,11 +63,12 @@ struct Table {
   std::string note;
 };
 
-/// A4, landscape. Two charts above, bars and table below; empty ones leave their place.
+/// A4, landscape. Two charts above, bars and table below; or two bar pictures above and a table over the whole width.
 struct Page {
   std::string title, subtitle;
   std::vector<std::string> findings;  // sentences between the title and the charts
   Chart left, right;
+  Bars upper_left, upper_right;  // in place of charts that have no title
   Bars bars;
   Table table;
   std::string footer;

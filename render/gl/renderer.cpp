@@ -31,7 +31,7 @@ double processor_ms() {
 }  // namespace
 
 struct Renderer::Impl {
-  Impl(int w, int h, Quality q) : width(w), height(h), context(16, 16), studio(w, h, q) {}
+  Impl(int w, int h, const Effort& effort) : width(w), height(h), context(16, 16), studio(w, h, effort) {}
 
   void mark(const char* pass);
   void read(Image&);
@@ -75,7 +75,8 @@ void Renderer::Impl::read(Image& out) {
   for (std::size_t i = 3; i < out.rgba.size(); i += 4) out.rgba[i] = 255;
 }
 
-Renderer::Renderer(int width, int height, Quality quality) : impl_(std::make_unique<Impl>(width, height, quality)) {}
+Renderer::Renderer(int width, int height, Quality quality) : Renderer(width, height, effort_of(quality, width, height)) {}
+Renderer::Renderer(int width, int height, const Effort& effort) : impl_(std::make_unique<Impl>(width, height, effort)) {}
 Renderer::~Renderer() {
   impl_->context.make_current();
 }

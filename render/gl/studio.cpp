@@ -11,18 +11,22 @@
 #include "render/gl/pieces.h"
 #include "render/gl/shaders.h"
 
-namespace render::gl {
+namespace render {
 namespace {
 
 constexpr int kWidestFine = 4096;  // [pixels] four times that is the largest texture
 
 }  // namespace
 
-Spend spend(Quality q, int width, int height) {
+Effort effort_of(Quality q, int width, int height) {
   if (q == Quality::draft) return {1, 1, 512, 1, 0.05, 128, 0.5};
   if (q == Quality::standard) return {1, 2, 1024, 1, 0.05, 128, 0.2};
   return {std::max(width, height) > kWidestFine ? 1 : 2, 2, 2048, 2, 0.10, 256, 0.2};
 }
+
+}  // namespace render
+
+namespace render::gl {
 
 std::string ground_switches(const RoadLook& road) {
   std::string on;
@@ -32,8 +36,8 @@ std::string ground_switches(const RoadLook& road) {
   return on;
 }
 
-Studio::Studio(int w, int h, Quality q)
-    : cost(spend(q, w, h)), targets(w * cost.scale, h * cost.scale, w, h, cost.samples, cost.shadow_map_size, cost.occlusion_size) {
+Studio::Studio(int w, int h, const Effort& effort)
+    : cost(effort), targets(w * cost.scale, h * cost.scale, w, h, cost.samples, cost.shadow_map_size, cost.occlusion_size) {
   const std::vector<std::uint8_t> grain = grain_picture();
   glBindTexture(GL_TEXTURE_2D, *noise_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -57,8 +61,9 @@ const Program& Studio::program(const Variant& v) {
     defines += fmt::format("#define TERRAIN {}\n", v.kind == kTerrainKind ? 1 : 0);
     const bool ground = v.fragment == kGroundFragment || v.fragment == kStripFragment || v.kind == kTerrainKind;
     const bool surfaces = v.fragment == kCountFragment || v.fragment == kShadeFragment;
-    p = std::make_unique<Program>(defines, std::string(kFrameBlock) + v.vertex,
-                                  std::string(kFrameBlock) + kCommon + (ground ? kGroundPattern : "") + (surfaces ? kSurfaces : "") + v.fragment);
+    p = std::make_unique<Program>(
+        defines, std::string(kFrameBlock) + v.vertex,
+        std::string(kFrameBlock) + kCommon + (ground ? kGroundPattern : "") + (surfaces ? kSurfaces : "") + v.fragment);
   }
   p->use();
   return *p;

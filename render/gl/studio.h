@@ -16,18 +16,6 @@
 
 namespace render::gl {
 
-struct Spend {  // what a quality level costs
-  int scale;    // pictures are drawn so many times larger a side
-  int samples;  // a side to a pixel
-  int shadow_map_size;
-  int shadow_filter;    // SHADOW in the shaders
-  double shadow_reach;  // [m] radius of the widest penumbra
-  int occlusion_size;   // texels a side of the occlusion map
-  double pixel_share;   // [pixels] of tessellation
-};
-
-Spend spend(Quality, int width, int height);
-
 /// Shader text with its switches.
 struct Variant {
   const char* vertex;
@@ -42,7 +30,7 @@ std::string ground_switches(const RoadLook&);
 
 class Studio {
  public:
-  Studio(int width, int height, Quality);
+  Studio(int width, int height, const Effort&);
 
   /// Compiled at first sight, in use from here on.
   const Program& program(const Variant&);
@@ -51,7 +39,7 @@ class Studio {
   /// The rectangles of the bound framebuffer, with kTileVertex in use.
   void fill(const std::vector<Rectangle>&);
 
-  const Spend cost;
+  const Effort cost;
   Targets targets;
   VertexArray nothing;  // for shaders that make their own vertices
 

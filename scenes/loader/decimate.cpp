@@ -1,11 +1,14 @@
 // Edges are collapsed by quadric error (M. Garland, P. Heckbert, SIGGRAPH 1997; meshoptimizer). That error is an average and no
 // bound, so every result is held against the given mesh: the distance to one triangle is a convex function, largest over another
-// triangle at one of its corners. If all corners are near enough to one and the same triangle, every point between them is;
-// if not, the triangle is quartered. What is not certain at the smallest quarter is refused, and less is collapsed.
+// triangle at one of its corners. If all corners are near enough to one and the same triangle, every point between them is. If
+// only some are, that part is cut off and the rest is asked again, nearer to another triangle; or it is halved. What is not
+// certain after many cuts is refused, and less is collapsed.
 #include "scenes/loader/decimate.h"
 
 #include <meshoptimizer.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/geometry/point_mesh.h"
@@ -17,8 +20,9 @@ using engine::Triangle;
 using engine::TriangleMesh;
 using engine::Vec3;
 
-constexpr int kQuarterings = 6;     // of an edge of 1 m that leaves 16 mm
-constexpr double kEager = 2.0;      // the quadric error may be larger than the distance: first try
+constexpr int kCuts = 40;           // one after the other, of one triangle
+constexpr double kWorthACut = 0.2;  // [-] of a side; a smaller part is not worth it
+constexpr double kEager = 1.0;      // first quadric error tried, in tolerances
 constexpr double kLessEager = 0.7;  // each further one
 constexpr int kTries = 12;          // the last asks for a fiftieth
 
@@ -26,23 +30,61 @@ class Certificate {
  public:
   Certificate(const TriangleMesh& surface, double tolerance) : surface_(surface), tolerance_(tolerance) {}
 
-  bool holds(const Vec3& a, const Vec3& b, const Vec3& c, int quarterings = kQuarterings) {
+  bool holds(const Vec3& a, const Vec3& b, const Vec3& c, int cuts = kCuts) {
     const auto nearest = engine::nearest_surface(surface_, (a + b + c) / 3, tolerance_, scratch_);
-    if (!nearest) return false;
-    if (near(a, nearest->triangle) && near(b, nearest->triangle) && near(c, nearest->triangle)) return true;
-    if (quarterings == 0) return false;
-    const Vec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
-    return holds(ab, bc, ca, quarterings - 1) && holds(a, ab, ca, quarterings - 1) && holds(ab, b, bc, quarterings - 1) &&
-           holds(ca, bc, c, quarterings - 1);
+    if (!nearest || cuts == 0) return false;
+    const int t = nearest->triangle;
+    std::array<Vec3, 3> p = {a, b, c};
+    // the near corners first, in the order of the triangle
+    std::array<bool, 3> near = {is_near(a, t), is_near(b, t), is_near(c, t)};
+    const int count = near[0] + near[1] + near[2];
+    if (count == 3) return true;
+    for (int turn = 0; turn < 2 && count > 0 && !(near[0] && (count == 1 || near[1])); ++turn) {
+      std::rotate(p.begin(), p.begin() + 1, p.end());
+      std::rotate(near.begin(), near.begin() + 1, near.end());
+    }
+    if (count == 2) {
+      const double u = share_near(p[0], p[2], t), v = share_near(p[1], p[2], t);
+      if (std::min(u, v) > kWorthACut) return holds(along(p[0], p[2], u), along(p[1], p[2], v), p[2], cuts - 1);
+    } else if (count == 1) {
+      const double u = share_near(p[0], p[1], t), v = share_near(p[0], p[2], t);
+      const Vec3 at1 = along(p[0], p[1], u), at2 = along(p[0], p[2], v);
+      if (std::min(u, v) > kWorthACut) return holds(at1, p[1], p[2], cuts - 1) && holds(at1, p[2], at2, cuts - 1);
+    }
+    return halves_hold(p, cuts);
   }
 
  private:
-  bool near(const Vec3& p, int triangle) const {
+  static Vec3 along(const Vec3& from, const Vec3& to, double share) { return from + share * (to - from); }
+
+  bool is_near(const Vec3& p, int triangle) const { return distance(p, triangle) <= tolerance_; }
+
+  double distance(const Vec3& p, int triangle) const {
     const Triangle& t = surface_.triangles()[static_cast<std::size_t>(triangle)];
-    const auto& v = surface_.vertices();
-    return (p - engine::nearest_in_triangle(p, v[static_cast<std::size_t>(t[0])], v[static_cast<std::size_t>(t[1])],
-                                            v[static_cast<std::size_t>(t[2])]))
-               .squaredNorm() <= tolerance_ * tolerance_;
+    const auto corner = [&](std::size_t k) { return surface_.vertices()[static_cast<std::size_t>(t[k])]; };
+    return (p - engine::nearest_in_triangle(p, corner(0), corner(1), corner(2))).norm();
+  }
+
+  /// How much of the way from a near to a far point is well within the tolerance.
+  double share_near(const Vec3& near, const Vec3& far, int triangle) const {
+    const double limit = 0.5 * (distance(near, triangle) + tolerance_);
+    double inside = 0, outside = 1;
+    for (int i = 0; i < 12; ++i) {
+      const double middle = 0.5 * (inside + outside);
+      (distance(along(near, far, middle), triangle) <= limit ? inside : outside) = middle;
+    }
+    return inside;
+  }
+
+  /// Divided across its longest side.
+  bool halves_hold(std::array<Vec3, 3> p, int cuts) {
+    double longest = 0;
+    std::size_t from = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const double side = (p[(k + 1) % 3] - p[k]).squaredNorm(); side > longest) longest = side, from = k;
+    const Vec3 middle = 0.5 * (p[from] + p[(from + 1) % 3]);
+    const Vec3& opposite = p[(from + 2) % 3];
+    return holds(p[from], middle, opposite, cuts - 1) && holds(middle, p[(from + 1) % 3], opposite, cuts - 1);
   }
 
   const TriangleMesh& surface_;

@@ -19,6 +19,10 @@ constexpr double kRightAngle = 1.5707963267948966;
 
 const Key kKeys[] = {
     {"duration", Type::number, Dimension::time, "'4 s'", "Simulated time.", Range{0, 600, true}},
+    {"profile", Type::choice, Dimension::none, "'standard'",
+     "Step and solver tolerance where the scene does not give them: draft 4 ms and 0.1 mm/s, standard 1 ms and 0.01 mm/s, fine "
+     "0.25 ms and 0.001 mm/s, reference 0.0625 ms and 0.0001 mm/s.",
+     kAny, "draft|standard|fine|reference"},
     {"step", Type::number, Dimension::time, "'1 ms'", "Time step.", Range{0, 0.1, true}, {}, nullptr, "1 ms is a good start"},
     {"record_interval", Type::number, Dimension::time, "'5 ms'", "Time between recorded instants, rounded to whole steps.",
      Range{0, 1, true}},
@@ -40,6 +44,8 @@ const Key kKeys[] = {
      "Tilts the whole world: the ground stays z = height and gravity turns, so that +x runs downhill at this angle.",
      between(-kRightAngle, kRightAngle)},
     {"solver_tolerance", Type::number, Dimension::speed, "'0.01 mm/s'", "Residual at which the contact solver stops.", kPositive},
+    {"contacts_per_pair", Type::integer, Dimension::none, "10",
+     "Points at most at which two meshes, or a mesh and the ground, hold each other at a time.", between(3, 1000)},
     {"locate_events", Type::boolean, Dimension::none, "true",
      "Place impacts (and with rk4 touch, turn and separation of compliant contacts) inside the step."},
     {"stop_at_rest", Type::boolean, Dimension::none, "true", "End the run when everything has come to rest."},
@@ -50,12 +56,23 @@ const Key kKeys[] = {
 
 const Section kSimulationSection{"simulation", "[simulation]", "How the motion is computed.", kKeys};
 
+namespace {
+
+/// What accuracy costs is told for each in scenes/README.md, from `crashreel study` of the shipped cases.
+struct Profile {
+  double step, solver_tolerance;  // [s], [m/s]
+};
+constexpr Profile kProfiles[] = {{4e-3, 1e-4}, {1e-3, 1e-5}, {0.25e-3, 1e-6}, {0.0625e-3, 1e-7}};
+
+}  // namespace
+
 void read_settings(Builder& builder, std::optional<Reader> reader) {
   // an absent section is an empty one: the defaults of the table apply
   Reader r = reader ? *reader : Reader(empty_table(), kSimulationSection, "simulation", builder.errors);
   engine::Settings& s = builder.scene.model.settings;
   s.duration = r.number("duration");
-  s.step = r.number("step");
+  const Profile& profile = kProfiles[r.choice("profile")];
+  s.step = r.has("step") ? r.number("step") : profile.step;
   s.record_interval = r.number("record_interval");
   s.scheme = static_cast<engine::Scheme>(r.choice("scheme"));
   s.contact_law = static_cast<engine::ContactLaw>(r.choice("contact_law"));
@@ -64,7 +81,8 @@ void read_settings(Builder& builder, std::optional<Reader> reader) {
   s.gravity = {g * std::sin(slope), 0, -g * std::cos(slope)};
   if (slope == 0) s.gravity = {0, 0, -g};
   s.adaptive_tolerance = r.number("adaptive_tolerance");
-  s.solver_tolerance = r.number("solver_tolerance");
+  s.solver_tolerance = r.has("solver_tolerance") ? r.number("solver_tolerance") : profile.solver_tolerance;
+  s.contacts_per_pair = r.integer("contacts_per_pair");
   s.locate_events = r.boolean("locate_events");
   s.stop_at_rest = r.boolean("stop_at_rest");
   if (s.step > 0 && s.record_interval < s.step) r.fail("record_interval", "must not be shorter than the step");

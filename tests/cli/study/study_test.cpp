@@ -46,6 +46,51 @@ TEST(Study, UsesFinishedRunsAgain) {
   EXPECT_EQ(contents(folder / "out/study.csv"), before);
 }
 
+TEST(Study, LeavesOutEachEffectInTurn) {
+  const Folder folder;
+  const Result result = study_puck(folder, {"--effects"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(contents(folder / "out/effects.csv").starts_with("effect,quantity,value,without,change,spread,wall_s,saved_s,failure"));
+  const auto json = nlohmann::json::parse(contents(folder / "out/effects.json"));
+  bool gravity = false;
+  for (const auto& effect : json["effects"]) {
+    if (effect["effect"] != "gravity") continue;
+    gravity = true;
+    // without weight there is no friction: it slides on for the 2.6 s of the scene
+    EXPECT_NEAR(effect["change"]["travel_m"].get<double>(), 13.4112 * 2.6 - 15.2786515, 1e-3);
+  }
+  EXPECT_TRUE(gravity);
+}
+
+TEST(Study, TellsWhatAPictureCosts) {
+  const Folder folder;
+  const Result result = study_puck(folder, {"--picture", "--set", "output.width=160", "--set", "output.height=90"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(contents(folder / "out/picture.json"));
+  double draft = 0, fine = 0;
+  for (const auto& setting : json["settings"]) {
+    EXPECT_GT(setting["frame_ms"].get<double>(), 0);
+    if (setting["setting"] == "draft") draft = setting["rms_255"];
+    if (setting["setting"] == "fine") fine = setting["rms_255"];
+  }
+  EXPECT_LT(fine, draft);  // four times the samples
+}
+
+TEST(Study, ForgetsAFormulaThatIsNoLongerThatOfTheScene) {
+  const Folder folder;
+  ASSERT_EQ(study_puck(folder, {"--set", "body.puck.friction=0.5"}).code, 0);
+  const auto json = nlohmann::json::parse(contents(folder / "out/study.json"));
+  for (const auto& quantity : json["quantities"]) EXPECT_NE(quantity["error_kind"], "closed_form");
+}
+
+TEST(Study, NamesTheCheapestSettingForATarget) {
+  const Folder folder;
+  const Result result = study_puck(folder, {"--target", "travel=1cm"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("[simulation]\nstep = \"4 ms\"\n"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("record_interval"), std::string::npos) << result.out;
+}
+
 TEST(Study, RefusesAnInputThatIsNoRange) {
   const Folder folder;
   const Result result = study_puck(folder, {"--input", "body.puck.friction=0.5"});
