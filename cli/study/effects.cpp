@@ -172,10 +172,14 @@ charts::Page effects_page(const scenes::Scene& scene, const EffectsStudy& study)
   });
   page.title = fmt::format("What each physical effect does: without {} the {} changes by {}", strongest->effect, words_of(main),
                            change_in_words(study, *strongest, main));
+  const std::string minute =
+      fmt::format("changes too small to be measured do (\u00b1 {})", with_unit(study.spread(main), unit_of(main)));
   page.findings = {
-      fmt::format("The plan of this scene has {} effects. Each is left out in turn; {} of them change the {} by no more "
-                  "than changes too small to be measured do (\u00b1 {}).",
-                  study.off.size(), idle, words_of(main), with_unit(study.spread(main), unit_of(main))),
+      fmt::format("The plan of this scene has {} effects, each left out in turn. {} the {} by {} {}.", study.off.size(),
+                  idle == 0   ? "Every one changes"
+                  : idle == 1 ? "One of them changes"
+                              : fmt::format("{} of them change", idle),
+                  words_of(main), idle == 0 ? "more than" : "no more than", minute),
       "A run that leaves out what the scene calls for is no reconstruction: it shows what the effect is there for."};
   page.upper_left = bars_of(study, main);
   page.upper_right = savings(study);

@@ -71,13 +71,25 @@ charts::Chart chart_of(const PictureStudy& study, bool by_ssim) {
 
 charts::Table table_of(const PictureStudy& study) {
   charts::Table table;
-  table.title = "All settings";
-  const char* head[] = {"knob", "setting", "error [1/255]", "similarity", "ms a frame", "quartiles"};
-  table.head.assign(std::begin(head), std::end(head));
-  for (const PictureSetting& s : study.settings) {
-    if (s.own) table.emphasised = static_cast<int>(table.rows.size());
-    table.rows.push_back({s.series, s.label, fmt::format("{:.2f}", s.rms), fmt::format("{:.4f}", s.ssim),
-                          fmt::format("{:.0f}", s.frame_ms), fmt::format("{:.0f}..{:.0f}", s.frame_low_ms, s.frame_high_ms)});
+  table.title = "All settings (* the scene)";
+  const std::vector<std::string> head = {"knob", "setting", "error [1/255]", "similarity", "ms a frame", "quartiles"};
+  const auto row = [](const PictureSetting& s) {
+    return std::vector<std::string>{s.series,
+                                    s.label + (s.own ? " *" : ""),
+                                    fmt::format("{:.2f}", s.rms),
+                                    fmt::format("{:.4f}", s.ssim),
+                                    fmt::format("{:.0f}", s.frame_ms),
+                                    fmt::format("{:.0f} to {:.0f}", s.frame_low_ms, s.frame_high_ms)};
+  };
+  // two columns of settings: the page is wide
+  table.head = head;
+  table.head.insert(table.head.end(), head.begin(), head.end());
+  const std::size_t half = (study.settings.size() + 1) / 2;
+  for (std::size_t i = 0; i < half; ++i) {
+    table.rows.push_back(row(study.settings[i]));
+    if (half + i >= study.settings.size()) continue;
+    const std::vector<std::string> right = row(study.settings[half + i]);
+    table.rows.back().insert(table.rows.back().end(), right.begin(), right.end());
   }
   return table;
 }

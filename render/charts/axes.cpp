@@ -54,7 +54,9 @@ std::string scientific(double value) {
 
 std::vector<double> ticks(double low, double high, int count, bool logarithmic) {
   if (!(high > low)) return {low};
-  return logarithmic ? log_ticks(low, high, count) : even_ticks(low, high, count);
+  if (!logarithmic) return even_ticks(low, high, count);
+  const std::vector<double> powers = log_ticks(low, high, count);
+  return powers.size() < 2 ? even_ticks(low, high, count) : powers;  // less than a factor of two
 }
 
 std::string tick_text(double value, double spacing) {

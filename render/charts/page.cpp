@@ -5,6 +5,7 @@
 #include <cairo/cairo-svg.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <system_error>
@@ -44,7 +45,8 @@ void draw(const Page& page, cairo_t* c) {
   const double bottom = kHeight - kMargin - 6;
   const bool charts = !page.left.title.empty();
   const double gap = 26, half = (width - gap) / 2;
-  const double split = y + (charts ? 0.60 : page.upper_left.rows.empty() ? 0.0 : 0.45) * (bottom - y);
+  const double rows = 15.0 * static_cast<double>(std::max(page.upper_left.rows.size(), page.upper_right.rows.size()));
+  const double split = y + (charts ? 0.60 * (bottom - y) : rows > 0 ? std::min(0.5 * (bottom - y), rows + 48) : 0);
   const Box left{kMargin, y, half, split - y - 8}, right{kMargin + half + gap, y, half, split - y - 8};
   draw_chart(pen, page.left, left);
   draw_chart(pen, page.right, right);
