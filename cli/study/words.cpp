@@ -17,7 +17,7 @@ double spread_of(const Answer& a) {
 const SettingResult* cheapest_as_good(const Study& study, const Judgement& j) {
   const SettingResult* own = study.own();
   const Answer* wanted = own ? answer_of(*own, j.quantity) : nullptr;
-  const bool each_known = j.cloud || j.convergence.trust != Trust::range || j.error_kind == "second_scheme";
+  const bool each_known = !j.cloud && (j.convergence.trust != Trust::range || j.error_kind == "second_scheme");
   if (!wanted || !each_known) return nullptr;
   const auto width = [](const Answer& a) { return std::max(a.uncertainty, spread_of(a)); };
   const SettingResult* best = own;
@@ -96,6 +96,8 @@ std::string with_unit(double value, const std::string& unit) {
   if (unit == "m" && size < 1e-6) return short_number(1e9 * value) + " nm";
   if (unit == "m" && size < 1e-4) return short_number(1e6 * value) + " \u00b5m";
   if (unit == "m" && size < 0.1) return short_number(1e3 * value) + " mm";
+  if (unit == "m/s" && size < 1e-4) return short_number(1e6 * value) + " \u00b5m/s";
+  if (unit == "m/s" && size < 0.1) return short_number(1e3 * value) + " mm/s";
   if (unit == "s" && size < 0.1) return short_number(1e3 * value) + " ms";
   return fmt::format("{:.3g} {}", value, unit);
 }
@@ -150,11 +152,21 @@ std::vector<std::string> findings(const Study& study, const Judgement& j) {
   const std::string minute = fmt::format(
       "Changes far too small to be measured (a thousandth of a millimetre, a millionth of a speed) move it by \u00b1 {}",
       with_unit(spread, unit));
-  out.push_back(j.cloud
-                    ? minute + fmt::format(": the motion itself is that sensitive, and no computer and no step takes this away. "
-                                           "Quote the range {:.4g} to {:.4g} {}, not one number.",
-                                           a->low, a->high, unit)
-                    : minute + ": the answer does not hang on such details.");
+  if (j.cloud) {
+    double low = a->low, high = a->high;
+    for (const SettingResult& r : study.series.front().settings)
+      if (const Answer* other = answer_of(r, j.quantity)) {
+        low = std::min({low, other->low, other->value});
+        high = std::max({high, other->high, other->value});
+      }
+    out.push_back(minute +
+                  fmt::format(": the motion itself is that sensitive, and no computer and no step takes this away. With all "
+                              "steps and minute changes the answers lie between {:.4g} and {:.4g} {}: quote that range, not "
+                              "one number.",
+                              low, high, unit));
+  } else {
+    out.push_back(minute + ": the answer does not hang on such details.");
+  }
   if (const double worth = worth_of_events(study, j); worth >= 2)
     out.push_back(
         fmt::format("Placing each touch, turn and parting of surfaces inside its step leaves {:.0f} times less error than "
