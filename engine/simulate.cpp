@@ -5,6 +5,7 @@
 
 #include "engine/divergence.h"
 #include "engine/effects/effect.h"
+#include "engine/local_frame.h"
 #include "engine/recorder.h"
 #include "engine/step.h"
 
@@ -32,9 +33,7 @@ void describe(const Model& model, const Plan& plan, Recording& recording) {
   recording.plan = plan.lines;
 }
 
-}  // namespace
-
-Recording simulate(const Model& model, const Plan& plan, const RunOptions& options) {
+Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
   Recording recording;
   describe(model, plan, recording);
   World world(model, plan, options);
@@ -76,6 +75,15 @@ Recording simulate(const Model& model, const Plan& plan, const RunOptions& optio
   }
   recorder.finish(world, state, recording);
   recording.costs = world.costs;
+  return recording;
+}
+
+}  // namespace
+
+Recording simulate(const Model& model, const Plan& plan, const RunOptions& options) {
+  const LocalFrame frame(model);
+  Recording recording = run(frame.inwards(model), plan, options);
+  frame.outwards(model, recording);
   return recording;
 }
 

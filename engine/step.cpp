@@ -24,8 +24,8 @@ namespace {
 constexpr double kTouching = 2e-5;         // [m] surfaces nearer than this exchange impulses
 constexpr double kSlop = 2e-5;             // [m] penetration that is let be: pushing it out would make resting bodies hum
 constexpr double kLimitSlop = 2e-5;        // [rad]
-constexpr double kMayPenetrate = 5e-4;     // [m] more after a step than before: the step is halved
-constexpr double kMayExceed = 2e-3;        // [rad] the same of joint limits
+constexpr double kMayPenetrate = 9e-4;     // [m] more after a step than before: the step is halved
+constexpr double kMayExceed = 7e-3;        // [rad] the same of joint limits
 constexpr int kMaxCuts = 8;                // of one step; then impulses act where the bodies are
 constexpr double kRecovery = 0.5;          // [-] share of a penetration that a step left taken out in the next
 constexpr double kRecoverySpeed = 0.2;     // [m/s] at which a deeper one, there from the start, is taken out

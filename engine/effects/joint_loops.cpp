@@ -10,11 +10,28 @@ namespace {
 // [s] a hand gives way in some milliseconds: rigid impacts exchange impulses in no time, their force is taken over this
 constexpr double kGrasp = 0.01;
 constexpr double kCorrection = 0.2;  // [-] share of the ring's gap taken out per step
+// [-] of the response of free bodies, given to each row: what other joints hold already (two hinges on one axis) has no response
+// of its own, and rounding divided by rounding would be its impulse
+constexpr double kGive = 1e-9;
 
 std::optional<std::string> called_for(const Model& model) {
   const std::size_t count = build_topology(model, {}).loops.size();
   if (count == 0) return std::nullopt;
   return std::to_string(count) + " joints close a loop or can break";
+}
+
+/// Response [1/kg] of a row if its bodies were free of joints.
+double free_response(const World& world, const State& state, const Constraint& c) {
+  double response = 0;
+  auto add = [&](int b, const Eigen::Matrix<double, 3, 6>& J) {
+    if (b < 0) return;
+    const Vec3 v = J.row(0).head<3>(), w = J.row(0).tail<3>();
+    const Body& body = world.model.bodies[b];
+    response += v.squaredNorm() / body.mass + w.dot(inertia_W(body, state.X_WB[b].q).inverse() * w);
+  };
+  add(c.body_a, c.J_a);
+  add(c.body_b, c.J_b);
+  return response;
 }
 
 void find(World& world, const State& state, int self) {
@@ -37,6 +54,7 @@ void find(World& world, const State& state, int self) {
       c.J_a.row(0) = rows.J_C.row(k);
       c.J_b.row(0) = rows.J_P.row(k);
       c.target = -kCorrection * rows.error[k] / world.step;
+      c.softness = kGive * free_response(world, state, c);
       c.key = (static_cast<std::uint64_t>(self) << 56) | (static_cast<std::uint64_t>(j) << 8) | static_cast<std::uint64_t>(k);
       c.effect = self;
       world.constraints.push_back(c);

@@ -48,8 +48,8 @@ Vec3 smooth_torque(const Joint& joint, const JointAngles& now, const Vec3& w_PC)
   for (int i = 0; i < 3; ++i) {
     const ArticulationAngle& a = joint.angles[i];
     if (!now.free[i]) continue;
-    const Vec3 g = now.gradient_W.col(i);
-    torque -= (a.stiffness * (now.angle[i] - a.rest) + a.damping * g.dot(w_PC)) * g;
+    const Vec3 axis = now.axes_W.col(i);
+    torque -= a.stiffness * (now.angle[i] - a.rest) * now.gradient_W.col(i) + a.damping * axis.dot(w_PC) * axis;
   }
   return torque;
 }
@@ -123,14 +123,12 @@ void resist(World& world, const State& state, int self) {
     for (int i = 0; i < 3; ++i) {
       const ArticulationAngle& a = joint.angles[i];
       if (!now.free[i] || !resists(a)) continue;
-      const Vec3 g = now.gradient_W.col(i);
-      const double rate = g.dot(w_PC);
-      const double friction = a.friction_torque / std::max(std::abs(rate), kFrictionRate);
-      if (world.resistance_in_stages[j]) {
-        damper.matrix += h * friction * g * g.transpose();
-        continue;
-      }
-      damper.matrix += (h * (a.damping + friction) + h * h * a.stiffness) * g * g.transpose();
+      const Vec3 g = now.gradient_W.col(i), axis = now.axes_W.col(i);
+      const double friction = a.friction_torque / std::max(std::abs(axis.dot(w_PC)), kFrictionRate);
+      const double damping = world.resistance_in_stages[j] ? 0 : a.damping;
+      damper.matrix += h * (damping + friction) * axis * axis.transpose();
+      if (world.resistance_in_stages[j] || a.stiffness == 0) continue;
+      damper.matrix += h * h * a.stiffness * g * g.transpose();
       world.resistances[j].torque_W -= a.stiffness * (now.angle[i] - a.rest) * g;
     }
     if (damper.matrix.isZero(0)) continue;

@@ -8,6 +8,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -125,7 +126,8 @@ Found settle(const Pair& pair, Found at, double tolerance) {
 constexpr double kCoarse = 1e-4;           // [rad] far enough to tell which of several maxima is the largest
 constexpr double kSameHill = 0.99995;      // [-] cosine of 0.6 deg: stalled on the way to the maximum that is known
 constexpr double kFine = 2e-11;            // [rad]
-constexpr int kSweep = 48;                 // directions
+constexpr int kSweep = 120;                // directions
+constexpr std::size_t kRounds = 7;         // of them are followed
 constexpr double kGoldenAngle = 2.399963;  // [rad]
 
 Found climb(const Pair& pair, Vec3 n, int iterations) {
@@ -188,20 +190,24 @@ std::optional<SurfaceContact> search(const HyperEllipsoid& A, const Pose& X_WA, 
     if (warm) try_from(towards);
     for (int i = 0; i < 3; ++i)
       for (const Vec3& axis : {Vec3(pair.R_WA.col(i)), Vec3(pair.R_WB.col(i))}) try_from(axis.dot(pair.d) < 0 ? Vec3(-axis) : axis);
-    // boxes deep in each other hide maxima from all of these: look around once more, evenly
-    for (int round = 0; round < 3; ++round) {
+    // boxes deep in each other hide maxima from all of these: look around evenly, and try the most promising directions, each away
+    // from those tried before
+    std::array<Vec3, kRounds + 1> tried;
+    tried[0] = best.n;
+    for (std::size_t round = 1; round <= kRounds; ++round) {
+      const auto tried_end = tried.begin() + static_cast<std::ptrdiff_t>(round);
       Vec3 promising = best.n;
       double promise = -1e300;
       for (int k = 0; k < kSweep; ++k) {
-        const double z = 1 - (2 * k + 1.0) / kSweep, turn = kGoldenAngle * k + round;
+        const double z = 1 - (2 * k + 1.0) / kSweep, turn = kGoldenAngle * k;
         const double r = std::sqrt(1 - z * z);
         const Vec3 n(r * std::cos(turn), r * std::sin(turn), z);
         const double g = pair.gap(n);
-        if (g > promise && n.dot(best.n) < 0.9) {
-          promise = g;
-          promising = n;
-        }
+        if (g <= promise || std::any_of(tried.begin(), tried_end, [&](const Vec3& t) { return n.dot(t) > 0.9; })) continue;
+        promise = g;
+        promising = n;
       }
+      tried[round] = promising;
       try_from(promising);
     }
     best = climb(pair, best.n, 60);

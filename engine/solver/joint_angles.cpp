@@ -31,6 +31,8 @@ JointAngles swing_twist(const Quat& q_FpFc, const Mat3& R_WFp) {
   Mat3 B = left_jacobian(phi);
   B.col(2) = swing * Vec3::UnitZ();
   out.gradient_W = R_WFp * B.inverse().transpose();
+  const Quat half(1 + q.w(), q.x(), q.y(), q.z());
+  out.axes_W = R_WFp * half.normalized().toRotationMatrix();
   for (bool& f : out.free) f = true;
   return out;
 }
@@ -49,7 +51,7 @@ JointAngles joint_angles(const Joint& joint, const Pose& X_WP, const Pose& X_WC)
     case JointKind::revolute: {
       const double sign = q.w() < 0 ? -1 : 1;
       out.angle[1] = 2 * std::atan2(sign * q.y(), sign * q.w());
-      out.gradient_W.col(1) = R_WFp.col(1);
+      out.gradient_W.col(1) = out.axes_W.col(1) = R_WFp.col(1);
       out.free[1] = true;
       return out;
     }
@@ -58,8 +60,8 @@ JointAngles joint_angles(const Joint& joint, const Pose& X_WP, const Pose& X_WC)
       const Mat3 R = q.toRotationMatrix();
       out.angle[1] = std::atan2(-R(2, 0), R(0, 0));
       out.angle[0] = std::atan2(-R(1, 2), R(1, 1));
-      out.gradient_W.col(1) = R_WFp.col(1);
-      out.gradient_W.col(0) = q_WFc * Vec3::UnitX();
+      out.gradient_W.col(1) = out.axes_W.col(1) = R_WFp.col(1);
+      out.gradient_W.col(0) = out.axes_W.col(0) = q_WFc * Vec3::UnitX();
       out.free[0] = out.free[1] = true;
       return out;
     }

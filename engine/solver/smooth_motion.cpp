@@ -133,8 +133,8 @@ double joint_velocity_errors(World& world, int tree, const std::vector<Twist>& V
 
 double project_joints(World& world, std::vector<Pose>& X, std::vector<Twist>& V, std::vector<Vec6>& force,
                       std::vector<Vec6>& result) {
-  constexpr double kTight = 1e-11;  // [m] and [-]: below it rounding is all there is to remove
-  constexpr double kGood = 1e-8;    // [m] what one Newton step leaves is usually far below
+  constexpr double kTight = 1e-13;  // [m] and [-]: below it rounding is all there is to remove
+  constexpr double kGood = 1e-12;   // [m] and [-] a looser bound would be met by chance in one run and missed in its neighbour
   const Topology& topology = world.topology;
   double left = 0;
   for (const int tree : world.active_trees) {
@@ -143,9 +143,12 @@ double project_joints(World& world, std::vector<Pose>& X, std::vector<Twist>& V,
     double gap = 0;
     double error = joint_errors(world, tree, X, gap);
     bool factored = false;
-    for (int k = 0; k < 4 && error > (k == 0 ? kTight : kGood); ++k) {
-      world.smooth.factor(topology, tree, X, nullptr);
+    double before = 0;
+    for (int k = 0; k < 6 && error > (k == 0 ? kTight : kGood); ++k) {
+      // the first factorisation serves the steps after it: the rows have turned by no more than the error
+      if (k == 0 || error > 1e-2 * before) world.smooth.factor(topology, tree, X, nullptr);
       factored = true;
+      before = error;
       for (int l = range.begin; l < range.end; ++l) {
         force[topology.links[l].body].setZero();
         JointRows& rows = world.smooth.of_link(l).rows;

@@ -1,0 +1,61 @@
+#include "engine/local_frame.h"
+
+#include <cmath>
+
+namespace engine {
+namespace {
+
+Vec3 rounded(const Vec3& p) {
+  constexpr double kGrid = 0x1p35;  // [1/m]
+  return (p * kGrid).array().round().matrix() / kGrid;
+}
+
+}  // namespace
+
+LocalFrame::LocalFrame(const Model& model) {
+  for (const Body& body : model.bodies) {
+    if (body.fixed) continue;
+    origin_ = {std::round(body.X_WB.p.x()), std::round(body.X_WB.p.y()), 0};
+    return;
+  }
+}
+
+Model LocalFrame::inwards(Model model) const {
+  auto shift = [&](Vec3& p) { p = rounded(p - origin_); };
+  for (Body& body : model.bodies) shift(body.X_WB.p);
+  for (Joint& joint : model.joints)
+    if (joint.parent < 0) shift(joint.X_PF.p);
+  for (ImpactSettings& impact : model.impacts)
+    if (impact.point_W) shift(*impact.point_W);
+  for (Vehicle& vehicle : model.vehicles)
+    for (Vec3& point : vehicle.path.points) shift(point);
+  for (GroundPatch& patch : model.ground.patches) {
+    shift(patch.lower);
+    shift(patch.upper);
+  }
+  if (model.ground.terrain && !origin_.isZero()) {
+    std::vector<Vec3> vertices = model.ground.terrain->vertices();
+    for (Vec3& v : vertices) v -= origin_;
+    model.ground.terrain = std::make_shared<TriangleMesh>(std::move(vertices), model.ground.terrain->triangles());
+  }
+  return model;
+}
+
+void LocalFrame::outwards(const Model& model, Recording& recording) const {
+  if (origin_.isZero()) return;
+  double potential = 0;  // [J] what the shift is worth where gravity is not along z
+  for (const Body& body : model.bodies)
+    if (!body.fixed) potential -= body.mass * model.settings.gravity.dot(origin_);
+  for (Snapshot& s : recording.snapshots) {
+    s.energies.potential += potential;
+    for (BodyState& body : s.bodies) body.X_WB.p += origin_;
+    for (ContactRecord& c : s.contacts) c.point += origin_;
+    for (WheelRecord& wheel : s.wheels) {
+      wheel.hub += origin_;
+      wheel.contact += origin_;
+    }
+  }
+  for (Event& event : recording.events) event.point += origin_;
+}
+
+}  // namespace engine

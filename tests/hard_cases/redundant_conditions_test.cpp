@@ -1,0 +1,69 @@
+// More conditions than freedoms: two hinges on one axis, a box on the ground and on a terrain in the same plane.
+#include <gtest/gtest.h>
+
+#include "tests/hard_cases/hard_case.h"
+#include "tests/hard_cases/meshes.h"
+
+namespace hard_cases {
+namespace {
+
+using engine::Vec3;
+
+class Redundant : public testing::TestWithParam<Setting> {};
+INSTANTIATE_TEST_SUITE_P(At, Redundant, testing::ValuesIn(kSettings));
+
+double largest_difference(const Outcome& a, const Outcome& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < a.recording.snapshots.size(); ++i)
+    for (std::size_t k = 0; k < a.model.bodies.size(); ++k) {
+      const auto &A = a.recording.snapshots[i].bodies[k].V_WB, &B = b.recording.snapshots[i].bodies[k].V_WB;
+      worst = std::max({worst, (A.v - B.v).norm(), (A.w - B.w).norm()});
+    }
+  return worst;
+}
+
+TEST_P(Redundant, DoorOnTwoHingesSwingsAsOnOne) {
+  auto door = [](int hinges) {
+    return [hinges](engine::Model& model) {
+      for (int k = 0; k < hinges; ++k) {
+        engine::Joint hinge;
+        hinge.kind = engine::JointKind::revolute;
+        hinge.child = 0;
+        hinge.X_PF.p = Vec3(0, 0.2 - 0.4 * k, 2);
+        hinge.X_CF.p = model.bodies[0].X_WB.inverse() * hinge.X_PF.p;
+        model.joints.push_back(hinge);
+      }
+    };
+  };
+  // the second hinge closes a loop, whose rows the contact solver meets to its tolerance
+  const std::vector<std::string> exact = {"simulation.solver_tolerance=1e-12 m/s"};
+  const Outcome one = run("redundant", GetParam(), exact, door(1)), two = run("redundant", GetParam(), exact, door(2));
+  const double difference = largest_difference(one, two);
+  row("two hinges, one axis", two, "velocities differ by %.1e m/s, rad/s; drift %.1e m", difference,
+      two.diagnostics().max_joint_gap);
+  EXPECT_LT(difference, 1e-8);
+}
+
+TEST_P(Redundant, BoxOnEightContactsSlidesAsOnFour) {
+  auto box = [](bool twice) {
+    return [twice](engine::Model& model) {
+      engine::Body& body = model.bodies[0];
+      body.X_WB.p = {0, 0, 0.1};
+      body.V_WB.v = {3, 1, 0};
+      model.ground.plane = true;
+      if (!twice) return;
+      const Sheet sheet = flat_sheet(-3, 5, -3, 4, 1, 1);
+      model.ground.terrain = std::make_shared<engine::TriangleMesh>(sheet.vertices, sheet.triangles);
+    };
+  };
+  const std::vector<std::string> exact = {"simulation.solver_tolerance=1e-12 m/s"};
+  const Outcome four = run("redundant", GetParam(), exact, box(false)), eight = run("redundant", GetParam(), exact, box(true));
+  const double difference = largest_difference(four, eight);
+  row("box on eight contacts", eight, "%zu contacts against %zu, velocities differ by %.1e m/s, rad/s",
+      eight.recording.snapshots[5].contacts.size(), four.recording.snapshots[5].contacts.size(), difference);
+  EXPECT_GE(eight.recording.snapshots[5].contacts.size(), 8u);
+  EXPECT_LT(difference, 1e-8);
+}
+
+}  // namespace
+}  // namespace hard_cases

@@ -1,0 +1,111 @@
+// Several impacts at one instant, with restitution and friction: Newton's rule must not create energy.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/hard_cases/hard_case.h"
+
+namespace hard_cases {
+namespace {
+
+using engine::Vec3;
+
+engine::Model empty_space(const Setting& setting, double duration) {
+  engine::Model model;
+  model.ground.plane = false;
+  model.settings.gravity.setZero();
+  model.settings.duration = duration;
+  model.settings.step = setting.step == std::string("2 ms") ? 2e-3 : setting.step == std::string("1 ms") ? 1e-3 : 5e-4;
+  model.settings.record_interval = model.settings.step;
+  model.settings.scheme = setting.scheme == std::string("rk4") ? engine::Scheme::rk4 : engine::Scheme::stepping;
+  model.settings.stop_at_rest = false;
+  return model;
+}
+
+engine::Body part(const Vec3& semi_axes, double exponent, double mass, const Vec3& at, double e, double mu) {
+  engine::Body body;
+  body.mass = mass;
+  body.shape = engine::HyperEllipsoid{semi_axes, exponent};
+  body.inertia_B = engine::principal_inertia({semi_axes, exponent}, mass).asDiagonal();
+  body.X_WB.p = at;
+  body.surface.restitution_body = e;
+  body.surface.friction_body = mu;
+  return body;
+}
+
+struct Momentum {
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+};
+
+Momentum momentum(const engine::Model& model, const engine::Snapshot& s) {
+  Momentum sum;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const auto& [X, V] = s.bodies[b];
+    sum.linear += model.bodies[b].mass * V.v;
+    sum.angular += X.q * (model.bodies[b].inertia_B * (X.q.conjugate() * V.w)) + model.bodies[b].mass * X.p.cross(V.v);
+  }
+  return sum;
+}
+
+class SimultaneousImpacts : public testing::TestWithParam<Setting> {};
+INSTANTIATE_TEST_SUITE_P(At, SimultaneousImpacts, testing::ValuesIn(kSettings));
+
+/// Seven parts in a heap that closes on itself: the middle one is struck from six sides at once, none in line with its centre.
+TEST_P(SimultaneousImpacts, NeverGainEnergyAndKeepMomentum) {
+  double worst_rise = 0, worst_linear = 0, worst_angular = 0;
+  long heaps = 0, scaled = 0;
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (const double e : {0.0, 0.3, 0.5, 0.8, 1.0})
+    for (const double mu : {0.0, 0.3, 0.6, 1.0, 1.5})
+      for (int trial = 0; trial < 4; ++trial) {
+        engine::Model model = empty_space(GetParam(), 0.06);
+        model.bodies.push_back(part({0.1, 0.1, 0.1}, 2, 2, Vec3::Zero(), e, mu));
+        for (int k = 0; k < 6; ++k) {
+          const double sign = k % 2 == 0 ? 1 : -1;
+          Vec3 side = Vec3::Zero();
+          side[k / 2] = sign;
+          const Vec3 semi(0.08 + 0.03 * unit(random), 0.08 + 0.03 * unit(random), 0.08 + 0.03 * unit(random));
+          engine::Body body = part(semi, k % 3 == 0 ? 2 : 4, 0.5 + 1.5 * std::abs(unit(random)), Vec3::Zero(), e, mu);
+          // all reach the middle one at the same instant
+          body.X_WB.p = side * (0.1 + semi[k / 2] + 0.02) + 0.02 * Vec3(unit(random), unit(random), unit(random)).cross(side);
+          body.V_WB.v = -2 * side;
+          body.V_WB.w = 5 * Vec3(unit(random), unit(random), unit(random));
+          model.bodies.push_back(body);
+        }
+        const engine::Recording it = engine::simulate(model);
+        ASSERT_FALSE(it.failure);
+        const double E0 = energy(it.snapshots.front());
+        worst_rise = std::max(worst_rise, rises(it).largest / E0);
+        const Momentum before = momentum(model, it.snapshots.front()), after = momentum(model, it.snapshots.back());
+        double scale = 0;  // momentum that was exchanged: the sum may be zero
+        for (std::size_t b = 0; b < model.bodies.size(); ++b)
+          scale += model.bodies[b].mass * it.snapshots.front().bodies[b].V_WB.v.norm();
+        worst_linear = std::max(worst_linear, (after.linear - before.linear).norm() / scale);
+        worst_angular = std::max(worst_angular, (after.angular - before.angular).norm() / scale);
+        scaled += it.diagnostics.restitution_scaled;
+        ++heaps;
+      }
+  row("simultaneous impacts", std::string(GetParam().step) + " " + GetParam().scheme,
+      "%ld heaps: rise of E %.1e, momentum %.1e, angular %.1e (of what moved); restitution lowered %ld times", heaps, worst_rise,
+      worst_linear, worst_angular, scaled);
+  EXPECT_LT(worst_rise, 1e-9);
+  EXPECT_LT(worst_linear, 1e-10);
+  EXPECT_GT(scaled, 0);  // the rule is needed, or these heaps are too easy
+}
+
+TEST_P(SimultaneousImpacts, CradleSharesAsSimultaneousImpulsesDo) {
+  engine::Model model = empty_space(GetParam(), 0.05);
+  for (int i = 0; i < 3; ++i) model.bodies.push_back(part({0.1, 0.1, 0.1}, 2, 1, {0.2 * i - (i == 0 ? 0.01 : 0), 0, 0}, 1, 0));
+  model.bodies[0].V_WB.v = {1, 0, 0};
+  const Outcome it = run(std::move(model), std::string(GetParam().step) + " " + GetParam().scheme);
+  const double v[] = {it.last(0).V_WB.v.x(), it.last(1).V_WB.v.x(), it.last(2).V_WB.v.x()};
+  row("cradle", it, "%+.9f %+.9f %+.9f", v[0], v[1], v[2]);
+  EXPECT_NEAR(v[0], -1.0 / 3, 1e-7);
+  EXPECT_NEAR(v[1], 2.0 / 3, 1e-7);
+  EXPECT_NEAR(v[2], 2.0 / 3, 1e-7);
+}
+
+}  // namespace
+}  // namespace hard_cases
