@@ -1,12 +1,10 @@
 #include "engine/local_frame.h"
 
-#include <cmath>
-
 namespace engine {
 namespace {
 
 Vec3 rounded(const Vec3& p) {
-  constexpr double kGrid = 0x1p35;  // [1/m]
+  constexpr double kGrid = 0x1p26;  // [1/m]
   return (p * kGrid).array().round().matrix() / kGrid;
 }
 
@@ -15,7 +13,7 @@ Vec3 rounded(const Vec3& p) {
 LocalFrame::LocalFrame(const Model& model) {
   for (const Body& body : model.bodies) {
     if (body.fixed) continue;
-    origin_ = {std::round(body.X_WB.p.x()), std::round(body.X_WB.p.y()), 0};
+    origin_ = {body.X_WB.p.x(), body.X_WB.p.y(), 0};
     return;
   }
 }
@@ -35,7 +33,7 @@ Model LocalFrame::inwards(Model model) const {
   }
   if (model.ground.terrain && !origin_.isZero()) {
     std::vector<Vec3> vertices = model.ground.terrain->vertices();
-    for (Vec3& v : vertices) v -= origin_;
+    for (Vec3& v : vertices) shift(v);
     model.ground.terrain = std::make_shared<TriangleMesh>(std::move(vertices), model.ground.terrain->triangles());
   }
   return model;

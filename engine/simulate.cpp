@@ -26,6 +26,14 @@ State initial_state(const Model& model) {
   return state;
 }
 
+/// Joints closed and their velocities consistent from the first instant, to rounding: what a scene gives is good to a grid.
+void close_joints(World& world, State& state) {
+  std::vector<Vec6> force(state.X_WB.size(), Vec6::Zero()), result = force;
+  world.active_trees.clear();
+  for (int tree = 0; tree < static_cast<int>(world.topology.trees.size()); ++tree) world.active_trees.push_back(tree);
+  project_joints(world, state.X_WB, state.V_WB, force, result);
+}
+
 void describe(const Model& model, const Plan& plan, Recording& recording) {
   for (const Body& body : model.bodies) recording.body_names.push_back(body.name);
   for (const Vehicle& vehicle : model.vehicles) recording.vehicle_names.push_back(vehicle.name);
@@ -38,6 +46,7 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
   describe(model, plan, recording);
   World world(model, plan, options);
   State state = initial_state(model);
+  close_joints(world, state);
   world.step = model.settings.step;
   world.dissipated.assign(plan.active.size(), 0);
   for (const Effect* effect : plan.active) world.costs.push_back({effect->name, 0, 0});

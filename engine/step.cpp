@@ -557,7 +557,10 @@ bool Stepper::locate_contact_event(World& world, const State& state, double& tak
         f_low = std::isfinite(f) ? f : f_low;
         if (side == -1) f_high *= 0.5;
         side = -1;
-        if (f > -1e-15 && f <= 0) break;
+        if (f > -1e-15 && f <= 0) {
+          high = middle;
+          break;
+        }
       } else {
         high = middle;
         f_high = f;
