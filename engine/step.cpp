@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "engine/divergence.h"
@@ -31,7 +32,8 @@ constexpr double kRecovery = 0.5;          // [-] share of a penetration that a 
 constexpr double kRecoverySpeed = 0.2;     // [m/s] at which a deeper one, there from the start, is taken out
 constexpr double kLimitRecoverySpeed = 2;  // [rad/s]
 constexpr double kUnsolved = 0.01;         // [m/s] residual above which the step is halved and taken again
-constexpr double kSmoothTurn = 0.1;        // [rad] of any body in one step of the smooth motion
+constexpr double kSmoothTurn = 0.03;       // [rad] of any body in one step of the smooth motion
+constexpr double kSmoothSwing = 1.4;       // [-] rate of a swing under joint forces times the step: half of what RK4 bears
 constexpr double kLargestTurn = 0.3;       // [rad] in one step of all
 constexpr double kMostParts = 20;
 constexpr double kMostAdaptiveParts = 1000;
@@ -76,6 +78,19 @@ Stepper::Stepper(World& world)
     world.step = step;
     world.constraints.swap(found);
   });
+}
+
+/// What stands inside something else before anything has moved.
+void Stepper::warn_of_overlaps(World& world) const {
+  constexpr double kTold = 1e-3;  // [m]
+  for (const Constraint& c : contacts_) {
+    if (c.kind != ConstraintKind::contact || c.gap > -kTold || is_compliant(c)) continue;
+    auto name = [&](int body) { return body >= 0 ? world.model.bodies[body].name : std::string("the ground"); };
+    char text[256];
+    std::snprintf(text, sizeof text, "%s and %s overlap by %.1f mm at the start; they are moved apart at %.1f m/s at most",
+                  name(c.record_a).c_str(), name(c.record_b).c_str(), -c.gap * 1e3, kRecoverySpeed);
+    world.diagnostics.warnings.emplace_back(text);
+  }
 }
 
 void Stepper::choose_trees(World& world, const State& state) {
@@ -489,6 +504,10 @@ double Stepper::advance(World& world, State& state, double h) {
     ++world.diagnostics.substeps;
     h = std::max(kLargestTurn / turning_, h / kMostParts);
   }
+  if (const double swing = smooth_.fastest_swing() * h / kSmoothSwing; swing > 1) {
+    ++world.diagnostics.substeps;
+    h /= std::max(1.0, swing / kMostParts);
+  }
   if (next_step_ > 0) h = std::min(h, next_step_);
   world.step = h;
   for (std::size_t e = 0; e < world.plan.active.size(); ++e)
@@ -497,6 +516,7 @@ double Stepper::advance(World& world, State& state, double h) {
   if (!contacts_known_ || contact_trees_ != world.active_trees) {
     world.step = world.model.settings.step;
     find_contacts(world, state, contacts_);
+    if (state.time == 0) warn_of_overlaps(world);
   }
   assemble_constraints(world, state, h);
   if (impact(world, state))
@@ -508,7 +528,8 @@ double Stepper::advance(World& world, State& state, double h) {
 /// whole (Richardson: the halves are closer by 2^4).
 double Stepper::integrate(World& world, const State& state, double h) {
   CompliantContacts* compliant = compliant_ ? &*compliant_ : nullptr;
-  const int parts = static_cast<int>(std::clamp(std::ceil(turning_ * h / kSmoothTurn), 1.0, kMostParts));
+  const double wanted = std::max(turning_ / kSmoothTurn, smooth_.fastest_swing() / kSmoothSwing) * h;
+  const int parts = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, kMostParts));
   auto advance_over = [&](double length) {
     if (compliant) compliant->next_part(length / parts);
     for (int k = 0; k < parts; ++k) smooth_.advance(world, end_, length / parts, X_, V_, compliant);

@@ -21,6 +21,7 @@ class Stepper {
   std::function<void(double time, double duration)> on_impulses;
 
  private:
+  void warn_of_overlaps(World&) const;
   void choose_trees(World&, const State&);
   double attempt(World&, State&, double h);
   double integrate(World&, const State&, double h);

@@ -12,7 +12,7 @@ constexpr double kGrasp = 0.01;
 constexpr double kCorrection = 0.2;  // [-] share of the ring's gap taken out per step
 // [-] of the response of free bodies, given to each row: what other joints hold already (two hinges on one axis) has no response
 // of its own, and rounding divided by rounding would be its impulse
-constexpr double kGive = 1e-9;
+constexpr double kGive = 5e-9;
 
 std::optional<std::string> called_for(const Model& model) {
   const std::size_t count = build_topology(model, {}).loops.size();

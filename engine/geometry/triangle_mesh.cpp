@@ -34,6 +34,65 @@ struct HalfEdge {
   int triangle, edge;
 };
 
+/// Every edge of every triangle, equal edges side by side.
+std::vector<HalfEdge> sorted_edges(const std::vector<Triangle>& triangles) {
+  std::vector<HalfEdge> edges;
+  for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
+    const Triangle& v = triangles[t];
+    for (int e = 0; e < 3; ++e) edges.push_back({std::min(v[e], v[(e + 1) % 3]), std::max(v[e], v[(e + 1) % 3]), t, e});
+  }
+  std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
+    return std::array{a.low, a.high, a.triangle, a.edge} < std::array{b.low, b.high, b.triangle, b.edge};
+  });
+  return edges;
+}
+
+/// Two triangles that share an edge run along it in opposite directions, or one of them is turned over: a hole to what stands on
+/// it. Within each connected piece the fewer follow the more. Returns how many were turned.
+int turn_strays(std::vector<Triangle>& triangles) {
+  struct Link {
+    int to;
+    bool agrees;
+  };
+  std::vector<std::vector<Link>> links(triangles.size());
+  const std::vector<HalfEdge> edges = sorted_edges(triangles);
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t end = i + 1;
+    while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
+    if (end - i == 2) {
+      const HalfEdge &a = edges[i], &b = edges[i + 1];
+      const bool agrees = triangles[a.triangle][a.edge] != triangles[b.triangle][b.edge];
+      links[a.triangle].push_back({b.triangle, agrees});
+      links[b.triangle].push_back({a.triangle, agrees});
+    }
+    i = end;
+  }
+  int turned = 0;
+  std::vector<char> side(triangles.size(), 0);  // 0: not seen yet; 1, 2: like or unlike the first of its piece
+  std::vector<int> piece;
+  for (int first = 0; first < static_cast<int>(triangles.size()); ++first) {
+    if (side[first]) continue;
+    piece.assign(1, first);
+    side[first] = 1;
+    int unlike = 0;
+    for (std::size_t k = 0; k < piece.size(); ++k) {
+      unlike += side[piece[k]] == 2;
+      for (const Link& link : links[piece[k]]) {
+        if (side[link.to]) continue;  // a Moebius strip has no two sides: it stays as it came
+        side[link.to] = link.agrees ? side[piece[k]] : static_cast<char>(3 - side[piece[k]]);
+        piece.push_back(link.to);
+      }
+    }
+    const char stray = 2 * unlike > static_cast<int>(piece.size()) ? 1 : 2;
+    for (const int t : piece) {
+      if (side[t] != stray) continue;
+      std::swap(triangles[t][1], triangles[t][2]);
+      ++turned;
+    }
+  }
+  return turned;
+}
+
 }  // namespace
 
 TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles) : vertices_(std::move(vertices)) {
@@ -68,21 +127,16 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> tri
       triangles_[kept++] = triangles_[i];
   }
   triangles_.resize(kept);
+  turned_ = turn_strays(triangles_);
   connect();
   build_tree();
 }
 
 void TriangleMesh::connect() {
   face_normals_.clear();
-  std::vector<HalfEdge> edges;
-  for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
-    const Triangle& v = triangles_[t];
+  for (const Triangle& v : triangles_)
     face_normals_.push_back((vertices_[v[1]] - vertices_[v[0]]).cross(vertices_[v[2]] - vertices_[v[0]]).normalized());
-    for (int e = 0; e < 3; ++e) edges.push_back({std::min(v[e], v[(e + 1) % 3]), std::max(v[e], v[(e + 1) % 3]), t, e});
-  }
-  std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return std::array{a.low, a.high, a.triangle, a.edge} < std::array{b.low, b.high, b.triangle, b.edge};
-  });
+  const std::vector<HalfEdge> edges = sorted_edges(triangles_);
   edge_kinds_.assign(triangles_.size(), {EdgeKind::open, EdgeKind::open, EdgeKind::open});
   neighbours_.assign(triangles_.size(), {-1, -1, -1});
   for (std::size_t i = 0; i < edges.size();) {

@@ -22,8 +22,9 @@ enum class EdgeKind : std::uint8_t { flat, convex, concave, open };
 /// Immutable after construction. Triangles are counter-clockwise seen from outside.
 class TriangleMesh {
  public:
-  /// Welds vertices closer than 1e-5 m, drops degenerate (area/edge^2 < 1e-12) and duplicate triangles, builds adjacency and
-  /// the tree. Indices out of range assert; the loader has audited them.
+  /// Welds vertices closer than 1e-5 m, drops degenerate (area/edge^2 < 1e-12) and duplicate triangles, turns over
+  /// single triangles that face against the rest of their piece, builds adjacency and the tree. Indices out of range assert; the
+  /// loader has audited them.
   TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles);
 
   const std::vector<Vec3>& vertices() const { return vertices_; }
@@ -35,6 +36,7 @@ class TriangleMesh {
   int neighbour(int triangle, int edge) const { return neighbours_[index(triangle)][index(edge)]; }
   const Aabb& bounds() const { return bounds_; }
   int dropped_triangles() const { return dropped_; }
+  int turned_triangles() const { return turned_; }
 
   /// Appends to `out` the triangles whose boxes overlap `box` (mesh frame), in a fixed order. Returns nodes visited.
   int query(const Aabb& box, std::vector<int>& out) const;
@@ -60,7 +62,7 @@ class TriangleMesh {
   std::vector<Node> nodes_;
   std::vector<int> order_;
   Aabb bounds_;
-  int dropped_ = 0;
+  int dropped_ = 0, turned_ = 0;
 };
 
 }  // namespace engine

@@ -24,7 +24,8 @@ void displace(Pose& X, const Vec3& dp, const Vec3& rotation) {
   X.q.normalize();
 }
 
-SmoothMotion::SmoothMotion(const Model& model) : X_(model.bodies.size()), force_(model.bodies.size()) {
+SmoothMotion::SmoothMotion(const Model& model)
+    : X_(model.bodies.size()), force_(model.bodies.size()), applied_(model.bodies.size()), joint_force_(model.bodies.size()) {
   for (Stage& stage : stages_) {
     stage.a.resize(model.bodies.size());
     stage.dq.resize(model.bodies.size());
@@ -45,6 +46,8 @@ void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const
   for (const Effect* effect : world.plan.active)
     if (effect->add_forces) effect->add_forces(world, X, V, force_);
   if (compliant) compliant->add_forces(world, X, V, weight, force_);
+  if (&a == &stages_[0].a)
+    for (std::size_t b = 0; b < force_.size(); ++b) applied_[b] = force_[b].head<3>();
   for (const int tree : world.active_trees) {
     world.smooth.factor(world.topology, tree, X, nullptr);
     world.smooth.set_bias(world.topology, tree, X, V);
@@ -78,6 +81,7 @@ void SmoothMotion::advance(World& world, const State& state, double h, std::vect
     }
     accelerations(world, X_, stage.V, stage.a, compliant, kWeight[s]);
   }
+  measure_swing(world);
   const auto& [k1, k2, k3, k4] = stages_;
   for (const int tree : world.active_trees) {
     for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
@@ -89,6 +93,39 @@ void SmoothMotion::advance(World& world, const State& state, double h, std::vect
       V[b].w = state.V_WB[b].w + dV.tail<3>();
     }
   }
+}
+
+/// Joint forces from the leaves up: what a body's own acceleration and its children's joints do not explain, its parent's joint
+/// gives.
+void SmoothMotion::measure_swing(const World& world) {
+  double largest = 0;
+  for (const int tree : world.active_trees) {
+    const Topology::Tree& range = world.topology.trees[tree];
+    if (range.end - range.begin == 1 && world.topology.links[range.begin].joint < 0) continue;
+    for (int l = range.begin; l < range.end; ++l) joint_force_[world.topology.links[l].body].setZero();
+    for (int l = range.begin; l < range.end; ++l) {
+      const Topology::Link& link = world.topology.links[l];
+      if (link.joint < 0) continue;
+      const Body& body = world.model.bodies[link.body];
+      Vec3& T = joint_force_[link.body];
+      T += body.mass * stages_[0].a[link.body].head<3>() - applied_[link.body];
+      if (link.parent >= 0) joint_force_[link.parent] += T;
+      const Joint& joint = world.model.joints[link.joint];
+      auto weigh = [&](int b, const Vec3& lever_B) {
+        const Body& swung = world.model.bodies[b];
+        const double r = lever_B.norm();
+        if (r == 0) return;
+        // about an axis at right angles to the lever
+        const Mat3 inverse = swung.inertia_B.inverse();
+        const double inverse_across = inverse.trace() - lever_B.dot(inverse * lever_B) / (r * r);
+        // the other end of a link is pulled as hard
+        largest = std::max(largest, T.norm() * 2 * r * inverse_across);
+      };
+      weigh(joint.child, joint.X_CF.p);
+      if (joint.parent >= 0 && !world.model.bodies[joint.parent].fixed) weigh(joint.parent, joint.X_PF.p);
+    }
+  }
+  fastest_swing_ = std::sqrt(largest);
 }
 
 namespace {
