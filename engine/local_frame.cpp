@@ -1,11 +1,14 @@
 #include "engine/local_frame.h"
 
+#include <cmath>
+
 namespace engine {
 namespace {
 
+/// Heights are small wherever a site lies, and are left as they are.
 Vec3 rounded(const Vec3& p) {
   constexpr double kGrid = 0x1p26;  // [1/m]
-  return (p * kGrid).array().round().matrix() / kGrid;
+  return {std::round(p.x() * kGrid) / kGrid, std::round(p.y() * kGrid) / kGrid, p.z()};
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ class LocalFrame {
   /// Takes x and y of the first body that moves.
   explicit LocalFrame(const Model&);
 
-  /// The model counted from there, places rounded to 2^-26 m: what differs by less is the same scene.
+  /// The model counted from there, x and y rounded to 2^-26 m: what differs by less is the same scene.
   Model inwards(Model) const;
 
   /// The recording back in the scene's coordinates.

@@ -13,8 +13,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+#include <string>
 
 #include "engine/divergence.h"
 #include "engine/effects/effect.h"
@@ -86,10 +86,9 @@ void Stepper::warn_of_overlaps(World& world) const {
   for (const Constraint& c : contacts_) {
     if (c.kind != ConstraintKind::contact || c.gap > -kTold || is_compliant(c)) continue;
     auto name = [&](int body) { return body >= 0 ? world.model.bodies[body].name : std::string("the ground"); };
-    char text[256];
-    std::snprintf(text, sizeof text, "%s and %s overlap by %.1f mm at the start; they are moved apart at %.1f m/s at most",
-                  name(c.record_a).c_str(), name(c.record_b).c_str(), -c.gap * 1e3, kRecoverySpeed);
-    world.diagnostics.warnings.emplace_back(text);
+    world.diagnostics.warnings.push_back(name(c.record_a) + " and " + name(c.record_b) + " overlap by " +
+                                         std::to_string(std::lround(-c.gap * 1e3)) +
+                                         " mm at the start; they are moved apart gently");
   }
 }
 
