@@ -162,6 +162,24 @@ Found climb(const Pair& pair, Vec3 n, int iterations) {
   return {n, g, false};
 }
 
+/// On a flat side a normal that is right to rounding still leaves open where along the side the surfaces meet: the support point
+/// of the rounder of the two tells, and the other's is brought opposite.
+void bring_opposite(const Pair& pair, SurfaceContact& c) {
+  constexpr double kSlip = 1e-6;  // [m]
+  const Vec3 across = (c.p_b - c.p_a) - (c.p_b - c.p_a).dot(c.normal) * c.normal;
+  if (across.norm() < kSlip) return;
+  // how far a support point goes for a turn of the normal in the direction they are apart
+  const Vec3 t = across.normalized();
+  const Vec3 lean = (c.normal + 1e-6 * t).normalized();
+  const double a =
+      (support_point(pair.A, pair.R_WA.transpose() * lean) - support_point(pair.A, pair.R_WA.transpose() * c.normal)).norm();
+  const double b =
+      (support_point(pair.B, pair.R_WB.transpose() * lean) - support_point(pair.B, pair.R_WB.transpose() * c.normal)).norm();
+  const double share = a + b > 0 ? a / (a + b) : 0.5;  // of the way that A's point goes
+  c.p_a += share * across;
+  c.p_b -= (1 - share) * across;
+}
+
 std::optional<SurfaceContact> search(const HyperEllipsoid& A, const Pose& X_WA, const HyperEllipsoid& B, const Pose& X_WB,
                                      double margin, Vec3& normal_guess, double* apart) {
   const Pair pair{A, B, X_WA.q.toRotationMatrix(), X_WB.q.toRotationMatrix(), X_WA.p - X_WB.p};
@@ -223,6 +241,7 @@ std::optional<SurfaceContact> search(const HyperEllipsoid& A, const Pose& X_WA, 
   c.gap = best.gap;
   c.p_a = X_WA.p - pair.R_WA * support_point(A, pair.R_WA.transpose() * best.n);
   c.p_b = X_WB.p + pair.R_WB * support_point(B, pair.R_WB.transpose() * best.n);
+  bring_opposite(pair, c);
   return c;
 }
 
