@@ -32,8 +32,8 @@ constexpr double kRecovery = 0.5;          // [-] share of a penetration that a 
 constexpr double kRecoverySpeed = 0.2;     // [m/s] at which a deeper one, there from the start, is taken out
 constexpr double kLimitRecoverySpeed = 2;  // [rad/s]
 constexpr double kUnsolved = 0.01;         // [m/s] residual above which the step is halved and taken again
-constexpr double kSmoothTurn = 0.03;       // [rad] of any body in one step of the smooth motion
-constexpr double kSmoothSwing = 1.4;       // [-] rate of a swing under joint forces times the step: half of what RK4 bears
+constexpr double kSmoothTurn = 0.1;        // [rad] of any body in one step of the smooth motion
+constexpr double kSmoothSwing = 2.0;       // [-] rate of a swing under joint forces times the step: RK4 bears 2.8
 constexpr double kLargestTurn = 0.3;       // [rad] in one step of all
 constexpr double kMostParts = 20;
 constexpr double kMostAdaptiveParts = 1000;
@@ -527,7 +527,9 @@ double Stepper::advance(World& world, State& state, double h) {
 /// whole (Richardson: the halves are closer by 2^4).
 double Stepper::integrate(World& world, const State& state, double h) {
   CompliantContacts* compliant = compliant_ ? &*compliant_ : nullptr;
-  const double wanted = std::max(turning_ / kSmoothTurn, smooth_.fastest_swing() / kSmoothSwing) * h;
+  // the error a second of turning leaves goes with w (w h)^4: parts in number with w^(5/4) would keep it what it is at the bound
+  const double for_turning = std::pow(turning_ * h / kSmoothTurn, 2.0);
+  const double wanted = std::max(for_turning, smooth_.fastest_swing() / kSmoothSwing * h);
   const int parts = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, kMostParts));
   auto advance_over = [&](double length) {
     if (compliant) compliant->next_part(length / parts);

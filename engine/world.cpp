@@ -72,7 +72,8 @@ void add_contact(World& world, const State& state, const SurfaceContact& touch, 
     c.restitution = 0;
     share_a = S_b / (S_a + S_b);  // depth_a S_a = depth_b S_b, eq. (81)
   }
-  c.point = touch.p_a + share_a * (touch.p_b - touch.p_a);
+  const Vec3 way = touch.p_b - touch.p_a, along = way.dot(touch.normal) * touch.normal;
+  c.point = touch.p_a + share_a * along + touch.share_across * (way - along);
   const Vec3 t1 = touch.normal.unitOrthogonal();
   c.frame << touch.normal, t1, touch.normal.cross(t1);
   auto rows = [&](int body, double sign) {

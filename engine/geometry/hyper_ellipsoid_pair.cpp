@@ -163,21 +163,18 @@ Found climb(const Pair& pair, Vec3 n, int iterations) {
 }
 
 /// On a flat side a normal that is right to rounding still leaves open where along the side the surfaces meet: the support point
-/// of the rounder of the two tells, and the other's is brought opposite.
-void bring_opposite(const Pair& pair, SurfaceContact& c) {
+/// of the rounder of the two tells. Share of the way across from A's point to B's.
+double share_across(const Pair& pair, const SurfaceContact& c) {
   constexpr double kSlip = 1e-6;  // [m]
   const Vec3 across = (c.p_b - c.p_a) - (c.p_b - c.p_a).dot(c.normal) * c.normal;
-  if (across.norm() < kSlip) return;
-  // how far a support point goes for a turn of the normal in the direction they are apart
-  const Vec3 t = across.normalized();
-  const Vec3 lean = (c.normal + 1e-6 * t).normalized();
-  const double a =
-      (support_point(pair.A, pair.R_WA.transpose() * lean) - support_point(pair.A, pair.R_WA.transpose() * c.normal)).norm();
-  const double b =
-      (support_point(pair.B, pair.R_WB.transpose() * lean) - support_point(pair.B, pair.R_WB.transpose() * c.normal)).norm();
-  const double share = a + b > 0 ? a / (a + b) : 0.5;  // of the way that A's point goes
-  c.p_a += share * across;
-  c.p_b -= (1 - share) * across;
+  if (across.norm() < kSlip) return 0.5;
+  // how far a support point goes for a small turn of the normal in the direction they are apart
+  const Vec3 lean = (c.normal + 1e-6 * across.normalized()).normalized();
+  auto travel = [&](const HyperEllipsoid& shape, const Mat3& R_WS) {
+    return (support_point(shape, R_WS.transpose() * lean) - support_point(shape, R_WS.transpose() * c.normal)).norm();
+  };
+  const double a = travel(pair.A, pair.R_WA), b = travel(pair.B, pair.R_WB);
+  return a + b > 0 ? a / (a + b) : 0.5;
 }
 
 std::optional<SurfaceContact> search(const HyperEllipsoid& A, const Pose& X_WA, const HyperEllipsoid& B, const Pose& X_WB,
@@ -241,7 +238,7 @@ std::optional<SurfaceContact> search(const HyperEllipsoid& A, const Pose& X_WA, 
   c.gap = best.gap;
   c.p_a = X_WA.p - pair.R_WA * support_point(A, pair.R_WA.transpose() * best.n);
   c.p_b = X_WB.p + pair.R_WB * support_point(B, pair.R_WB.transpose() * best.n);
-  bring_opposite(pair, c);
+  c.share_across = share_across(pair, c);
   return c;
 }
 
@@ -259,6 +256,7 @@ std::optional<SurfaceContact> contact_of_pair(const HyperEllipsoid& A, const Pos
   if (contact) {
     contact->normal = -contact->normal;
     std::swap(contact->p_a, contact->p_b);
+    contact->share_across = 1 - contact->share_across;
   }
   return contact;
 }

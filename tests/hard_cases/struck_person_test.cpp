@@ -7,7 +7,11 @@ namespace hard_cases {
 namespace {
 
 class StruckPerson : public testing::TestWithParam<std::tuple<const char*, Setting>> {};
-INSTANTIATE_TEST_SUITE_P(At, StruckPerson, testing::Combine(testing::Values("11 m/s", "25 m/s"), testing::ValuesIn(kSettings)));
+// without joint resistance both schemes are the same to the last bit: one will do
+INSTANTIATE_TEST_SUITE_P(At, StruckPerson,
+                         testing::Combine(testing::Values("11 m/s", "25 m/s"),
+                                          testing::Values(Setting{"2 ms", "stepping"}, Setting{"1 ms", "stepping"},
+                                                          Setting{"0.5 ms", "stepping"})));
 
 TEST_P(StruckPerson, HoldsTogetherAndNeverGainsEnergy) {
   const auto [speed, setting] = GetParam();
