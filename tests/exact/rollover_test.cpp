@@ -61,7 +61,7 @@ TEST_P(Dropped, ComesToRestOnItsBodywork) {
   double carried = 0;
   const std::size_t count = std::min<std::size_t>(run.snapshots.size(), static_cast<std::size_t>(1 / run.interval));
   for (std::size_t i = run.snapshots.size() - count; i < run.snapshots.size(); ++i) {
-    for (const auto& c : run.snapshots[i].contacts) carried += c.force.z() / static_cast<double>(count);
+    for (const auto& c : run.snapshots[i].contacts) carried += c.impulse.z() / run.interval / static_cast<double>(count);
     for (const auto& w : run.snapshots[i].wheels) carried += w.load / static_cast<double>(count);
   }
   EXPECT_NEAR(carried, 1500 * 9.81, 0.05 * 1500 * 9.81);
