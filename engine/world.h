@@ -132,7 +132,7 @@ struct World {
   std::vector<Resistance> resistances;     // per joint
   std::vector<char> resistance_in_stages;  // per joint: springs and dampers act in the stages of Runge and Kutta
   std::vector<PassiveLeg> passive_legs;
-  double resistance_power = 0;             // [W] what those take out at the start of the step
+  double resistance_power = 0;  // [W] what those take out at the start of the step
   bool any_damper = false;
 
   // for the books, per effect of the plan

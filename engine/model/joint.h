@@ -26,9 +26,9 @@ struct ArticulationAngle {
   double friction_torque = 0;                               // [N m] constant resistance against turning
 };
 
-/// Passive elastic torque inside the range of motion of a leg's joints (engine/laws/passive_torque.h). It acts about y of the child's
-/// and the parent's body axes, which agree when the leg is straight. Joints of one leg follow each other down the tree; several that
-/// are called knee share its flexion.
+/// Passive elastic torque inside the range of motion of a leg's joints (engine/laws/passive_torque.h). It acts about y of the
+/// child's and the parent's body axes, which agree when the leg is straight. Joints of one leg follow each other down the tree;
+/// several that are called knee share its flexion.
 enum class PassiveTorque { none, hip, knee, ankle };
 
 struct Joint {

@@ -233,7 +233,7 @@ std::vector<std::uint32_t> welded(const Mesh& mesh) {
 }
 
 std::vector<Mesh::Level> coarser_levels(const Mesh& mesh) {
-  constexpr std::size_t kFewest = 500, kMost = 400'000;                  // triangles: below it does not pay, above it takes seconds
+  constexpr std::size_t kFewest = 500, kMost = 400'000;  // triangles: below it does not pay, above it takes seconds
   constexpr double kTolerances[] = {0.0005, 0.001, 0.002, 0.004, 0.008, 0.016};  // [m]
   std::vector<Mesh::Level> out;
   if (mesh.indices.size() < 3 * kFewest || mesh.indices.size() > 3 * kMost) return out;

@@ -1,5 +1,5 @@
-// A part that slides over a flat sheet of a thousand triangles moves as over a plane: edges between them are not felt. (A box, n = 30,
-// stands on the corners of its face; there the plane leaves out points of some micrometres' depth, and so much may differ.)
+// A part that slides over a flat sheet of a thousand triangles moves as over a plane: edges between them are not felt. (A box, n =
+// 30, stands on the corners of its face; there the plane leaves out points of some micrometres' depth, and so much may differ.)
 #include <gtest/gtest.h>
 
 #include "tests/engine/experiment.h"

@@ -50,7 +50,8 @@ TEST(Study, LeavesOutEachEffectInTurn) {
   const Folder folder;
   const Result result = study_puck(folder, {"--effects"});
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_TRUE(contents(folder / "out/effects.csv").starts_with("effect,quantity,value,without,change,spread,wall_s,saved_s,failure"));
+  EXPECT_TRUE(
+      contents(folder / "out/effects.csv").starts_with("effect,quantity,value,without,change,spread,wall_s,saved_s,failure"));
   const auto json = nlohmann::json::parse(contents(folder / "out/effects.json"));
   bool gravity = false;
   for (const auto& effect : json["effects"]) {
