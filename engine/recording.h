@@ -136,7 +136,8 @@ struct Recording {
   std::vector<HeadMotion> heads;
   std::vector<double> peak_acceleration;  // [m/s^2] per body: largest mean over a step; with the compliant law and persons only
   std::vector<PlanLine> plan;
-  std::vector<EffectCost> costs;
+  std::vector<EffectCost> costs;   // of the effects of the plan; wall_s only when a clock was handed in
+  std::vector<EffectCost> phases;  // of what serves several effects at once
   Diagnostics diagnostics;
   long steps = 0;
   double wall_s = 0;  // filled by the caller: the engine has no clock

@@ -49,11 +49,8 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
   close_joints(world, state);
   world.step = model.settings.step;
   world.dissipated.assign(plan.active.size(), 0);
-  for (const Effect* effect : plan.active) world.costs.push_back({effect->name, 0, 0});
-  for (std::size_t e = 0; e < plan.active.size(); ++e)
-    if (plan.active[e]->begin) plan.active[e]->begin(world, state, static_cast<int>(e));
-  for (std::size_t e = 0; e < plan.active.size(); ++e)  // once, so that suspensions know their compression at t = 0
-    if (plan.active[e]->find) plan.active[e]->find(world, state, static_cast<int>(e));
+  call(world, &Effect::begin, state);
+  call(world, &Effect::find, state);  // once, so that suspensions know their compression at t = 0
   world.constraints.clear();
   std::fill(world.dissipated.begin(), world.dissipated.end(), 0.0);
 
@@ -65,7 +62,10 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
   recorder.snapshot(world, state, recording);
   const DivergenceWatch watch(world, state);
   Stepper stepper(world);
-  stepper.on_impulses = [&](double time, double duration) { recorder.tally(world, time, duration); };
+  stepper.on_impulses = [&](double time, double duration) {
+    const Meter::Span span(world.meter, Phase::recording);
+    recorder.tally(world, time, duration);
+  };
   for (long k = 0; k < steps; ++k) {
     double left = h;
     while (left > 1e-9 * h && !recording.failure) {
@@ -75,6 +75,7 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
     if (recording.failure) break;
     state.time = static_cast<double>(k + 1) * h;
     ++recording.steps;
+    const Meter::Span span(world.meter, Phase::recording);
     recorder.sample(world, state, recording);
     if ((k + 1) % per_snapshot == 0 || k + 1 == steps) {
       recorder.snapshot(world, state, recording);
@@ -83,7 +84,9 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
     if (options.progress && (k + 1) % kAskEvery == 0 && !options.progress(state.time)) break;
   }
   recorder.finish(world, state, recording);
-  recording.costs = world.costs;
+  world.meter.finish();
+  recording.costs = world.meter.effects;
+  recording.phases = world.meter.phases;
   return recording;
 }
 

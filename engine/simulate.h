@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "engine/meter.h"
 #include "engine/model/model.h"
 #include "engine/recording.h"
 
@@ -12,9 +13,6 @@ struct Plan;
 
 /// Asked every hundred steps with the simulated time; false ends the run there (the Recording so far is kept).
 using Progress = std::function<bool(double time)>;
-
-/// A clock handed in by those who want the cost per effect; the engine has none of its own.
-using Clock = double (*)();
 
 struct RunOptions {
   Progress progress;

@@ -68,13 +68,7 @@ Stepper::Stepper(World& world)
     world.constraints.swap(found);
     const double step = world.step;
     world.step = within;
-    for (std::size_t e = 0; e < world.plan.active.size(); ++e) {
-      if (!world.plan.active[e]->find_contacts) continue;
-      const double start = world.options.clock ? world.options.clock() : 0;
-      world.plan.active[e]->find_contacts(world, state, static_cast<int>(e));
-      ++world.costs[e].calls;
-      if (world.options.clock) world.costs[e].wall_s += world.options.clock() - start;
-    }
+    call(world, &Effect::find_contacts, state);
     world.step = step;
     world.constraints.swap(found);
   });
@@ -109,10 +103,8 @@ void Stepper::find_contacts(World& world, const State& state, std::vector<Constr
     const Effect* effect = world.plan.active[e];
     if (!effect->find_contacts && !effect->find_limits) continue;
     if (effect->find_contacts && compliant_) continue;
-    const double start = world.options.clock ? world.options.clock() : 0;
+    const Meter::Span span(world.meter, e);
     (effect->find_contacts ? effect->find_contacts : effect->find_limits)(world, state, static_cast<int>(e));
-    ++world.costs[e].calls;
-    if (world.options.clock) world.costs[e].wall_s += world.options.clock() - start;
   }
   world.constraints.swap(found);
 }
@@ -126,10 +118,8 @@ void Stepper::assemble_constraints(World& world, const State& state, double h) {
     const Effect* effect = world.plan.active[e];
     while (contact != contacts_.end() && contact->effect == static_cast<int>(e)) world.constraints.push_back(*contact++);
     if (!effect->find) continue;
-    const double start = world.options.clock ? world.options.clock() : 0;
+    const Meter::Span span(world.meter, e);
     effect->find(world, state, static_cast<int>(e));
-    ++world.costs[e].calls;
-    if (world.options.clock) world.costs[e].wall_s += world.options.clock() - start;
   }
   for (Constraint& c : world.constraints) c.u_before = row_velocity(c, state.V_WB);
 }
@@ -179,6 +169,7 @@ bool Stepper::impact(World& world, State& state) {
     any = any || (is_contact(c) && c.restitution > 0 && c.gap <= kTouching && c.u_before[0] < -v_impact);
   if (!any) return false;
 
+  const Meter::Span span(world.meter, Phase::impulses);
   factor_for_impulses(world, state, nullptr);
   form_islands(world);
   std::vector<int> members;
@@ -263,8 +254,7 @@ void Stepper::exchange_impulses(World& world, State& state, const std::vector<in
 void Stepper::prepare_resistance(World& world, const State& state, double h) {
   world.any_damper = false;
   world.step = h;
-  for (std::size_t e = 0; e < world.plan.active.size(); ++e)
-    if (world.plan.active[e]->resist) world.plan.active[e]->resist(world, state, static_cast<int>(e));
+  call(world, &Effect::resist, state);
 }
 
 void Stepper::set_targets(World& world, double h) {
@@ -496,6 +486,12 @@ double Stepper::fastest_turning(const World& world, const State& state) const {
   return std::sqrt(fastest);
 }
 
+/// Drift of the joints taken out; returns the largest gap [m] there was.
+double Stepper::close_joints(World& world) {
+  const Meter::Span span(world.meter, Phase::joint_projection);
+  return project_joints(world, X_, V_, force_, result_);
+}
+
 double Stepper::advance(World& world, State& state, double h) {
   choose_trees(world, state);
   turning_ = fastest_turning(world, state);
@@ -509,8 +505,7 @@ double Stepper::advance(World& world, State& state, double h) {
   }
   if (next_step_ > 0) h = std::min(h, next_step_);
   world.step = h;
-  for (std::size_t e = 0; e < world.plan.active.size(); ++e)
-    if (world.plan.active[e]->before_step) world.plan.active[e]->before_step(world, state, static_cast<int>(e));
+  call(world, &Effect::before_step, state);
   choose_trees(world, state);
   if (!contacts_known_ || contact_trees_ != world.active_trees) {
     world.step = world.model.settings.step;
@@ -526,6 +521,7 @@ double Stepper::advance(World& world, State& state, double h) {
 /// The smooth motion over h to end_; with scheme `adaptive` in two halves, and returns the estimated error [m] of the one taken
 /// whole (Richardson: the halves are closer by 2^4).
 double Stepper::integrate(World& world, const State& state, double h) {
+  const Meter::Span span(world.meter, Phase::integration);
   CompliantContacts* compliant = compliant_ ? &*compliant_ : nullptr;
   // the error a second of turning leaves goes with w (w h)^4: parts in number with w^(5/4) would keep it what it is at the bound
   const double for_turning = std::pow(turning_ * h / kSmoothTurn, 2.0);
@@ -629,6 +625,7 @@ double Stepper::attempt(World& world, State& state, double h) {
   const bool impulses = world.any_damper || !world.constraints.empty();
   double residual = 0;
   if (impulses) {
+    const Meter::Span span(world.meter, Phase::impulses);
     factor_for_impulses(world, state, world.any_damper ? &world.dampers : nullptr);
     if (world.any_damper) apply_resistance(world, taken);
     for (Constraint& c : world.constraints) c.u_free = row_velocity(c, V_);
@@ -637,7 +634,7 @@ double Stepper::attempt(World& world, State& state, double h) {
     residual = solve_islands(world, state, taken);
     apply(world, taken);
   }
-  const double gap = project_joints(world, X_, V_, force_, result_);
+  const double gap = close_joints(world);
   const int lost = lost_body(end_);
 
   std::vector<Constraint>& of_step = step_constraints_;
@@ -685,8 +682,7 @@ double Stepper::attempt(World& world, State& state, double h) {
   contacts_.swap(end_contacts_);
   contact_trees_ = world.active_trees;
   contacts_known_ = true;
-  for (std::size_t e = 0; e < world.plan.active.size(); ++e)
-    if (world.plan.active[e]->after_step) world.plan.active[e]->after_step(world, state, static_cast<int>(e));
+  call(world, &Effect::after_step, state);
   return taken;
 }
 

@@ -39,6 +39,7 @@ class Stepper {
   void set_targets(World&, double h);
   void form_islands(World&);
   double solve_islands(World&, State&, double h);  // largest residual [m/s]
+  double close_joints(World&);
   void keep_impulses(const World&, State&) const;
   void apply(World&, double h);
   void book(World&);

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "engine/effects/effect.h"
 #include "engine/laws/compliant_contact.h"
 
 namespace engine {
 
 World::World(const Model& m, const Plan& p, const RunOptions& o)
-    : model(m), plan(p), options(o), topology(build_topology(m, {})), smooth(m), impulse(m) {
+    : model(m), plan(p), options(o), topology(build_topology(m, {})), smooth(m), impulse(m), meter(o.clock) {
+  for (const Effect* effect : p.active) meter.effects.push_back({effect->name, 0, 0});
   smooth.reset(topology);
   impulse.reset(topology);
   response.reset(topology);

@@ -9,6 +9,7 @@
 
 #include "engine/geometry/hyper_ellipsoid_mesh.h"
 #include "engine/geometry/mesh_overlap.h"
+#include "engine/meter.h"
 #include "engine/model/model.h"
 #include "engine/plan.h"
 #include "engine/simulate.h"
@@ -137,7 +138,7 @@ struct World {
 
   // for the books, per effect of the plan
   std::vector<double> dissipated;  // [J]
-  std::vector<EffectCost> costs;
+  Meter meter;
   double added = 0;          // [J]
   double spring_energy = 0;  // [J] in the suspensions now
   Diagnostics diagnostics;

@@ -26,12 +26,24 @@ struct Effect {
   /// Appends constraints that also follow the clock or the length of the step: wheels, closed loops. Called at its start.
   void (*find)(World&, const State&, int self) = nullptr;
   /// Smooth forces at a stage of the integration: adds to `force` (6 per body).
-  void (*add_forces)(const World&, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& force) = nullptr;
+  void (*add_forces)(const World&, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& force,
+                     int self) = nullptr;
   /// Implicit joint resistance over the step: fills dampers and resistances.
   void (*resist)(World&, const State&, int self) = nullptr;
   /// End of every step.
   void (*after_step)(World&, State&, int self) = nullptr;
 };
+
+/// Calls a hook of every effect of the plan that has it, counted and timed.
+template <class Hook, class... Arguments>
+void call(World& world, Hook Effect::*hook, Arguments&&... arguments) {
+  for (std::size_t e = 0; e < world.plan.active.size(); ++e) {
+    const Hook act = world.plan.active[e]->*hook;
+    if (!act) continue;
+    const Meter::Span span(world.meter, e);
+    act(world, arguments..., static_cast<int>(e));
+  }
+}
 
 /// Every effect there is, in the order of the step.
 std::span<const Effect* const> effect_table();

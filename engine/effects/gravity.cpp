@@ -8,7 +8,7 @@ std::optional<std::string> called_for(const Model& model) {
   return "gravity is not zero and there are bodies";
 }
 
-void add_forces(const World& world, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& force) {
+void add_forces(const World& world, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& force, int) {
   for (const int tree : world.active_trees)
     for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
       const int b = world.topology.links[l].body;

@@ -61,7 +61,7 @@ void begin(World& world, const State&, int) {
   world.passive_legs = passive_legs(world.model);
 }
 
-void add_forces(const World& world, const std::vector<Pose>& X, const std::vector<Twist>& V, std::vector<Vec6>& force) {
+void add_forces(const World& world, const std::vector<Pose>& X, const std::vector<Twist>& V, std::vector<Vec6>& force, int) {
   for (std::size_t j = 0; j < world.model.joints.size(); ++j) {
     const Joint& joint = world.model.joints[j];
     if (!world.resistance_in_stages[j] || !world.awake[joint.child]) continue;

@@ -43,8 +43,7 @@ void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const
       force_[b] << 0, 0, 0, -V[b].w.cross(X[b].q * (model.bodies[b].inertia_B * w_B));
     }
   }
-  for (const Effect* effect : world.plan.active)
-    if (effect->add_forces) effect->add_forces(world, X, V, force_);
+  call(world, &Effect::add_forces, X, V, force_);
   if (compliant) compliant->add_forces(world, X, V, weight, force_);
   if (&a == &stages_[0].a)
     for (std::size_t b = 0; b < force_.size(); ++b) applied_[b] = force_[b].head<3>();
