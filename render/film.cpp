@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <new>
 #include <optional>
@@ -32,6 +33,7 @@ struct Slot {
   std::atomic<int> frame{-1};  // the frame that lies here, drawn
   std::atomic<int> taken{-1};  // the last frame the parent has taken from here
   char error[480] = "";        // what the worker could not do
+  FrameCost cost{};            // of the frame that lies here
 };
 
 /// Shared anonymous memory that goes with its owner.
@@ -68,16 +70,24 @@ struct Job {
   std::uint8_t* pictures;
 };
 
-void draw_frame(const Job& j, Painter& painter, Image& image, int i) {
-  const Moment& moment = j.moments[static_cast<std::size_t>(i)];
-  painter.paint(j.stage, j.recording, moment, image);
+/// The picture as the encoder wants it, or as a file.
+void hand_over(const Job& j, const Image& image, int i) {
   std::uint8_t* const place = j.pictures + j.frame_bytes * static_cast<std::size_t>(i % j.slots);
-  if (j.job.container == Container::mp4) return rgba_to_i420(image, place);
-  if (j.job.container == Container::mkv) {
+  if (j.job.container == Container::mp4)
+    rgba_to_i420(image, place);
+  else if (j.job.container == Container::mkv)
     std::copy(image.rgba.begin(), image.rgba.end(), place);
-    return;
-  }
-  write_png(frame_path(j.job, number_of(j.job, i)), image, frame_metadata(j.job, moment));
+  else
+    write_png(frame_path(j.job, number_of(j.job, i)), image, frame_metadata(j.job, j.moments[static_cast<std::size_t>(i)]));
+}
+
+FrameCost draw_frame(const Job& j, Painter& painter, Image& image, int i) {
+  painter.paint(j.stage, j.recording, j.moments[static_cast<std::size_t>(i)], image);
+  FrameCost cost = painter.cost();
+  Stopwatch watch(cost);
+  hand_over(j, image, i);
+  watch.lap(Pass::convert);
+  return cost;
 }
 
 /// A worker's life: its frames from `first` on, in steps of the number of workers.
@@ -92,7 +102,7 @@ void draw_frame(const Job& j, Painter& painter, Image& image, int i) {
     for (; at < static_cast<int>(j.moments.size()); at += j.workers) {
       Slot& slot = j.ring[at % j.slots];
       while (at >= j.slots && slot.taken.load() < at - j.slots) usleep(300);
-      draw_frame(j, painter, image, at);
+      slot.cost = draw_frame(j, painter, image, at);
       slot.frame.store(at);
     }
     _exit(0);
@@ -185,8 +195,9 @@ std::map<std::string, std::string> frame_metadata(const FilmJob& job, const Mome
   return out;
 }
 
-void make_film(const Stage& stage, const engine::Recording& recording, const std::vector<Moment>& moments, const FilmJob& job,
-               const std::function<void(const FilmProgress&)>& progress) {
+FilmCost make_film(const Stage& stage, const engine::Recording& recording, const std::vector<Moment>& moments, const FilmJob& job,
+                   const std::function<void(const FilmProgress&)>& progress) {
+  const auto start = std::chrono::steady_clock::now();
   refuse_existing(job, moments);
   const int frames = static_cast<int>(moments.size());
   if (frames == 0) throw RenderError("there is no frame to draw: check --from, --to and --frames against the length of the film");
@@ -204,17 +215,25 @@ void make_film(const Stage& stage, const engine::Recording& recording, const std
   Slot* ring = reinterpret_cast<Slot*>(shared.data());
   for (int s = 0; s < slots; ++s) new (ring + s) Slot;
   const Job j{stage, recording, moments, job, workers, slots, frame_bytes, ring, shared.data() + head};
+  FilmCost cost;
+  cost.workers = workers;
   Workers team(j);
+  const double parent_ms = processor_ms();
   // after the fork: the encoder brings threads of its own, and a child of a process with threads may inherit a lock they hold
   if (is_video(job.container))
     encoder.emplace(job.output, job.width, job.height, job.fps, job.metadata, story_of(stage, recording, moments, job.fps));
   for (int i = 0; i < frames; ++i) {
     team.await(i);
     if (encoder) encoder->append(j.pictures + frame_bytes * static_cast<std::size_t>(i % slots));
+    add(ring[i % slots].cost, i < workers ? cost.first : cost.later);
+    ++(i < workers ? cost.first_frames : cost.later_frames);
     ring[i % slots].taken.store(i);
     if (progress) progress({i + 1, frames});
   }
   if (encoder) encoder->finish();
+  cost.encode_ms = processor_ms() - parent_ms;
+  cost.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return cost;
 }
 
 void join_film(const Stage& stage, const engine::Recording& recording, const std::vector<Moment>& moments,

@@ -10,6 +10,7 @@
 
 #include "engine/recording.h"
 #include "render/arrange.h"
+#include "render/cost.h"
 #include "render/renderer.h"
 #include "render/stage.h"
 
@@ -47,8 +48,8 @@ std::filesystem::path frame_path(const FilmJob&, int number);
 std::map<std::string, std::string> frame_metadata(const FilmJob&, const Moment&);
 
 /// Draws every moment and writes the files under temporary names, renamed when whole. Throws RenderError.
-void make_film(const Stage&, const engine::Recording&, const std::vector<Moment>&, const FilmJob&,
-               const std::function<void(const FilmProgress&)>& progress = {});
+FilmCost make_film(const Stage&, const engine::Recording&, const std::vector<Moment>&, const FilmJob&,
+                   const std::function<void(const FilmProgress&)>& progress = {});
 
 /// The film of pictures drawn before, the same to the byte as if it had been drawn at once. Throws RenderError.
 void join_film(const Stage&, const engine::Recording&, const std::vector<Moment>&,

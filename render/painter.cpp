@@ -108,11 +108,18 @@ Renderer& Painter::renderer(int width, int height) {
 }
 
 void Painter::paint(const Stage& stage, const engine::Recording& recording, const Moment& moment, Image& out) {
+  cost_ = {};
+  Stopwatch watch(cost_);
   if (moment.card >= 0) {
     out = blank(width_, height_);
     draw_labels(card_list(stage, stage.cards[static_cast<std::size_t>(moment.card)]), out);
+    watch.lap(Pass::labels);
   } else if (moment.layout == Layout::single) {
-    renderer(width_, height_).draw(arrange(stage, recording, moment, static_cast<double>(width_) / height_), out);
+    const DrawList list = arrange(stage, recording, moment, static_cast<double>(width_) / height_);
+    watch.lap(Pass::arrange);
+    Renderer& r = renderer(width_, height_);
+    r.draw(list, out);
+    add(r.cost(), cost_);
   } else {
     paint_panes(stage, recording, moment, out);
   }
@@ -120,6 +127,7 @@ void Painter::paint(const Stage& stage, const engine::Recording& recording, cons
 
 void Painter::paint_panes(const Stage& stage, const engine::Recording& recording, const Moment& moment, Image& out) {
   const std::vector<Pane> panes = panes_of(moment.layout, width_, height_);
+  Stopwatch watch(cost_);
   DrawList sheet = arrange(stage, recording, moment, static_cast<double>(width_) / height_, Layer::sheet);
   if (moment.layout == Layout::inset) {
     const Pane& p = panes[1];
@@ -146,13 +154,18 @@ void Painter::paint_panes(const Stage& stage, const engine::Recording& recording
     // as large as on the whole picture, but a small inset has no room for that
     list.scale = std::min(static_cast<float>(height_) / static_cast<float>(pane.height), 1.9f);
     list.labels.insert(list.labels.begin(), camera_name(view.camera));
+    watch.lap(Pass::arrange);
     Image picture;
-    renderer(pane.width, pane.height).draw(list, picture);
+    Renderer& r = renderer(pane.width, pane.height);
+    r.draw(list, picture);
+    add(r.cost(), cost_);
+    watch = Stopwatch(cost_);
     const int border = std::max(1, kBorder * height_ / 1080);
     if (i == 1) fill(out, {pane.x - border, pane.y - border, pane.width + 2 * border, pane.height + 2 * border});
     lay(picture, pane, out);
   }
   draw_labels(sheet, out);
+  watch.lap(Pass::labels);
 }
 
 }  // namespace render

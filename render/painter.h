@@ -28,6 +28,8 @@ class Painter {
   Painter(int width, int height, Quality quality) : width_(width), height_(height), quality_(quality) {}
   /// Pure: the same moment gives the same bytes, whatever was painted before.
   void paint(const Stage&, const engine::Recording&, const Moment&, Image& out);
+  /// Of the last picture, all its panes together.
+  const FrameCost& cost() const { return cost_; }
 
  private:
   void paint_panes(const Stage&, const engine::Recording&, const Moment&, Image& out);
@@ -36,6 +38,7 @@ class Painter {
   int width_, height_;
   Quality quality_;
   std::map<std::pair<int, int>, std::unique_ptr<Renderer>> renderers_;  // by size
+  FrameCost cost_{};
 };
 
 }  // namespace render

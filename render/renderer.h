@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "render/cost.h"
 #include "render/draw_list.h"
 #include "render/image/image.h"
 
@@ -35,8 +36,8 @@ class Renderer {
 
   /// Pure: the same list gives the same bytes, whatever was drawn before.
   void draw(const DrawList&, Image& out);
-  /// Milliseconds by pass of the last frame, for --timings.
-  std::string timings() const;
+  /// Of the last frame.
+  const FrameCost& cost() const;
 
  private:
   struct Impl;

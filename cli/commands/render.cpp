@@ -15,6 +15,7 @@
 #include "cli/process.h"
 #include "cli/resume.h"
 #include "cli/scene_run.h"
+#include "cli/timings.h"
 
 namespace cli {
 namespace {
@@ -24,6 +25,7 @@ struct RenderWish {
   FilmArguments film;
   bool list_cameras = false;
   bool dry_run = false;
+  bool timings = false;
   std::string max_memory;
 };
 
@@ -31,6 +33,7 @@ struct RenderWish {
 struct Drawn {
   std::vector<std::string> files;
   int frames = 0;
+  render::FilmCost cost{};
 };
 
 void list_cameras(const scenes::Scene& scene, bool json) {
@@ -69,38 +72,41 @@ Drawn draw_stills(const FilmPlan& plan, const render::Stage& stage, const engine
     render::FilmJob job = plan.job;
     job.output = still_file(plan, time);
     const render::Moment moment = still_of(plan, stage, time);
-    if (!plan.resume || !is_finished(job.output, moment, job)) render::make_film(stage, recording, {moment}, job);
+    if (!plan.resume || !is_finished(job.output, moment, job)) add(render::make_film(stage, recording, {moment}, job), drawn.cost);
     drawn.files.push_back(job.output.string());
     ++drawn.frames;
   }
   return drawn;
 }
 
-void draw_selection(const Selection& selection, const render::FilmJob& whole, const render::Stage& stage,
-                    const engine::Recording& recording, ShowProgress show) {
-  if (selection.moments.empty()) return;  // all of it was there
+render::FilmCost draw_selection(const Selection& selection, const render::FilmJob& whole, const render::Stage& stage,
+                                const engine::Recording& recording, ShowProgress show) {
+  if (selection.moments.empty()) return {};  // all of it was there
   const int frames = static_cast<int>(selection.moments.size());
   Progress progress("draw", "frames", frames, show);
   render::FilmJob job = whole;
   job.numbers = selection.numbers;
-  render::make_film(stage, recording, selection.moments, job,
-                    [&](const render::FilmProgress& now) { progress.at(now.frames_done); });
+  const render::FilmCost cost = render::make_film(stage, recording, selection.moments, job,
+                                                  [&](const render::FilmProgress& now) { progress.at(now.frames_done); });
   progress.finish(frames);
+  return cost;
 }
 
 /// --resume: every frame goes to the disk first and stays there until the film of them is whole.
-void draw_film_by_frames(const Selection& selection, const FilmPlan& plan, const render::Stage& stage,
-                         const engine::Recording& recording, ShowProgress show) {
+render::FilmCost draw_film_by_frames(const Selection& selection, const FilmPlan& plan, const render::Stage& stage,
+                                     const engine::Recording& recording, ShowProgress show) {
   const render::FilmJob frames = frames_job(plan.job);
+  render::FilmCost cost;
   if (!film_is_finished(plan.job)) {
     make_writable_folder(frames.output.parent_path());
-    draw_selection(unfinished(selection, frames), frames, stage, recording, show);
+    cost = draw_selection(unfinished(selection, frames), frames, stage, recording, show);
     std::vector<std::filesystem::path> pictures;
     for (const int number : selection.numbers) pictures.push_back(render::frame_path(frames, number));
     render::join_film(stage, recording, selection.moments, pictures, plan.job);
   }
   std::error_code kept;
   std::filesystem::remove_all(frames.output.parent_path(), kept);
+  return cost;
 }
 
 Drawn draw_film(const FilmPlan& plan, const render::Stage& stage, const engine::Recording& recording, ShowProgress show) {
@@ -109,13 +115,13 @@ Drawn draw_film(const FilmPlan& plan, const render::Stage& stage, const engine::
     throw UsageError(fmt::format("no frame lies in the part asked for; the run ends at {:.3f} s and its film has {} frames",
                                  recording.end_time(), render::film(stage, recording, plan.job.fps).size()));
   }
-  const Drawn drawn{{plan.job.output.string()}, static_cast<int>(selection.moments.size())};
+  Drawn drawn{{plan.job.output.string()}, static_cast<int>(selection.moments.size())};
   const bool sequence = !render::is_video(plan.job.container);
   if (sequence && plan.resume && plan.whole) refuse_surplus(selection, plan.job);
   if (!sequence && plan.resume)
-    draw_film_by_frames(selection, plan, stage, recording, show);
+    drawn.cost = draw_film_by_frames(selection, plan, stage, recording, show);
   else
-    draw_selection(plan.resume ? unfinished(selection, plan.job) : selection, plan.job, stage, recording, show);
+    drawn.cost = draw_selection(plan.resume ? unfinished(selection, plan.job) : selection, plan.job, stage, recording, show);
   if (sequence && plan.whole && plan.job.overwrite) remove_surplus(selection, plan.job, show == ShowProgress::never);
   return drawn;
 }
@@ -147,16 +153,18 @@ int render_scene(const RenderWish& wish, const Arguments& arguments) {
 
   const double seconds = clock_seconds() - start;
   if (wish.scene.json) {
-    const nlohmann::ordered_json out = {{"files", drawn.files},
-                                        {"frames", drawn.frames},
-                                        {"width", plan.job.width},
-                                        {"height", plan.job.height},
-                                        {"fps", plan.job.fps},
-                                        {"simulated_s", recording.end_time()},
-                                        {"simulate_wall_s", recording.wall_s},
-                                        {"wall_s", seconds}};
+    nlohmann::ordered_json out = {{"files", drawn.files},
+                                  {"frames", drawn.frames},
+                                  {"width", plan.job.width},
+                                  {"height", plan.job.height},
+                                  {"fps", plan.job.fps},
+                                  {"simulated_s", recording.end_time()},
+                                  {"simulate_wall_s", recording.wall_s},
+                                  {"wall_s", seconds}};
+    if (wish.timings) out["timings"] = timings_json(drawn.cost);
     fmt::print("{}\n", out.dump(2));
   } else {
+    if (wish.timings) fmt::print("{}", timings_text(drawn.cost));
     fmt::print("{}: {} frame{}, {}x{}, {:.1f} s\n", fmt::join(drawn.files, ", "), drawn.frames, drawn.frames == 1 ? "" : "s",
                plan.job.width, plan.job.height, seconds);
   }
@@ -171,6 +179,7 @@ std::function<int()> declare_render(Arguments& arguments) {
   declare_progress(arguments, wish->scene);
   declare_film(arguments, wish->film);
   arguments.flag("--list-cameras", wish->list_cameras, "name the scene's cameras and stop");
+  arguments.flag("--timings", wish->timings, "print where the processor time of a frame goes, by pass");
   arguments.flag("--dry-run", wish->dry_run, "print the frames, steps, bytes and seconds to expect, and stop");
   arguments.option("--max-memory", wish->max_memory, "SIZE",
                    "take no more memory than this (2 GB): fewer processes, or an error before the start");

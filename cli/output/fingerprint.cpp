@@ -10,9 +10,9 @@ namespace cli {
 namespace {
 
 /// Options that say where, how fast and how loud; --set and --effects stand in the scene's own hash.
-constexpr std::array<std::string_view, 13> kIndifferent{"--output",  "--jobs",    "--overwrite",   "--resume",  "--quiet",
-                                                        "--verbose", "--json",    "--progress",    "--dry-run", "--max-memory",
-                                                        "--set",     "--effects", "--list-cameras"};
+constexpr std::array<std::string_view, 14> kIndifferent{"--output",  "--jobs",    "--overwrite",    "--resume",  "--quiet",
+                                                        "--verbose", "--json",    "--progress",     "--dry-run", "--max-memory",
+                                                        "--set",     "--effects", "--list-cameras", "--timings"};
 /// Options that choose among the frames of a film.
 constexpr std::array<std::string_view, 4> kChoosing{"--from", "--to", "--frames", "--at"};
 

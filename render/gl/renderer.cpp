@@ -2,11 +2,7 @@
 // read-back, labels. Work is done where it can be seen, and every pass depends on the frame's list alone.
 #include "render/renderer.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <ctime>
-#include <utility>
 #include <vector>
 
 #include "render/gl/background_pass.h"
@@ -23,9 +19,10 @@ namespace {
 
 using namespace gl;
 
-/// Processor time of this process [ms]: what a pass costs, whatever else keeps the machine busy.
-double processor_ms() {
-  return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+/// A lap once GL has done the pass.
+void lap(Stopwatch& watch, Pass pass) {
+  glFinish();
+  watch.lap(pass);
 }
 
 }  // namespace
@@ -33,7 +30,6 @@ double processor_ms() {
 struct Renderer::Impl {
   Impl(int w, int h, const Effort& effort) : width(w), height(h), context(16, 16), studio(w, h, effort) {}
 
-  void mark(const char* pass);
   void read(Image&);
 
   int width, height;
@@ -44,16 +40,8 @@ struct Renderer::Impl {
   ShadowPass shadow;
   BackgroundPass background;
   gl::OverlayPass overlays;
-  std::vector<std::pair<const char*, double>> spent;  // [ms]
-  double since = 0;
+  FrameCost cost{};
 };
-
-void Renderer::Impl::mark(const char* pass) {
-  glFinish();
-  const double now = processor_ms();
-  spent.emplace_back(pass, now - since);
-  since = now;
-}
 
 void Renderer::Impl::read(Image& out) {
   out.width = width;
@@ -85,18 +73,18 @@ void Renderer::draw(const DrawList& list, Image& out) {
   Impl& r = *impl_;
   const Targets& targets = r.studio.targets;
   r.context.make_current();
-  r.spent.clear();
-  r.since = processor_ms();
+  r.cost = {};
+  Stopwatch watch(r.cost);
   std::vector<CasterBox> boxes;
   const std::vector<Piece> pieces = collect(list, r.geometry, r.materials, r.studio.cost.pixel_share, targets.height, boxes);
   r.materials.upload();
   const FrameSetup frame = set_up_frame(list, boxes, targets.width, targets.height, r.studio.cost.shadow_map_size);
   r.studio.bind_inputs(frame, r.materials);
-  r.mark("set-up");
+  lap(watch, Pass::set_up);
   r.shadow.draw(r.studio, pieces, frame);
-  r.mark("shadow");
+  lap(watch, Pass::shadow);
   r.background.draw(r.studio, list, frame, r.shadow.bounds());
-  r.mark("background");
+  lap(watch, Pass::background);
   const bool depth = std::any_of(list.lines.begin(), list.lines.end(), [](const LineItem& l) { return l.hidden_behind; });
   if (depth) {
     glDepthMask(GL_TRUE);
@@ -107,26 +95,20 @@ void Renderer::draw(const DrawList& list, Image& out) {
   for (int y = objects.y; y < objects.y + objects.height; y += targets.band_height) {
     const Rectangle band{objects.x, y, objects.width, std::min(targets.band_height, objects.y + objects.height - y)};
     draw_objects(r.studio, list, pieces, band);
-    r.mark("objects");
+    lap(watch, Pass::objects);
     light_objects(r.studio, list, band, depth);
-    r.mark("light");
+    lap(watch, Pass::light);
   }
   r.overlays.draw(list, targets.width, targets.height);
-  r.mark("lines");
+  lap(watch, Pass::lines);
   r.read(out);
-  r.mark("read-back");
+  lap(watch, Pass::read_back);
   draw_labels(list, out);
-  r.mark("labels");
+  lap(watch, Pass::labels);
 }
 
-std::string Renderer::timings() const {
-  std::string out;
-  double sum = 0;
-  for (const auto& [pass, ms] : impl_->spent) {
-    out += fmt::format("{} {:.1f} ms, ", pass, ms);
-    sum += ms;
-  }
-  return out + fmt::format("together {:.1f} ms", sum);
+const FrameCost& Renderer::cost() const {
+  return impl_->cost;
 }
 
 std::string gl_description() {
