@@ -106,6 +106,22 @@ TEST(Render, ListsCamerasAndPlansWithoutWritingAnything) {
   EXPECT_FALSE(std::filesystem::exists(folder / "ball.mp4"));
 }
 
+TEST(Render, TellsWhereTheTimeOfItsFramesWent) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  const Result plain = run(folder, small({"render", "ball.toml", "-o", "a.mp4", "--jobs", "2"}));
+  const Result told = run(folder, small({"render", "ball.toml", "-o", "b.mp4", "--jobs", "2", "--timings", "--json"}));
+  ASSERT_EQ(told.code, 0) << told.err;
+  EXPECT_EQ(contents(folder / "a.mp4"), contents(folder / "b.mp4"));
+  const Json timings = Json::parse(told.out).at("timings");
+  EXPECT_EQ(timings.at("workers"), 2);
+  EXPECT_GT(timings.at("first_frame_ms"), timings.at("frame_ms").at("background"));
+  for (const char* pass : {"background", "objects", "light", "encode"}) EXPECT_GT(timings.at("frame_ms").at(pass), 0.0) << pass;
+  const Result table = run(folder, small({"render", "ball.toml", "-o", "c.mp4", "--timings"}));
+  EXPECT_THAT(table.out, HasSubstr("processor time a frame"));
+  EXPECT_THAT(plain.out, testing::Not(HasSubstr("processor time")));
+}
+
 TEST(Render, AnotherCameraGivesAnotherPicture) {
   const Folder folder;
   folder.write("ball.toml", kBall);
