@@ -88,6 +88,7 @@ struct PlanLine {
   bool active = false;
   bool forced = false;
   std::string reason;
+  std::string left_out;  // what is not computed, with its bound
 };
 
 struct EffectCost {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/divergence.h"
-#include "engine/effects/effect.h"
+#include "engine/effects/effects.h"
 #include "engine/local_frame.h"
 #include "engine/recorder.h"
 #include "engine/step.h"
@@ -14,13 +14,15 @@ namespace {
 
 constexpr int kAskEvery = 100;  // steps between two calls of the caller's progress
 
-State initial_state(const Model& model) {
+State initial_state(const Model& model, const Plan& plan) {
+  const bool can_wait = std::find(plan.active.begin(), plan.active.end(), &kZeroConditionEffect) != plan.active.end();
+
   State state;
   for (const Body& body : model.bodies) {
     state.X_WB.push_back(body.X_WB);
     state.V_WB.push_back(body.fixed ? Twist{} : body.V_WB);
   }
-  for (const Person& person : model.persons) state.released.push_back(!person.zero_condition);
+  for (const Person& person : model.persons) state.released.push_back(!can_wait || !person.zero_condition);
   state.broken.assign(model.joints.size(), 0);
   for (const Vehicle& vehicle : model.vehicles) state.wheel_spin.resize(state.wheel_spin.size() + vehicle.wheels.size(), 0);
   return state;
@@ -45,7 +47,7 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
   Recording recording;
   describe(model, plan, recording);
   World world(model, plan, options);
-  State state = initial_state(model);
+  State state = initial_state(model, plan);
   close_joints(world, state);
   world.step = model.settings.step;
   world.dissipated.assign(plan.active.size(), 0);

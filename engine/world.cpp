@@ -2,13 +2,23 @@
 
 #include <algorithm>
 
-#include "engine/effects/effect.h"
+#include "engine/effects/effects.h"
 #include "engine/laws/compliant_contact.h"
 
 namespace engine {
 
+namespace {
+
+/// Joints that do not hold: none, or all when the effect is forced off.
+std::vector<char> apart(const Model& model, const Plan& plan) {
+  const bool held = model.joints.empty() || std::find(plan.active.begin(), plan.active.end(), &kJointsEffect) != plan.active.end();
+  return std::vector<char>(model.joints.size(), static_cast<char>(!held));
+}
+
+}  // namespace
+
 World::World(const Model& m, const Plan& p, const RunOptions& o)
-    : model(m), plan(p), options(o), topology(build_topology(m, {})), smooth(m), impulse(m), meter(o.clock) {
+    : model(m), plan(p), options(o), topology(build_topology(m, apart(m, p))), smooth(m), impulse(m), meter(o.clock) {
   for (const Effect* effect : p.active) meter.effects.push_back({effect->name, 0, 0});
   smooth.reset(topology);
   impulse.reset(topology);

@@ -13,6 +13,20 @@
 namespace cli {
 namespace {
 
+void print_columns(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (i == widths.size()) widths.push_back(0);
+      widths[i] = std::max(widths[i], row[i].size());
+    }
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("{:<{}}  ", row[i], widths[i]);
+    fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+  }
+}
+
 int plan(const SceneArguments& wish) {
   const scenes::Scene scene = load_scene(wish);
   const engine::Plan plan = plan_of(scene);
@@ -20,11 +34,12 @@ int plan(const SceneArguments& wish) {
     fmt::print("{}\n", plan_json(plan.lines).dump(2));
     return kDone;
   }
-  std::size_t width = 0;
-  for (const engine::PlanLine& line : plan.lines) width = std::max(width, line.effect.size());
-  for (const engine::PlanLine& line : plan.lines) {
-    fmt::print("{:<{}}  {:<3}  {}{}\n", line.effect, width, line.active ? "on" : "off", line.forced ? "forced: " : "", line.reason);
-  }
+  std::vector<std::vector<std::string>> rows = {{"effect", "", "", "why", "what is left out, and what that is worth"}};
+  for (const engine::PlanLine& line : plan.lines)
+    rows.push_back({line.effect, line.active ? "on" : "off", line.forced ? "forced" : "auto", line.reason,
+                    line.left_out.empty() ? "nothing" : line.left_out});
+  print_columns(rows);
+  for (const std::string& warning : scene.stage.warnings) fmt::print("warning: {}\n", warning);
   return kDone;
 }
 

@@ -127,6 +127,7 @@ Json plan_json(const std::vector<engine::PlanLine>& lines) {
   Json out = Json::array();
   for (const engine::PlanLine& line : lines) {
     out.push_back({{"effect", line.effect}, {"active", line.active}, {"forced", line.forced}, {"reason", line.reason}});
+    if (!line.left_out.empty()) out.back()["left_out"] = line.left_out;
   }
   return out;
 }

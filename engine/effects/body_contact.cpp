@@ -1,14 +1,21 @@
 // Hyper-ellipsoids of different persons, or free bodies, against each other.
 #include "engine/effects/body_pairs.h"
 #include "engine/effects/effects.h"
+#include "engine/effects/words.h"
 
 namespace engine {
 namespace {
 
-std::optional<std::string> called_for(const Model& model) {
+Finding look(const Model& model) {
   const std::size_t count = pairs_between_bodies(model, 0).size();
-  if (count == 0) return std::nullopt;
-  return std::to_string(count) + " pairs of hyper-ellipsoids of different persons or bodies";
+  if (count > 0)
+    return {true, counted(count, "pair") + " of segments or free bodies that are not one person's: " + round_bodies(model),
+            "pairs farther apart than they can travel in a step: exact"};
+  const std::string round = round_bodies(model);
+  if (round.empty()) return {false, "no person and no free body", ""};
+  return {false,
+          model.persons.size() == 1 ? "one person alone; its own segments meet by self_contact" : "no second one to meet: " + round,
+          ""};
 }
 
 void begin(World& world, const State&, int self) {
@@ -21,6 +28,6 @@ void find(World& world, const State& state, int self) {
 
 }  // namespace
 
-const Effect kBodyContactEffect{.name = "body_contact", .called_for = called_for, .begin = begin, .find_contacts = find};
+const Effect kBodyContactEffect{.name = "body_contact", .look = look, .begin = begin, .find_contacts = find};
 
 }  // namespace engine

@@ -8,6 +8,7 @@
 
 #include "engine/effects/bodywork_contact.h"
 #include "engine/effects/effects.h"
+#include "engine/effects/words.h"
 #include "engine/geometry/mesh_overlap.h"
 #include "engine/geometry/point_mesh.h"
 
@@ -19,27 +20,29 @@ constexpr double kDeepest = 0.15;     // [m] a point farther behind a surface ha
 constexpr int kRing = 24;             // points round a wheel
 constexpr double kUnderWheel = 0.75;  // [-] cosine to the vehicle's up axis: surfaces nearer to level belong to the suspension
 
-bool is_mesh(const Body& body) {
-  return std::holds_alternative<MeshShape>(body.shape);
-}
-
 bool can_meet(const Model& model, int a, int b) {
   const Body& A = model.bodies[a];
   const Body& B = model.bodies[b];
   if (!is_mesh(A) || !is_mesh(B) || (A.fixed && B.fixed) || (A.person >= 0 && A.person == B.person)) return false;
   if (model_between(A.collision_model, B.collision_model) == CollisionModel::kudlich_slibar) return false;
-  return std::none_of(model.joints.begin(), model.joints.end(),
-                      [&](const Joint& j) { return (j.parent == a && j.child == b) || (j.parent == b && j.child == a); });
+  return !jointed(model, a, b);
 }
 
-std::optional<std::string> called_for(const Model& model) {
-  const auto moving = std::count_if(model.bodies.begin(), model.bodies.end(), [](const Body& b) { return is_mesh(b) && !b.fixed; });
-  if (moving == 0) return std::nullopt;
-  long pairs = 0;
-  for (int a = 0; a < static_cast<int>(model.bodies.size()); ++a)
-    for (int b = a + 1; b < static_cast<int>(model.bodies.size()); ++b) pairs += can_meet(model, a, b);
-  if (pairs == 0 && !model.ground.plane && !model.ground.terrain) return std::nullopt;
-  return std::to_string(moving) + " meshes that can reach the ground, " + std::to_string(pairs) + " pairs of meshes";
+Finding look(const Model& model) {
+  std::vector<std::string> moving, pairs;
+  const int n = static_cast<int>(model.bodies.size());
+  for (int a = 0; a < n; ++a) {
+    if (is_mesh(model.bodies[a]) && !model.bodies[a].fixed) moving.push_back(model.bodies[a].name);
+    for (int b = a + 1; b < n; ++b)
+      if (can_meet(model, a, b)) pairs.push_back(model.bodies[a].name + " with " + model.bodies[b].name);
+  }
+  const bool ground = model.ground.plane || model.ground.terrain;
+  if (moving.empty()) return {false, "no vehicle and no other mesh that moves", ""};
+  if (pairs.empty() && !ground) return {false, "no ground, and no second mesh to meet", ""};
+  std::string reason = ground ? listed(moving) + " can touch the ground with its body (kerb, slope, rollover)" : "";
+  if (moving.size() > 1 && ground) reason = listed(moving) + " can touch the ground with their bodies (kerb, slope, rollover)";
+  if (!pairs.empty()) reason += (ground ? ", and " : "") + listed(pairs) + (ground ? "" : " can touch");
+  return {true, reason, "meshes whose boxes a step cannot bring together: exact"};
 }
 
 void begin(World& world, const State&, int) {
@@ -183,6 +186,6 @@ const std::vector<SurfaceContact>& contacts_of_meshes(World& world, const State&
   return world.point_contacts;
 }
 
-const Effect kBodyworkContactEffect{.name = "bodywork_contact", .called_for = called_for, .begin = begin, .find_contacts = find};
+const Effect kBodyworkContactEffect{.name = "bodywork_contact", .look = look, .begin = begin, .find_contacts = find};
 
 }  // namespace engine

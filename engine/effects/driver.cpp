@@ -1,27 +1,51 @@
+// What the driver asks of the wheels: pedals by the clock, the wheel angle by the clock or along a path.
 #include "engine/effects/driver.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "engine/effects/effects.h"
+#include "engine/effects/words.h"
+
 namespace engine {
+namespace {
 
-double brake_of(const Vehicle& vehicle, int wheel, double t) {
-  const double own = vehicle.wheels[wheel].brake_share;
-  double force = std::clamp(vehicle.brake.at(t), 0.0, 1.0) * vehicle.brake_force * own;
-  for (const DriverPhase& phase : vehicle.sequence)
-    if (!phase.drives) force += phase.level_at(t) * phase.force * (phase.share.empty() ? own : phase.share[wheel]);
-  return force;
+bool ever(const Schedule& schedule) {
+  return std::any_of(schedule.knots().begin(), schedule.knots().end(), [](const Schedule::Knot& k) { return k.value != 0; });
 }
 
-double drive_of(const Vehicle& vehicle, int wheel, double t) {
-  const auto driven = std::count_if(vehicle.wheels.begin(), vehicle.wheels.end(), [](const Wheel& w) { return w.driven; });
-  const double own = vehicle.wheels[wheel].driven ? 1 / static_cast<double>(driven) : 0;
-  double force = vehicle.drive_force.at(t) * own;
-  for (const DriverPhase& phase : vehicle.sequence)
-    if (phase.drives) force += phase.level_at(t) * phase.force * (phase.share.empty() ? own : phase.share[wheel]);
-  return force;
+/// What a driver does in the run, in words; empty: nothing.
+std::string acts_of(const Vehicle& vehicle) {
+  std::string out;
+  auto add = [&out](const std::string& act) { out += (out.empty() ? "" : ", ") + act; };
+  double brake = 0;
+  for (const Schedule::Knot& k : vehicle.brake.knots()) brake = std::max(brake, k.value * vehicle.brake_force);
+  bool drives = ever(vehicle.drive_force);
+  for (const DriverPhase& phase : vehicle.sequence) {
+    if (phase.drives) drives = true;
+    if (!phase.drives) brake = std::max(brake, phase.force);
+  }
+  if (brake > 0) add("brakes with up to " + number(1e-3 * brake) + " kN");
+  if (drives) add("drives");
+  if (vehicle.path.points.size() > 1) {
+    add("follows a path");
+  } else if (ever(vehicle.steer)) {
+    add("steers");
+  }
+  return out;
 }
 
+Finding look(const Model& model) {
+  std::string acts;
+  for (const Vehicle& vehicle : model.vehicles)
+    if (const std::string act = acts_of(vehicle); !act.empty()) acts += (acts.empty() ? "" : "; ") + vehicle.name + " " + act;
+  if (model.vehicles.empty()) return {false, "no vehicle", ""};
+  if (acts.empty()) return {false, "no vehicle is braked, driven or steered", ""};
+  return {true, acts, ""};
+}
+
+/// Pure pursuit: the circle through the middle of the unsteered wheels, along the vehicle's axis, that meets the path a preview
+/// ahead. Behind the end of the path the last segment goes on.
 void steer_along_path(World& world, const State& state, int v) {
   const Vehicle& vehicle = world.model.vehicles[v];
   const std::vector<Vec3>& path = vehicle.path.points;
@@ -62,5 +86,42 @@ void steer_along_path(World& world, const State& state, int v) {
   double& steer = world.path_steer[v];
   steer = std::clamp(std::clamp(wanted, steer - step, steer + step), -vehicle.path.largest, vehicle.path.largest);
 }
+
+void begin(World& world, const State&, int) {
+  world.path_steer.assign(world.model.vehicles.size(), 0);
+}
+
+void before_step(World& world, State& state, int) {
+  for (std::size_t v = 0; v < world.model.vehicles.size(); ++v) steer_along_path(world, state, static_cast<int>(v));
+  for (WheelState& wheel : world.wheels) {
+    const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
+    const bool follows = vehicle.path.points.size() > 1;
+    wheel.steer = follows ? world.path_steer[wheel.vehicle] : vehicle.steer.at(state.time);
+    if (!vehicle.wheels[wheel.wheel].steered) wheel.steer = 0;
+    wheel.brake = brake_of(vehicle, wheel.wheel, state.time);
+    wheel.drive = drive_of(vehicle, wheel.wheel, state.time);
+  }
+}
+
+}  // namespace
+
+double brake_of(const Vehicle& vehicle, int wheel, double t) {
+  const double own = vehicle.wheels[wheel].brake_share;
+  double force = std::clamp(vehicle.brake.at(t), 0.0, 1.0) * vehicle.brake_force * own;
+  for (const DriverPhase& phase : vehicle.sequence)
+    if (!phase.drives) force += phase.level_at(t) * phase.force * (phase.share.empty() ? own : phase.share[wheel]);
+  return force;
+}
+
+double drive_of(const Vehicle& vehicle, int wheel, double t) {
+  const auto driven = std::count_if(vehicle.wheels.begin(), vehicle.wheels.end(), [](const Wheel& w) { return w.driven; });
+  const double own = vehicle.wheels[wheel].driven ? 1 / static_cast<double>(driven) : 0;
+  double force = vehicle.drive_force.at(t) * own;
+  for (const DriverPhase& phase : vehicle.sequence)
+    if (phase.drives) force += phase.level_at(t) * phase.force * (phase.share.empty() ? own : phase.share[wheel]);
+  return force;
+}
+
+const Effect kDriverEffect{.name = "driver", .look = look, .begin = begin, .before_step = before_step};
 
 }  // namespace engine

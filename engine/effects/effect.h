@@ -2,7 +2,6 @@
 // Adding one is one file in this folder and one line in table.cpp.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 
@@ -10,10 +9,16 @@
 
 namespace engine {
 
+/// What a model has for an effect.
+struct Finding {
+  bool called_for = false;
+  std::string reason;    // the criterion with its value, whether it is called for or not
+  std::string left_out;  // what the effect, on or off, does not compute, and how much that is worth; empty: nothing
+};
+
 struct Effect {
   const char* name = "";
-  /// The sentence shown as the reason, or nothing when the model does not call for it.
-  std::optional<std::string> (*called_for)(const Model&) = nullptr;
+  Finding (*look)(const Model&) = nullptr;
   /// Once, before the first step: pairs, static loads. `self` is the effect's index in the plan.
   void (*begin)(World&, const State&, int self) = nullptr;
   /// Start of every step: inputs that follow the clock, dynamic pruning.

@@ -11,6 +11,7 @@ extern const Effect kJointsEffect;
 extern const Effect kJointLimitsEffect;
 extern const Effect kJointResistanceEffect;
 extern const Effect kJointLoopsEffect;
+extern const Effect kDriverEffect;
 extern const Effect kTyresEffect;
 extern const Effect kGroundContactEffect;
 extern const Effect kTerrainContactEffect;

@@ -1,11 +1,28 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "engine/effects/effects.h"
+#include "engine/effects/words.h"
 
 namespace engine {
 namespace {
 
-std::optional<std::string> called_for(const Model& model) {
-  if (model.settings.gravity.squaredNorm() == 0 || model.bodies.empty()) return std::nullopt;
-  return "gravity is not zero and there are bodies";
+Finding look(const Model& model) {
+  std::size_t moving = 0;
+  double mass = 0;
+  for (const Body& body : model.bodies) {
+    if (body.fixed) continue;
+    ++moving;
+    mass += body.mass;
+  }
+  const Vec3& g = model.settings.gravity;
+  if (moving == 0) return {false, "no body that can move", ""};
+  if (g.squaredNorm() == 0) return {false, "simulation.gravity is 0", ""};
+  std::string reason = number(g.norm()) + " m/s^2 on " + counted(moving, "body", "bodies") + ", " + number(mass) + " kg together";
+  const double slope = std::acos(std::clamp(-g.normalized().z(), -1.0, 1.0)) * 180 / std::numbers::pi;
+  if (slope > 1e-3) reason += "; the ground slopes by " + number(slope) + " deg";
+  return {true, reason, ""};
 }
 
 void add_forces(const World& world, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& force, int) {
@@ -18,6 +35,6 @@ void add_forces(const World& world, const std::vector<Pose>&, const std::vector<
 
 }  // namespace
 
-const Effect kGravityEffect{.name = "gravity", .called_for = called_for, .add_forces = add_forces};
+const Effect kGravityEffect{.name = "gravity", .look = look, .add_forces = add_forces};
 
 }  // namespace engine

@@ -1,20 +1,24 @@
 // Segments and free bodies on the ground plane, eq. (70) to (74).
 #include <algorithm>
+#include <limits>
 
 #include "engine/effects/effects.h"
+#include "engine/effects/words.h"
 #include "engine/geometry/hyper_ellipsoid_plane.h"
 
 namespace engine {
 namespace {
 
-bool has_surface(const Body& body) {
-  return !body.fixed && std::holds_alternative<HyperEllipsoid>(body.shape);
-}
-
-std::optional<std::string> called_for(const Model& model) {
-  const auto count = std::count_if(model.bodies.begin(), model.bodies.end(), has_surface);
-  if (!model.ground.plane || count == 0) return std::nullopt;
-  return "a ground plane and " + std::to_string(count) + " hyper-ellipsoids that can reach it";
+Finding look(const Model& model) {
+  const std::string round = round_bodies(model);
+  if (!model.ground.plane) return {false, "no ground plane", ""};
+  if (round.empty()) return {false, "no person and no free body; vehicles meet the ground by tyres and bodywork_contact", ""};
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Body& body : model.bodies)
+    if (is_round(body) && !body.fixed)
+      lowest = std::min(lowest, body.X_WB.p.z() - aabb_half_widths(std::get<HyperEllipsoid>(body.shape), body.X_WB.q).z());
+  return {true, round + " over the plane; the lowest point starts " + height_in_words(lowest - model.ground.height),
+          "bodies higher than a step can bring them down: exact"};
 }
 
 void find(World& world, const State& state, int self) {
@@ -39,6 +43,6 @@ void find(World& world, const State& state, int self) {
 
 }  // namespace
 
-const Effect kGroundContactEffect{.name = "ground_contact", .called_for = called_for, .find_contacts = find};
+const Effect kGroundContactEffect{.name = "ground_contact", .look = look, .find_contacts = find};
 
 }  // namespace engine

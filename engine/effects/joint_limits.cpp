@@ -1,7 +1,9 @@
 // Ends of the range of motion: one unilateral row per articulation angle near its end, restitution 0.
+#include <algorithm>
 #include <cmath>
 
 #include "engine/effects/effects.h"
+#include "engine/effects/words.h"
 #include "engine/solver/joint_angles.h"
 
 namespace engine {
@@ -14,12 +16,17 @@ bool has_limit(const ArticulationAngle& angle) {
   return std::isfinite(angle.lower) || std::isfinite(angle.upper);
 }
 
-std::optional<std::string> called_for(const Model& model) {
-  int count = 0;
-  for (const Joint& joint : model.joints)
-    for (const ArticulationAngle& angle : joint.angles) count += has_limit(angle);
-  if (count == 0) return std::nullopt;
-  return std::to_string(count) + " articulation angles have a limit";
+Finding look(const Model& model) {
+  std::size_t angles = 0, joints = 0;
+  for (const Joint& joint : model.joints) {
+    const auto of_joint = std::count_if(joint.angles.begin(), joint.angles.end(), has_limit);
+    angles += static_cast<std::size_t>(of_joint);
+    joints += of_joint > 0;
+  }
+  if (model.joints.empty()) return {false, "no joints", ""};
+  if (angles == 0) return {false, counted(model.joints.size(), "joint") + ", none with a range of motion", ""};
+  return {true, counted(angles, "articulation angle") + " of " + counted(joints, "joint") + " with an end to the range of motion",
+          "ends out of reach of a step; one passed by more than 0.4 deg has the step taken again in halves"};
 }
 
 void add_limit(World& world, const Joint& joint, int joint_index, int angle, bool upper, double gap, const Vec3& gradient_W,
@@ -62,6 +69,6 @@ void find(World& world, const State& state, int self) {
 
 }  // namespace
 
-const Effect kJointLimitsEffect{.name = "joint_limits", .called_for = called_for, .find_limits = find};
+const Effect kJointLimitsEffect{.name = "joint_limits", .look = look, .find_limits = find};
 
 }  // namespace engine

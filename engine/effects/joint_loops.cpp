@@ -1,7 +1,10 @@
 // Joints that close a ring (a rider's hands on a bar): bilateral rows solved with the contacts.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/effects/effects.h"
+#include "engine/effects/words.h"
 #include "engine/solver/joint_rows.h"
 
 namespace engine {
@@ -14,10 +17,22 @@ constexpr double kCorrection = 0.2;  // [-] share of the ring's gap taken out pe
 // of its own, and rounding divided by rounding would be its impulse
 constexpr double kGive = 5e-9;
 
-std::optional<std::string> called_for(const Model& model) {
-  const std::size_t count = build_topology(model, {}).loops.size();
-  if (count == 0) return std::nullopt;
-  return std::to_string(count) + " joints close a loop or can break";
+Finding look(const Model& model) {
+  const std::vector<int> loops = build_topology(model, {}).loops;
+  if (model.joints.empty()) return {false, "no joints", ""};
+  if (loops.empty()) return {false, counted(model.joints.size(), "joint") + ": none closes a ring, none can break", ""};
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t breakable = 0;
+  for (const int j : loops) {
+    least = std::min(least, model.joints[j].breaking_force);
+    breakable += std::isfinite(model.joints[j].breaking_force);
+  }
+  std::string reason;
+  if (breakable > 0)
+    reason = counted(breakable, "joint") + " that can break, from " + number(1e-3 * least) + " kN on (mean over 10 ms)";
+  if (loops.size() > breakable)
+    reason += (reason.empty() ? "" : ", ") + counted(loops.size() - breakable, "joint closes", "joints close") + " a ring";
+  return {true, reason, ""};
 }
 
 /// Response [1/kg] of a row if its bodies were free of joints.
@@ -88,7 +103,6 @@ void begin(World& world, const State&, int) {
 
 }  // namespace
 
-const Effect kJointLoopsEffect{
-    .name = "joint_loops", .called_for = called_for, .begin = begin, .find = find, .after_step = after_step};
+const Effect kJointLoopsEffect{.name = "joint_loops", .look = look, .begin = begin, .find = find, .after_step = after_step};
 
 }  // namespace engine

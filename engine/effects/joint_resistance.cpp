@@ -5,6 +5,7 @@
 
 #include "engine/effects/effects.h"
 #include "engine/effects/passive_legs.h"
+#include "engine/effects/words.h"
 #include "engine/solver/joint_angles.h"
 
 namespace engine {
@@ -20,10 +21,27 @@ bool resists(const Joint& joint) {
          std::any_of(joint.angles.begin(), joint.angles.end(), [](auto& a) { return resists(a); });
 }
 
-std::optional<std::string> called_for(const Model& model) {
-  const auto count = std::count_if(model.joints.begin(), model.joints.end(), [](const Joint& j) { return resists(j); });
-  if (count == 0) return std::nullopt;
-  return std::to_string(count) + " joints have a spring, damping, friction or passive torque";
+Finding look(const Model& model) {
+  std::size_t all = 0, springs = 0, dampers = 0, frictions = 0, passive = 0;
+  for (const Joint& joint : model.joints) {
+    auto any = [&](auto resists_by) { return std::any_of(joint.angles.begin(), joint.angles.end(), resists_by); };
+    all += resists(joint);
+    springs += any([](const ArticulationAngle& a) { return a.stiffness > 0; });
+    dampers += any([](const ArticulationAngle& a) { return a.damping > 0; });
+    frictions += any([](const ArticulationAngle& a) { return a.friction_torque > 0; });
+    passive += joint.passive != PassiveTorque::none;
+  }
+  if (model.joints.empty()) return {false, "no joints", ""};
+  if (all == 0) return {false, counted(model.joints.size(), "joint") + ", all of which turn freely", ""};
+  std::string how;
+  auto add = [&](std::size_t count, const char* what) {
+    if (count > 0) how += (how.empty() ? "" : ", ") + std::to_string(count) + " by " + what;
+  };
+  add(springs, "a spring");
+  add(dampers, "damping");
+  add(frictions, "friction torque");
+  add(passive, "the passive torque of a leg");
+  return {true, counted(all, "joint") + " of " + std::to_string(model.joints.size()) + " that resist: " + how, ""};
 }
 
 /// Schemes rk4 and adaptive evaluate springs and dampers anew in each stage, unless the damping is too stiff for an explicit scheme
@@ -148,7 +166,7 @@ void resist(World& world, const State& state, int self) {
 }  // namespace
 
 const Effect kJointResistanceEffect{.name = "joint_resistance",
-                                    .called_for = called_for,
+                                    .look = look,
                                     .begin = begin,
                                     .before_step = before_step,
                                     .add_forces = add_forces,

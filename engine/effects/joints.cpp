@@ -1,16 +1,26 @@
-// Joints are conditions of the factorisation itself; this effect names them in the plan. They cannot be had without it.
+// Joints are conditions of the factorisation itself; this effect names them in the plan. Without it
+// the bodies come apart.
+#include <iterator>
+
 #include "engine/effects/effects.h"
+#include "engine/effects/words.h"
 
 namespace engine {
 namespace {
 
-std::optional<std::string> called_for(const Model& model) {
-  if (model.joints.empty()) return std::nullopt;
-  return std::to_string(model.joints.size()) + " joints hold bodies together";
+Finding look(const Model& model) {
+  if (model.joints.empty()) return {false, "no joints", ""};
+  constexpr const char* kNames[] = {"revolute", "universal", "spherical", "spherical with limits", "rigid"};
+  std::size_t count[std::size(kNames)] = {};
+  for (const Joint& joint : model.joints) ++count[static_cast<std::size_t>(joint.kind)];
+  std::string kinds;
+  for (std::size_t k = 0; k < std::size(kNames); ++k)
+    if (count[k] > 0) kinds += (kinds.empty() ? "" : ", ") + std::to_string(count[k]) + " " + kNames[k];
+  return {true, counted(model.joints.size(), "joint") + ": " + kinds, ""};
 }
 
 }  // namespace
 
-const Effect kJointsEffect{.name = "joints", .called_for = called_for};
+const Effect kJointsEffect{.name = "joints", .look = look};
 
 }  // namespace engine

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/effects/effects.h"
+#include "engine/effects/words.h"
 #include "engine/geometry/mesh_overlap.h"
 #include "engine/solver/kudlich_slibar.h"
 
@@ -13,11 +14,6 @@ namespace {
 
 constexpr double kSteep = 0.5;      // [-] cosine in plan below which a settled normal says little about left and right
 constexpr double kSecondary = 0.1;  // [m/s] bodies that lie against each other and close slower have no further impact
-
-bool jointed(const Model& model, int a, int b) {
-  return std::any_of(model.joints.begin(), model.joints.end(),
-                     [&](const Joint& j) { return (j.parent == a && j.child == b) || (j.parent == b && j.child == a); });
-}
 
 std::vector<ImpactPair> pairs_of(const Model& model) {
   std::vector<ImpactPair> out;
@@ -39,10 +35,20 @@ std::vector<ImpactPair> pairs_of(const Model& model) {
   return out;
 }
 
-std::optional<std::string> called_for(const Model& model) {
-  const std::size_t count = pairs_of(model).size();
-  if (count == 0) return std::nullopt;
-  return std::to_string(count) + " pairs of meshes that both ask for Kudlich-Slibar";
+Finding look(const Model& model) {
+  std::vector<std::string> pairs;
+  for (const ImpactPair& pair : pairs_of(model))
+    pairs.push_back(model.bodies[pair.a].name + " with " + model.bodies[pair.b].name + " (exchange " +
+                    number(1e3 * pair.settings.penetration_time) + " ms after the touch)");
+  if (!pairs.empty()) return {true, "both ask for it: " + listed(pairs), "meshes whose spheres are apart: exact"};
+  const auto meshes = std::count_if(model.bodies.begin(), model.bodies.end(), is_mesh);
+  if (meshes == 0) return {false, "no vehicle and no other mesh", ""};
+  if (meshes == 1) return {false, "one mesh alone", ""};
+  const auto asking = static_cast<std::size_t>(std::count_if(model.bodies.begin(), model.bodies.end(), [](const Body& b) {
+    return is_mesh(b) && b.collision_model == CollisionModel::kudlich_slibar;
+  }));
+  return {false,
+          counted(asking, "mesh asks", "meshes ask") + " for it, it takes two that can meet; others meet by bodywork_contact", ""};
 }
 
 void begin(World& world, const State&, int) {
@@ -168,6 +174,6 @@ void before_step(World& world, State& state, int self) {
 
 }  // namespace
 
-const Effect kKudlichSlibarEffect{.name = "kudlich_slibar", .called_for = called_for, .begin = begin, .before_step = before_step};
+const Effect kKudlichSlibarEffect{.name = "kudlich_slibar", .look = look, .begin = begin, .before_step = before_step};
 
 }  // namespace engine

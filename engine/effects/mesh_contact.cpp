@@ -2,28 +2,35 @@
 #include <algorithm>
 
 #include "engine/effects/effects.h"
+#include "engine/effects/words.h"
 
 namespace engine {
 namespace {
 
-bool is_round(const Body& body) {
-  return std::holds_alternative<HyperEllipsoid>(body.shape);
-}
-bool is_mesh(const Body& body) {
-  return std::holds_alternative<MeshShape>(body.shape);
-}
 bool can_meet(const Body& round, const Body& mesh) {
   // a rider and what it rides overlap where it sits: its joints hold the two apart
   const bool rides = round.person >= 0 && round.person == mesh.person;
   return is_round(round) && is_mesh(mesh) && !rides && !(round.fixed && mesh.fixed);
 }
 
-std::optional<std::string> called_for(const Model& model) {
-  long pairs = 0;
-  for (const Body& round : model.bodies)
-    for (const Body& mesh : model.bodies) pairs += can_meet(round, mesh);
-  if (pairs == 0) return std::nullopt;
-  return std::to_string(pairs) + " pairs of a hyper-ellipsoid and a mesh (vehicle or body)";
+Finding look(const Model& model) {
+  std::size_t pairs = 0, riding = 0, meshes = 0, rounds = 0;
+  std::vector<std::string> names;
+  for (const Body& mesh : model.bodies) {
+    rounds += is_round(mesh);
+    if (!is_mesh(mesh)) continue;
+    ++meshes;
+    const auto meets = std::count_if(model.bodies.begin(), model.bodies.end(), [&](const Body& b) { return can_meet(b, mesh); });
+    pairs += static_cast<std::size_t>(meets);
+    if (meets > 0) names.push_back(mesh.name);
+    for (const Body& b : model.bodies) riding += is_round(b) && b.person >= 0 && b.person == mesh.person;
+  }
+  if (rounds == 0) return {false, "no person and no free body", ""};
+  if (meshes == 0) return {false, "no vehicle and no other mesh", ""};
+  if (pairs == 0) return {false, "no mesh but what the person rides", ""};
+  std::string left_out = "pairs farther apart than they can travel in a step: exact";
+  if (riding > 0) left_out += "; " + counted(riding, "pair") + " of a rider and its mount, whose joints hold them apart";
+  return {true, counted(pairs, "pair") + " of a segment or free body and " + listed(names), left_out};
 }
 
 void begin(World& world, const State&, int self) {
@@ -57,6 +64,6 @@ void find(World& world, const State& state, int self) {
 
 }  // namespace
 
-const Effect kMeshContactEffect{.name = "mesh_contact", .called_for = called_for, .begin = begin, .find_contacts = find};
+const Effect kMeshContactEffect{.name = "mesh_contact", .look = look, .begin = begin, .find_contacts = find};
 
 }  // namespace engine

@@ -1,14 +1,27 @@
 // Segments of one person against each other, jointed pairs and pairs that overlap in the start pose left out.
 #include "engine/effects/body_pairs.h"
 #include "engine/effects/effects.h"
+#include "engine/effects/words.h"
 
 namespace engine {
 namespace {
 
-std::optional<std::string> called_for(const Model& model) {
+Finding look(const Model& model) {
+  if (model.persons.empty()) return {false, "no person", ""};
   const std::size_t count = pairs_within_persons(model, 0).size();
-  if (count == 0) return std::nullopt;
-  return std::to_string(count) + " pairs of segments of one person are not joined";
+  std::size_t all = 0, joined = 0;
+  for (const Person& person : model.persons)
+    for (std::size_t i = 0; i < person.bodies.size(); ++i)
+      for (std::size_t k = i + 1; k < person.bodies.size(); ++k) {
+        if (!is_round(model.bodies[person.bodies[i]]) || !is_round(model.bodies[person.bodies[k]])) continue;
+        ++all;
+        joined += jointed(model, person.bodies[i], person.bodies[k]);
+      }
+  const std::size_t overlapping = all - joined - count;
+  std::string left_out = counted(joined, "pair") + " that a joint holds";
+  if (overlapping > 0) left_out += ", " + counted(overlapping, "pair") + " inside each other in the start pose";
+  if (count == 0) return {false, "no two segments of a person that could touch", left_out};
+  return {true, counted(count, "pair") + " of segments of the same person, of " + std::to_string(all), left_out};
 }
 
 void begin(World& world, const State&, int self) {
@@ -21,6 +34,6 @@ void find(World& world, const State& state, int self) {
 
 }  // namespace
 
-const Effect kSelfContactEffect{.name = "self_contact", .called_for = called_for, .begin = begin, .find_contacts = find};
+const Effect kSelfContactEffect{.name = "self_contact", .look = look, .begin = begin, .find_contacts = find};
 
 }  // namespace engine

@@ -7,9 +7,9 @@ namespace engine {
 
 std::span<const Effect* const> effect_table() {
   static constexpr std::array kTable{
-      &kZeroConditionEffect, &kGravityEffect,     &kJointsEffect,          &kJointLimitsEffect,    &kJointResistanceEffect,
-      &kJointLoopsEffect,    &kTyresEffect,       &kGroundContactEffect,   &kTerrainContactEffect, &kMeshContactEffect,
-      &kSelfContactEffect,   &kBodyContactEffect, &kBodyworkContactEffect, &kKudlichSlibarEffect,
+      &kZeroConditionEffect, &kGravityEffect,     &kJointsEffect,      &kJointLimitsEffect,     &kJointResistanceEffect,
+      &kJointLoopsEffect,    &kDriverEffect,      &kTyresEffect,       &kGroundContactEffect,   &kTerrainContactEffect,
+      &kMeshContactEffect,   &kSelfContactEffect, &kBodyContactEffect, &kBodyworkContactEffect, &kKudlichSlibarEffect,
   };
   return kTable;
 }
@@ -17,13 +17,16 @@ std::span<const Effect* const> effect_table() {
 Plan compile(const Model& model) {
   Plan plan;
   for (const Effect* effect : effect_table()) {
-    const auto reason = effect->called_for(model);
+    const Finding found = effect->look(model);
     const auto forced = model.settings.effects.find(effect->name);
     const Force force = forced == model.settings.effects.end() ? Force::automatic : forced->second;
-    PlanLine line{effect->name, force == Force::on || (force == Force::automatic && reason), force != Force::automatic,
-                  reason.value_or("nothing in the scene calls for it")};
-    if (force == Force::off) line.reason = "forced off by the scene" + (reason ? "; it is called for: " + *reason : std::string());
-    if (force == Force::on && !reason) line.reason = "forced on by the scene; nothing calls for it";
+    PlanLine line{effect->name, force == Force::on || (force == Force::automatic && found.called_for), force != Force::automatic,
+                  found.reason, found.left_out};
+    if (force == Force::off && found.called_for) {
+      line.reason = "switched off by the author; the scene calls for it: " + found.reason;
+      line.left_out = "all of it, without a bound: this is not the scene's result";
+    }
+    if (force == Force::on && !found.called_for) line.reason = "switched on by the author, with nothing to do: " + found.reason;
     if (line.active) plan.active.push_back(effect);
     plan.lines.push_back(std::move(line));
   }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "engine/effects/effects.h"
+#include "engine/effects/words.h"
 
 namespace engine {
 namespace {
@@ -10,11 +11,12 @@ bool has_surface(const Body& body) {
   return !body.fixed && std::holds_alternative<HyperEllipsoid>(body.shape);
 }
 
-std::optional<std::string> called_for(const Model& model) {
-  const auto count = std::count_if(model.bodies.begin(), model.bodies.end(), has_surface);
-  if (!model.ground.terrain || count == 0) return std::nullopt;
-  return "a terrain of " + std::to_string(model.ground.terrain->triangles().size()) + " triangles and " + std::to_string(count) +
-         " hyper-ellipsoids that can reach it";
+Finding look(const Model& model) {
+  const std::string round = round_bodies(model);
+  if (!model.ground.terrain) return {false, "no terrain mesh", ""};
+  if (round.empty()) return {false, "no person and no free body; vehicles meet the terrain by tyres and bodywork_contact", ""};
+  return {true, round + " over a terrain of " + counted(model.ground.terrain->triangles().size(), "triangle"),
+          "bodies farther from it than they can travel in a step: exact"};
 }
 
 void begin(World& world, const State&, int self) {
@@ -45,6 +47,6 @@ void find(World& world, const State& state, int self) {
 
 }  // namespace
 
-const Effect kTerrainContactEffect{.name = "terrain_contact", .called_for = called_for, .begin = begin, .find_contacts = find};
+const Effect kTerrainContactEffect{.name = "terrain_contact", .look = look, .begin = begin, .find_contacts = find};
 
 }  // namespace engine

@@ -2,10 +2,11 @@
 // the one impulse solve, the spring soft (implicit), so a braked car stands on a slope without creeping.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "engine/effects/driver.h"
 #include "engine/effects/effects.h"
 #include "engine/effects/static_loads.h"
+#include "engine/effects/words.h"
 #include "engine/laws/tyre.h"
 
 namespace engine {
@@ -14,15 +15,26 @@ namespace {
 constexpr double kFacing = 0.2;  // [-] cosine to the ground's normal below which a wheel rolls on nothing: the car lies on its side
 constexpr double kStopStiffness = 10;  // [-] times the spring's, beyond the travel
 
-std::optional<std::string> called_for(const Model& model) {
+Finding look(const Model& model) {
   std::size_t count = 0;
-  for (const Vehicle& vehicle : model.vehicles) count += vehicle.wheels.size();
-  if (count == 0 || (!model.ground.plane && !model.ground.terrain)) return std::nullopt;
-  return std::to_string(count) + " wheels stand on the ground";
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  std::vector<std::string> names;
+  for (const Vehicle& vehicle : model.vehicles) {
+    count += vehicle.wheels.size();
+    if (!vehicle.wheels.empty()) names.push_back(vehicle.name);
+    for (const Wheel& wheel : vehicle.wheels) {
+      low = std::min(low, wheel.friction);
+      high = std::max(high, wheel.friction);
+    }
+  }
+  if (model.vehicles.empty()) return {false, "no vehicle", ""};
+  if (count == 0) return {false, "no vehicle with wheels", ""};
+  if (!model.ground.plane && !model.ground.terrain) return {false, counted(count, "wheel") + ", but no ground to roll on", ""};
+  const std::string friction = low == high ? number(low) : number(low) + " to " + number(high);
+  return {true, counted(count, "wheel") + " of " + listed(names) + ", tyre friction " + friction, ""};
 }
 
 void begin(World& world, const State&, int) {
-  world.path_steer.assign(world.model.vehicles.size(), 0);
   const std::vector<double> loads = static_wheel_loads(world.model, world.topology);
   for (int v = 0; v < static_cast<int>(world.model.vehicles.size()); ++v)
     for (int w = 0; w < static_cast<int>(world.model.vehicles[v].wheels.size()); ++w) {
@@ -138,10 +150,6 @@ void find(World& world, const State& state, int self) {
     const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
     const Wheel& spec = vehicle.wheels[wheel.wheel];
     const Pose& X = state.X_WB[vehicle.body];
-    const bool follows = vehicle.path.points.size() > 1;
-    wheel.steer = !spec.steered ? 0 : (follows ? world.path_steer[wheel.vehicle] : vehicle.steer.at(state.time));
-    wheel.brake = brake_of(vehicle, wheel.wheel, state.time);
-    wheel.drive = drive_of(vehicle, wheel.wheel, state.time);
     const Vec3 hub_static = X * spec.hub_B;
     const Vec3 down = -(X.q * Vec3::UnitZ());
     const double droop = droop_of(spec, wheel.static_load);
@@ -157,10 +165,6 @@ void find(World& world, const State& state, int self) {
   // what the springs took or gave since the last look is not lost: it leaves the dampers' account
   world.dissipated[self] -= energy - world.spring_energy;
   world.spring_energy = energy;
-}
-
-void before_step(World& world, State& state, int) {
-  for (std::size_t v = 0; v < world.model.vehicles.size(); ++v) steer_along_path(world, state, static_cast<int>(v));
 }
 
 void after_step(World& world, State& state, int) {
@@ -183,7 +187,6 @@ void after_step(World& world, State& state, int) {
 
 }  // namespace
 
-const Effect kTyresEffect{
-    .name = "tyres", .called_for = called_for, .begin = begin, .before_step = before_step, .find = find, .after_step = after_step};
+const Effect kTyresEffect{.name = "tyres", .look = look, .begin = begin, .find = find, .after_step = after_step};
 
 }  // namespace engine

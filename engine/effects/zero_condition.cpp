@@ -4,15 +4,21 @@
 
 #include "engine/effects/bodywork_contact.h"
 #include "engine/effects/effects.h"
+#include "engine/effects/words.h"
 #include "engine/geometry/hyper_ellipsoid_pair.h"
 
 namespace engine {
 namespace {
 
-std::optional<std::string> called_for(const Model& model) {
-  const auto count = std::count_if(model.persons.begin(), model.persons.end(), [](const Person& p) { return p.zero_condition; });
-  if (count == 0) return std::nullopt;
-  return std::to_string(count) + " persons keep their pose until the first external impact";
+Finding look(const Model& model) {
+  std::vector<std::string> waiting;
+  for (const Person& person : model.persons)
+    if (person.zero_condition) waiting.push_back(person.name);
+  if (model.persons.empty()) return {false, "no person", ""};
+  if (waiting.empty()) return {false, "zero_condition = false for " + counted(model.persons.size(), "person"), ""};
+  const std::string keep = waiting.size() == 1 ? " keeps pose and speed" : " keep pose and speed";
+  return {true, listed(waiting) + keep + " until something other than the support touches",
+          "until then gravity, joints and support, which are taken to be in balance"};
 }
 
 bool waits(const World& world, const State& state, int body) {
@@ -93,7 +99,6 @@ void after_step(World& world, State& state, int) {
 
 }  // namespace
 
-const Effect kZeroConditionEffect{
-    .name = "zero_condition", .called_for = called_for, .before_step = before_step, .after_step = after_step};
+const Effect kZeroConditionEffect{.name = "zero_condition", .look = look, .before_step = before_step, .after_step = after_step};
 
 }  // namespace engine
