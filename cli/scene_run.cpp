@@ -88,11 +88,11 @@ engine::Plan plan_of(const scenes::Scene& scene) {
   return plan;
 }
 
-engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan, const SceneArguments& wish) {
+engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan, const SceneArguments& wish, Costs costs) {
   if (wish.verbose) tell_plan(plan);
   Progress progress("simulate", "s", scene.model.settings.duration, progress_of(wish));
   engine::RunOptions options;
-  options.clock = clock_seconds;
+  if (costs == Costs::timed || wish.verbose) options.clock = clock_seconds;
   options.progress = [&progress](double time) {
     progress.at(time);
     return !interrupted();

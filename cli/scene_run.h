@@ -36,8 +36,11 @@ scenes::Scene load_scene(const SceneArguments&);
 /// The plan of a loaded scene. Throws UsageError for an effect that does not exist.
 engine::Plan plan_of(const scenes::Scene&);
 
-/// Runs the scene with progress and clock. A divergence is told on standard error; exit_code_of says how the program should end.
-engine::Recording run_scene(const scenes::Scene&, const engine::Plan&, const SceneArguments&);
+/// Whether a run takes the time of each effect; --verbose does too.
+enum class Costs { counted, timed };
+
+/// Runs the scene with progress. A divergence is told on standard error; exit_code_of says how the program should end.
+engine::Recording run_scene(const scenes::Scene&, const engine::Plan&, const SceneArguments&, Costs = Costs::counted);
 int exit_code_of(const engine::Recording&);
 
 }  // namespace cli

@@ -1,4 +1,4 @@
-// crashreel plan SCENE: which physical effects the scene calls for, and why; which it does not.
+// crashreel plan SCENE: which physical effects the scene calls for, and why; which it does not; with --measure what each costs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,42 @@
 namespace cli {
 namespace {
 
-void print_columns(const std::vector<std::vector<std::string>>& rows) {
+using Json = nlohmann::ordered_json;
+using Rows = std::vector<std::vector<std::string>>;
+
+struct PlanWish {
+  SceneArguments scene;
+  bool measure = false;
+};
+
+/// What an effect or a part of the step cost in a run.
+struct Cost {
+  long calls = 0;
+  double us_per_step = 0;
+  double share = 0;  // of the run
+};
+
+Cost cost_of(const engine::Recording& run, const std::vector<engine::EffectCost>& costs, const std::string& name) {
+  double all = 0;
+  for (const auto* list : {&run.costs, &run.phases})
+    for (const engine::EffectCost& cost : *list) all += cost.wall_s;
+  for (const engine::EffectCost& cost : costs) {
+    if (cost.effect != name) continue;
+    const double steps = std::max(1.0, static_cast<double>(run.steps));
+    return {cost.calls, 1e6 * cost.wall_s / steps, all > 0 ? cost.wall_s / all : 0};
+  }
+  return {};
+}
+
+const char* words_of_phase(const std::string& phase) {
+  if (phase == "integration") return "smooth motion in four stages, joints solved in each";
+  if (phase == "impulses") return "contacts, limits, wheels and joint resistance in one solve";
+  if (phase == "joint_projection") return "drift of the joints taken out";
+  if (phase == "recording") return "snapshots, events and energies";
+  return "the step's own housekeeping and the start of the run";
+}
+
+void print_columns(const Rows& rows) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows)
     for (std::size_t i = 0; i < row.size(); ++i) {
@@ -27,27 +62,84 @@ void print_columns(const std::vector<std::vector<std::string>>& rows) {
   }
 }
 
-int plan(const SceneArguments& wish) {
-  const scenes::Scene scene = load_scene(wish);
-  const engine::Plan plan = plan_of(scene);
-  if (wish.json) {
-    fmt::print("{}\n", plan_json(plan.lines).dump(2));
-    return kDone;
+std::vector<std::string> words_of(const Cost& cost) {
+  return {fmt::format("{:>8}", cost.calls), fmt::format("{:>7.2f}", cost.us_per_step), fmt::format("{:>5.1f} %", 100 * cost.share)};
+}
+
+void print_plan(const std::vector<engine::PlanLine>& lines, const engine::Recording* run) {
+  Rows rows = {{"effect", "", "", "why", "what is left out, and what that is worth"}};
+  const std::vector<std::string> head = {"   calls", "us/step", "  share"};
+  if (run) rows[0].insert(rows[0].begin() + 3, head.begin(), head.end());
+  for (const engine::PlanLine& line : lines) {
+    std::vector<std::string> row = {line.effect, line.active ? "on" : "off", line.forced ? "forced" : "auto", line.reason,
+                                    line.left_out.empty() ? "nothing" : line.left_out};
+    if (run) {
+      const std::vector<std::string> cost = words_of(cost_of(*run, run->costs, line.effect));
+      row.insert(row.begin() + 3, cost.begin(), cost.end());
+    }
+    rows.push_back(row);
   }
-  std::vector<std::vector<std::string>> rows = {{"effect", "", "", "why", "what is left out, and what that is worth"}};
-  for (const engine::PlanLine& line : plan.lines)
-    rows.push_back({line.effect, line.active ? "on" : "off", line.forced ? "forced" : "auto", line.reason,
-                    line.left_out.empty() ? "nothing" : line.left_out});
   print_columns(rows);
-  for (const std::string& warning : scene.stage.warnings) fmt::print("warning: {}\n", warning);
+  if (!run) return;
+
+  rows = {{"for all effects", head[0], head[1], head[2], ""}};
+  double all = 0;
+  for (const engine::EffectCost& cost : run->costs) all += cost_of(*run, run->costs, cost.effect).us_per_step;
+  for (const engine::EffectCost& phase : run->phases) {
+    const Cost cost = cost_of(*run, run->phases, phase.effect);
+    all += cost.us_per_step;
+    std::vector<std::string> row = words_of(cost);
+    row.insert(row.begin(), phase.effect);
+    row.push_back(words_of_phase(phase.effect));
+    rows.push_back(row);
+  }
+  fmt::print("\n");
+  print_columns(rows);
+  fmt::print("\n{} steps, {:.2f} us each, {:.4g} s simulated\n", run->steps, all, run->end_time());
+}
+
+Json measured_json(const engine::Recording& run) {
+  const auto with = [](Json line, const Cost& cost) {
+    line["calls"] = cost.calls;
+    line["us_per_step"] = cost.us_per_step;
+    line["share"] = cost.share;
+    return line;
+  };
+  Json out;
+  for (const Json& line : plan_json(run.plan)) out["plan"].push_back(with(line, cost_of(run, run.costs, line["effect"])));
+  for (const engine::EffectCost& phase : run.phases)
+    out["phases"].push_back(with({{"phase", phase.effect}}, cost_of(run, run.phases, phase.effect)));
+  out["steps"] = run.steps;
+  out["simulated_s"] = run.end_time();
+  return out;
+}
+
+int plan(const PlanWish& wish) {
+  const scenes::Scene scene = load_scene(wish.scene);
+  const engine::Plan plan = plan_of(scene);
+  if (wish.measure) {
+    const engine::Recording run = run_scene(scene, plan, wish.scene, Costs::timed);
+    if (wish.scene.json)
+      fmt::print("{}\n", measured_json(run).dump(2));
+    else
+      print_plan(run.plan, &run);
+    return exit_code_of(run);
+  }
+  if (wish.scene.json)
+    fmt::print("{}\n", plan_json(plan.lines).dump(2));
+  else
+    print_plan(plan.lines, nullptr);
   return kDone;
 }
 
 }  // namespace
 
 std::function<int()> declare_plan(Arguments& arguments) {
-  const auto wish = std::make_shared<SceneArguments>();
-  declare_scene(arguments, *wish);
+  const auto wish = std::make_shared<PlanWish>();
+  declare_scene(arguments, wish->scene);
+  declare_progress(arguments, wish->scene);
+  arguments.flag("--measure", wish->measure,
+                 "run the scene and tell calls, microseconds a step and share of the run of each effect");
   return [wish] { return plan(*wish); };
 }
 

@@ -70,7 +70,7 @@ int simulate(const SimulateWish& wish, const Arguments& arguments) {
     int none = 0;
     hold_to_memory(estimate_results(scene, plan_of(scene)), parse_bytes("--max-memory", wish.max_memory), none, wish.scene.quiet);
   }
-  const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
+  const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene, Costs::timed);
   const std::vector<engine::Metric> metrics = engine::measure(scene.model, recording);
   nlohmann::ordered_json summary = summary_json(scene, recording, metrics);
   summary["fingerprint"] = mark;

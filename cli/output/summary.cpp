@@ -114,11 +114,16 @@ Json cost_json(const engine::Recording& recording) {
   for (const engine::EffectCost& cost : recording.costs) {
     effects.push_back({{"effect", cost.effect}, {"calls", cost.calls}, {"wall_s", cost.wall_s}});
   }
+  Json phases = Json::array();
+  for (const engine::EffectCost& cost : recording.phases) {
+    phases.push_back({{"phase", cost.effect}, {"calls", cost.calls}, {"wall_s", cost.wall_s}});
+  }
   return {{"steps", recording.steps},
           {"wall_s", recording.wall_s},
           {"steps_per_s", per_second(static_cast<double>(recording.steps), recording.wall_s)},
           {"realtime_factor", per_second(recording.end_time(), recording.wall_s)},
-          {"effects", effects}};
+          {"effects", effects},
+          {"phases", phases}};
 }
 
 }  // namespace

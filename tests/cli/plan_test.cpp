@@ -1,0 +1,56 @@
+// The plan a user reads: every row says why, what it leaves out, and with --measure what it costs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+
+using namespace cli_tests;
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+TEST(Plan, NamesTheCriterionOfEveryRow) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  const Result result = run(folder, {"plan", "ball.toml"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("9.81 m/s^2 on 1 body, 2 kg together"));
+  EXPECT_THAT(result.out, HasSubstr("1 free body over the plane; the lowest point starts 0.2 m above it"));
+  EXPECT_THAT(result.out, HasSubstr("no joints"));
+  EXPECT_THAT(result.out, HasSubstr("no vehicle"));
+}
+
+TEST(Plan, MeasuresWhatEachEffectCosts) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  const Result result = run(folder, {"plan", "ball.toml", "--measure", "--json"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json measured = Json::parse(result.out);
+  double share = 0;
+  for (const char* list : {"plan", "phases"})
+    for (const Json& line : measured.at(list)) {
+      share += line.at("share").get<double>();
+      EXPECT_GE(line.at("us_per_step").get<double>(), 0);
+      if (line.value("active", true)) continue;
+      EXPECT_EQ(line.at("calls"), 0) << line;
+      EXPECT_EQ(line.at("us_per_step"), 0) << line;
+    }
+  EXPECT_NEAR(share, 1, 1e-9);  // time goes to one place only
+  EXPECT_EQ(measured.at("steps"), 400);
+
+  const Result text = run(folder, {"plan", "ball.toml", "--measure"});
+  EXPECT_THAT(text.out, HasSubstr("us/step"));
+  EXPECT_THAT(text.out, HasSubstr("400 steps"));
+}
+
+TEST(Plan, SaysThatAnEffectIsForced) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  const Result result = run(folder, {"plan", "ball.toml", "--effects", "gravity=off", "--effects", "tyres=on"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("switched off by the author; the scene calls for it: 9.81 m/s^2"));
+  EXPECT_THAT(result.out, HasSubstr("all of it, without a bound"));
+  EXPECT_THAT(result.out, HasSubstr("switched on by the author, with nothing to do: no vehicle"));
+  EXPECT_THAT(result.out, HasSubstr("warning: effect gravity switched off by the author"));
+}
