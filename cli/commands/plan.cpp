@@ -119,16 +119,20 @@ int plan(const PlanWish& wish) {
   const engine::Plan plan = plan_of(scene);
   if (wish.measure) {
     const engine::Recording run = run_scene(scene, plan, wish.scene, Costs::timed);
-    if (wish.scene.json)
+    if (wish.scene.json) {
       fmt::print("{}\n", measured_json(run).dump(2));
-    else
+    } else {
       print_plan(run.plan, &run);
+      for (const std::string& warning : run.diagnostics.warnings) fmt::print("warning: {}\n", warning);
+    }
     return exit_code_of(run);
   }
-  if (wish.scene.json)
+  if (wish.scene.json) {
     fmt::print("{}\n", plan_json(plan.lines).dump(2));
-  else
-    print_plan(plan.lines, nullptr);
+    return kDone;
+  }
+  print_plan(plan.lines, nullptr);
+  for (const std::string& warning : scene.stage.warnings) fmt::print("\nwarning: {}\n", warning);
   return kDone;
 }
 
