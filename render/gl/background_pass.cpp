@@ -1,6 +1,6 @@
-// The background is computed without things and kept while camera and road stay the same; the dear ground shader runs only inside
-// the rectangle where shadows and occlusion can fall. A kept background and a fresh one come out of the same shader over the same
-// pixels, so a frame's bytes do not depend on what was drawn before it.
+// The background is computed without things and kept while camera and road stay the same; where shadows and occlusion can fall it is
+// computed anew. A kept background and a fresh one come out of the same kernel, pixel by pixel, so a frame's bytes do not depend on
+// what was drawn before it.
 #include "render/gl/background_pass.h"
 
 #include <algorithm>
@@ -12,59 +12,38 @@
 namespace render::gl {
 namespace {
 
-const char* switches_of(Zone zone) {
-  switch (zone) {
-    case Zone::roadway:
-      return " ROADWAY";
-    case Zone::asphalt:
-      return " ROADWAY PLAIN";
-    case Zone::pavement:
-      return " PAVED";
-    case Zone::grass:
-      return " GRASS";
-    default:
-      return "";
-  }
-}
-
-void draw_tiles(Studio& studio, const TileMap& tiles, const std::string& ground) {
-  for (const auto& [look, rectangles] : tiles) {
-    Variant v{kTileVertex, kSkyFragment};
-    if (look.zone != Zone::sky) {
-      v.fragment = kGroundFragment;
-      v.options = ground + switches_of(look.zone) + (look.near ? " NEAR" : "") + (look.sun != Sun::bare ? " CASTERS" : "");
-      v.shadow = look.sun == Sun::open ? studio.cost.shadow_filter : 0;
-    }
-    studio.program(v).set("sure_light", look.sun == Sun::dark ? 0.0f : 1.0f);
-    studio.fill(rectangles);
-  }
+void draw_tiles(const TileMap& tiles, const shade::FrameData& data, const shade::Maps& maps, const shade::Canvas& canvas) {
+  for (const auto& [look, rectangles] : tiles)
+    for (const Rectangle& r : rectangles)
+      shade::kernels().background(
+          data, maps, {r.x, r.y, r.width, r.height, static_cast<int>(look.zone), static_cast<int>(look.sun), look.near}, canvas);
 }
 
 }  // namespace
 
-void BackgroundPass::draw(Studio& studio, const DrawList& list, const FrameSetup& frame, const DepthPyramid& depth) {
+void BackgroundPass::draw(Studio& studio, const DrawList& list, const FrameSetup& frame, const DepthPyramid& depth,
+                          const shade::FrameData& data, const shade::Maps& maps) {
   const Targets& targets = studio.targets;
-  const std::string ground = ground_switches(list.road);
-  glViewport(0, 0, targets.width, targets.height);
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_BLEND);
+  const std::size_t bytes = 4 * static_cast<std::size_t>(targets.width) * static_cast<std::size_t>(targets.height);
+  canvas_.resize(bytes);
+  const shade::Canvas canvas{canvas_.data(), targets.width};
   // kept from the second equal frame on: a moving camera pays for no copy
   if (last_ && same_background(*last_, frame.block) && !(kept_ && same_background(*kept_, frame.block))) {
-    glBindFramebuffer(GL_FRAMEBUFFER, *targets.bare);
-    draw_tiles(studio, lay_tiles(frame, list.road, depth, Shade::none, targets.width, targets.height), ground);
+    bare_.resize(bytes);
+    draw_tiles(lay_tiles(frame, list.road, depth, Shade::none, targets.width, targets.height), data, maps,
+               {bare_.data(), targets.width});
     kept_ = frame.block;
   }
   last_ = frame.block;
   TileMap tiles = lay_tiles(frame, list.road, depth, Shade::cast, targets.width, targets.height);
   if (kept_ && same_background(*kept_, frame.block)) {
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, *targets.bare);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, *targets.picture);
-    glBlitFramebuffer(0, 0, targets.width, targets.height, 0, 0, targets.width, targets.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    std::copy(bare_.begin(), bare_.end(), canvas_.begin());
     std::erase_if(tiles, [](const auto& t) { return t.first.sun == Sun::bare; });
   }
+  draw_tiles(tiles, data, maps, canvas);
+  glBindTexture(GL_TEXTURE_2D, *targets.picture_colour);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, targets.width, targets.height, GL_RGBA, GL_UNSIGNED_BYTE, canvas_.data());
   glBindFramebuffer(GL_FRAMEBUFFER, *targets.picture);
-  draw_tiles(studio, tiles, ground);
   draw_strips(studio, list);
 }
 
@@ -82,6 +61,9 @@ void BackgroundPass::draw_strips(Studio& studio, const DrawList& list) {
     }
   }
   if (data.empty()) return;
+  glViewport(0, 0, studio.targets.width, studio.targets.height);
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_DEPTH_TEST);
   studio.program({kStripVertex, kStripFragment});
   glBindVertexArray(*strip_array_);
   glBindBuffer(GL_ARRAY_BUFFER, *strip_vertices_);

@@ -35,7 +35,7 @@ void DepthPyramid::clear() {
   levels_.assign(1, {});
 }
 
-void DepthPyramid::build(const std::vector<float>& depth, int size, int reach_x, int reach_y) {
+void DepthPyramid::build(const float* depth, int size, std::ptrdiff_t pitch, int reach_x, int reach_y) {
   const int side = size / kBlock;
   const std::size_t count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
   levels_.resize(1);
@@ -45,9 +45,9 @@ void DepthPyramid::build(const std::vector<float>& depth, int size, int reach_x,
   scratch_.resize(count);
   for (int r = 0; r < side; ++r)
     for (int c = 0; c < side; ++c) {
-      const float* texel = depth.data() + static_cast<std::ptrdiff_t>(r * kBlock) * size + c * kBlock;
+      const float* texel = depth + r * kBlock * pitch + c * kBlock;
       Range range{texel[0], texel[0]};
-      for (int y = 0; y < kBlock; ++y, texel += size)
+      for (int y = 0; y < kBlock; ++y, texel += pitch)
         for (int x = 0; x < kBlock; ++x) widen(range, {texel[x], texel[x]});
       finest.blocks[static_cast<std::size_t>(r * side + c)] = range;
     }

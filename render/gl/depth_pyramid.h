@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace render::gl {
@@ -12,9 +13,9 @@ class DepthPyramid {
     float least = 1, largest = 1;
   };
 
-  /// From a square map of `size` texels (a power of two, at least 16) a side; beyond it the depth is 1. Each block of the finest
-  /// level holds what lies within `reach` texels (x, y) of it.
-  void build(const std::vector<float>& depth, int size, int reach_x, int reach_y);
+  /// From a square map of `size` texels (a power of two, at least 16) a side, `pitch` from row to row; beyond it the depth is 1.
+  /// Each block of the finest level holds what lies within `reach` texels (x, y) of it.
+  void build(const float* depth, int size, std::ptrdiff_t pitch, int reach_x, int reach_y);
   /// No map: depth 1 everywhere.
   void clear();
 

@@ -206,6 +206,29 @@ void put_occluders(const std::vector<CasterBox>& boxes, double ground, FrameBloc
 
 }  // namespace
 
+shade::FrameData frame_data(const FrameBlock& b) {
+  shade::FrameData out;
+  const auto copy = [](const auto& from, float* to) { std::copy(from.begin(), from.end(), to); };
+  copy(b.clip_to_world, out.clip_to_world);
+  copy(b.eye, out.eye);
+  copy(b.forward, out.forward);
+  copy(b.sun, out.sun);
+  copy(b.ground, out.ground);
+  copy(b.road, out.road);
+  copy(b.frame, out.frame);
+  copy(b.near_0, out.near_0);
+  copy(b.near_x, out.near_x);
+  copy(b.near_y, out.near_y);
+  copy(b.far_0, out.far_0);
+  copy(b.far_x, out.far_x);
+  copy(b.far_y, out.far_y);
+  copy(b.world_to_shadow, out.world_to_shadow);
+  copy(b.shadow, out.shadow);
+  copy(b.shadow_size, out.shadow_size);
+  copy(b.occlusion, out.occlusion);
+  return out;
+}
+
 bool same_background(const FrameBlock& a, const FrameBlock& b) {
   return std::memcmp(&a, &b, offsetof(FrameBlock, world_to_shadow)) == 0;
 }

@@ -1,4 +1,4 @@
-// What every shader of one frame knows: camera, sun, ground, shadow fit, occluders. Computed from the DrawList alone, no GL.
+// What every pass of one frame knows: camera, sun, ground, shadow fit, occluders. Computed from the DrawList alone, no GL.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "render/draw_list.h"
+#include "render/shade/kernels.h"
 
 namespace render::gl {
 
 constexpr std::size_t kRoundOccluders = 24, kBoxOccluders = 8;
 
-/// std140 mirror of kFrameBlock.
 struct FrameBlock {
-  // what sky and bare ground depend on: equal bytes up to here mean an equal background
+  // std140 mirror of kFrameBlock, and what sky and bare ground depend on: equal bytes mean an equal background
   Matrix4 world_to_clip{}, clip_to_world{};
   Float4 eye{}, forward{}, sun{}, ground{}, road{}, frame{};
   Float4 near_0{}, near_x{}, near_y{}, far_0{}, far_x{}, far_y{};
@@ -28,6 +28,9 @@ struct FrameBlock {
   std::array<Float4, kBoxOccluders> box_half{};
 };
 static_assert(offsetof(FrameBlock, world_to_shadow) == 2 * sizeof(Matrix4) + 12 * sizeof(Float4));
+
+/// As the light wants it.
+shade::FrameData frame_data(const FrameBlock&);
 
 /// Whether the background without things is the same picture.
 bool same_background(const FrameBlock&, const FrameBlock&);

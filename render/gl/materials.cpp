@@ -58,11 +58,4 @@ int MaterialTable::add(const Material& material, bool terrain) {
   return static_cast<int>(rows_.size()) - 1;
 }
 
-void MaterialTable::upload() {
-  glBindTexture(GL_TEXTURE_2D, *texture_);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 4, std::max(1, static_cast<int>(rows_.size())), 0, GL_RGBA, GL_FLOAT,
-               rows_.empty() ? nullptr : rows_[0].data());
-  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
-}
-
 }  // namespace render::gl

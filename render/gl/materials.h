@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "render/draw_list.h"
-#include "render/gl/names.h"
 
 namespace render::gl {
 
@@ -15,18 +14,17 @@ using MaterialRow = std::array<Float4, 4>;
 
 MaterialRow row_of(const Material&, bool terrain);
 
-/// The rows of one frame, as a texture.
+/// The rows of one frame.
 class MaterialTable {
  public:
   void clear() { rows_.clear(); }
   /// Number of the row, the same for equal rows.
   int add(const Material&, bool terrain);
-  void upload();
-  GLuint texture() const { return *texture_; }
+  /// Sixteen numbers a row.
+  const float* rows() const { return rows_.empty() ? nullptr : rows_[0][0].data(); }
 
  private:
   std::vector<MaterialRow> rows_;
-  Texture texture_;
 };
 
 }  // namespace render::gl

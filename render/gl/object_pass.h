@@ -1,4 +1,4 @@
-// Things: what each sample sees of them, then their light onto the picture.
+// Things: what each sample sees of them.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,5 @@ namespace render::gl {
 
 /// What each sample in the band r of the picture sees.
 void draw_objects(Studio&, const DrawList&, const std::vector<Piece>&, const Rectangle& r);
-
-/// Their light, onto the picture; with their depth if a line may pass behind them.
-void light_objects(Studio&, const DrawList&, const Rectangle& r, bool depth);
 
 }  // namespace render::gl

@@ -11,9 +11,7 @@
 namespace render::gl {
 
 /// The samplers of all shaders, in the order of their texture units.
-constexpr const char* kSamplers[] = {"noise_map",     "shadow_map", "shadow_depth", "shadow_bounds",
-                                     "occlusion_map", "seen_map",   "depth_map",    "material_map"};
-constexpr unsigned kBoundsUnit = 3;
+constexpr const char* kSamplers[] = {"noise_map", "depth_map", "lit_map"};
 
 /// Vertex and fragment shader, linked. The uniform block `Frame` sits at binding 0.
 class Program {

@@ -7,6 +7,7 @@
 
 #include "render/gl/background_pass.h"
 #include "render/gl/context.h"
+#include "render/gl/light_pass.h"
 #include "render/gl/object_pass.h"
 #include "render/gl/overlay_pass.h"
 #include "render/gl/pieces.h"
@@ -39,6 +40,7 @@ struct Renderer::Impl {
   MaterialTable materials;
   ShadowPass shadow;
   BackgroundPass background;
+  LightPass light;
   gl::OverlayPass overlays;
   FrameCost cost{};
 };
@@ -77,13 +79,14 @@ void Renderer::draw(const DrawList& list, Image& out) {
   Stopwatch watch(r.cost);
   std::vector<CasterBox> boxes;
   const std::vector<Piece> pieces = collect(list, r.geometry, r.materials, r.studio.cost.pixel_share, targets.height, boxes);
-  r.materials.upload();
   const FrameSetup frame = set_up_frame(list, boxes, targets.width, targets.height, r.studio.cost.shadow_map_size);
-  r.studio.bind_inputs(frame, r.materials);
+  r.studio.bind_inputs(frame);
   lap(watch, Pass::set_up);
   r.shadow.draw(r.studio, pieces, frame);
   lap(watch, Pass::shadow);
-  r.background.draw(r.studio, list, frame, r.shadow.bounds());
+  const shade::FrameData data = frame_data(frame.block);
+  const shade::Maps maps = r.shadow.maps(r.studio.cost);
+  r.background.draw(r.studio, list, frame, r.shadow.bounds(), data, maps);
   lap(watch, Pass::background);
   const bool depth = std::any_of(list.lines.begin(), list.lines.end(), [](const LineItem& l) { return l.hidden_behind; });
   if (depth) {
@@ -96,7 +99,7 @@ void Renderer::draw(const DrawList& list, Image& out) {
     const Rectangle band{objects.x, y, objects.width, std::min(targets.band_height, objects.y + objects.height - y)};
     draw_objects(r.studio, list, pieces, band);
     lap(watch, Pass::objects);
-    light_objects(r.studio, list, band, depth);
+    r.light.draw(r.studio, {data, maps, r.materials.rows(), list.road.terrain != nullptr}, band, depth);
     lap(watch, Pass::light);
   }
   r.overlays.draw(list, targets.width, targets.height);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/gl/noise.h"
 #include "render/gl/shaders.h"
 #include "render/matrix.h"
 
@@ -33,13 +34,16 @@ void draw_map(Studio& studio, const std::vector<Piece>& pieces, const FrameSetup
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
-void draw_occlusion(Studio& studio) {
-  glBindFramebuffer(GL_FRAMEBUFFER, *studio.targets.occlusion);
-  glViewport(0, 0, studio.targets.occlusion_size, studio.targets.occlusion_size);
-  glDisable(GL_DEPTH_TEST);
-  studio.program({kCopyVertex, kOcclusionFragment});
-  glBindVertexArray(*studio.nothing);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+/// Each texel of the grain with its neighbours to the right, above, and both.
+std::vector<std::int32_t> fourfold(const std::vector<std::uint8_t>& grain) {
+  std::vector<std::int32_t> out;
+  const auto at = [&grain](int x, int y) -> std::uint32_t {
+    return grain[static_cast<std::size_t>((y % kNoiseSize) * kNoiseSize + x % kNoiseSize)];
+  };
+  for (int y = 0; y < kNoiseSize; ++y)
+    for (int x = 0; x < kNoiseSize; ++x)
+      out.push_back(static_cast<std::int32_t>(at(x, y) | at(x + 1, y) << 8 | at(x, y + 1) << 16 | at(x + 1, y + 1) << 24));
+  return out;
 }
 
 /// [texels] the widest filter, one of its linear weights and one of rounding
@@ -49,23 +53,41 @@ int reach(const Studio& studio, float texel) {
 
 }  // namespace
 
+ShadowPass::ShadowPass() : grain_(fourfold(grain_picture())) {}
+
 void ShadowPass::draw(Studio& studio, const std::vector<Piece>& pieces, const FrameSetup& frame) {
+  bounds_.clear();
+  if (!frame.casts) return;
   draw_map(studio, pieces, frame);
-  if (frame.casts)
-    bounds_.build(read_depth(studio.targets.shadow_map_size), studio.targets.shadow_map_size, reach(studio, frame.block.shadow[0]),
-                  reach(studio, frame.block.shadow[1]));
-  else
-    bounds_.clear();
-  glActiveTexture(GL_TEXTURE0 + kBoundsUnit);
-  glBindTexture(GL_TEXTURE_2D, *studio.targets.shadow_bounds);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, bounds_.side(), bounds_.side(), 0, GL_RG, GL_FLOAT, bounds_.blocks().data());
-  if (frame.casts) draw_occlusion(studio);
+  const int size = studio.targets.shadow_map_size;
+  read_depth(size);
+  bounds_.build(depth_.data() + size + 3, size, size + 2, reach(studio, frame.block.shadow[0]), reach(studio, frame.block.shadow[1]));
+  const int side = studio.cost.occlusion_size;
+  occlusion_.resize(static_cast<std::size_t>(side + 2) * static_cast<std::size_t>(side + 2));
+  const FrameBlock& b = frame.block;
+  shade::kernels().occlusion(frame_data(b),
+                             {b.counts[0], b.counts[1], b.round_rows[0].data(), b.box_rows[0].data(), b.box_half[0].data()}, side,
+                             occlusion_.data());
 }
 
-const std::vector<float>& ShadowPass::read_depth(int size) {
-  depth_.resize(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
-  glReadPixels(0, 0, size, size, GL_DEPTH_COMPONENT, GL_FLOAT, depth_.data());
-  return depth_;
+void ShadowPass::read_depth(int size) {
+  const std::size_t pitch = static_cast<std::size_t>(size) + 2;
+  if (depth_.size() != pitch * pitch) depth_.assign(pitch * pitch, 1.0f);
+  glPixelStorei(GL_PACK_ROW_LENGTH, size + 2);
+  glReadPixels(0, 0, size, size, GL_DEPTH_COMPONENT, GL_FLOAT, depth_.data() + pitch + 1);
+  glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+}
+
+shade::Maps ShadowPass::maps(const Effort& cost) const {
+  return {grain_.data(),
+          depth_.data(),
+          cost.shadow_map_size,
+          &bounds_.blocks()[0].least,
+          bounds_.side(),
+          occlusion_.data(),
+          cost.occlusion_size,
+          static_cast<float>(cost.shadow_reach),
+          cost.shadow_filter};
 }
 
 }  // namespace render::gl

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <vector>
@@ -27,17 +28,14 @@ Effort effort_of(Quality q, int width, int height) {
 }  // namespace render
 
 namespace render::gl {
+namespace {
 
-std::string ground_switches(const RoadLook& road) {
-  std::string on;
-  if (road.road) on += " ROAD";
-  if (!road.road || road.metre_grid) on += " GRID";
-  if (road.zebra) on += " ZEBRA";
-  return on;
-}
+constexpr GLsizeiptr kSharedBytes = offsetof(FrameBlock, world_to_shadow);  // what the shaders know of it
+
+}  // namespace
 
 Studio::Studio(int w, int h, const Effort& effort)
-    : cost(effort), targets(w * cost.scale, h * cost.scale, w, h, cost.samples, cost.shadow_map_size, cost.occlusion_size) {
+    : cost(effort), targets(w * cost.scale, h * cost.scale, w, h, cost.samples, cost.shadow_map_size) {
   const std::vector<std::uint8_t> grain = grain_picture();
   glBindTexture(GL_TEXTURE_2D, *noise_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -46,49 +44,31 @@ Studio::Studio(int w, int h, const Effort& effort)
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glBindBuffer(GL_UNIFORM_BUFFER, *block_);
-  glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameBlock), nullptr, GL_DYNAMIC_DRAW);
+  glBufferData(GL_UNIFORM_BUFFER, kSharedBytes, nullptr, GL_DYNAMIC_DRAW);
 }
 
 const Program& Studio::program(const Variant& v) {
   std::unique_ptr<Program>& p = programs_[v];
   if (!p) {
-    std::string defines =
-        fmt::format("#define KIND {}\n#define SHADOW {}\n#define SAMPLES {}\n#define WIDEST {:.3f}\n#define OCCLUSION {}\n", v.kind,
-                    v.shadow, cost.samples, cost.shadow_reach, cost.occlusion_size);
-    for (const std::string name :
-         {"SHELL", "CASTERS", "NEAR", "ROAD", "GRID", "ZEBRA", "ROADWAY", "PLAIN", "PAVED", "GRASS", "SECOND"})
-      defines += fmt::format("#define {} {}\n", name, v.options.find(name) != std::string::npos ? 1 : 0);
-    defines += fmt::format("#define TERRAIN {}\n", v.kind == kTerrainKind ? 1 : 0);
-    const bool ground = v.fragment == kGroundFragment || v.fragment == kStripFragment || v.kind == kTerrainKind;
-    const bool surfaces = v.fragment == kCountFragment || v.fragment == kShadeFragment;
-    p = std::make_unique<Program>(
-        defines, std::string(kFrameBlock) + v.vertex,
-        std::string(kFrameBlock) + kCommon + (ground ? kGroundPattern : "") + (surfaces ? kSurfaces : "") + v.fragment);
+    const std::string defines =
+        fmt::format("#define KIND {}\n#define SAMPLES {}\n#define SHELL {}\n", v.kind, cost.samples, v.options == "SHELL" ? 1 : 0);
+    p = std::make_unique<Program>(defines, std::string(kFrameBlock) + v.vertex, std::string(kFrameBlock) + v.fragment);
   }
   p->use();
   return *p;
 }
 
-void Studio::bind_inputs(const FrameSetup& frame, const MaterialTable& materials) {
+void Studio::bind_inputs(const FrameSetup& frame) {
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, *block_);
-  glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof(FrameBlock), &frame.block);
+  glBufferSubData(GL_UNIFORM_BUFFER, 0, kSharedBytes, &frame.block);
   // in the order of kSamplers
-  const GLuint shadow = *targets.shadow_depth;
-  const GLuint textures[] = {*noise_,
-                             shadow,
-                             shadow,
-                             *targets.shadow_bounds,
-                             *targets.occlusion_colour,
-                             *targets.seen_colour,
-                             *targets.seen_depth,
-                             materials.texture()};
-  const GLuint samplers[] = {0, *targets.compare, *targets.plain, *targets.plain, 0, 0, 0, 0};
-  static_assert(std::size(textures) == std::size(kSamplers) && std::size(samplers) == std::size(kSamplers));
+  const GLuint textures[] = {*noise_, *targets.seen_depth, *targets.lit_colour};
+  static_assert(std::size(textures) == std::size(kSamplers));
   for (GLuint unit = 0; unit < std::size(textures); ++unit) {
     glActiveTexture(GL_TEXTURE0 + unit);
     glBindTexture(GL_TEXTURE_2D, textures[unit]);
-    glBindSampler(unit, samplers[unit]);
   }
+  glActiveTexture(GL_TEXTURE0 + std::size(textures));  // an upload disturbs none of them
 }
 
 void Studio::fill(const std::vector<Rectangle>& rectangles) {

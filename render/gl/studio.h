@@ -20,13 +20,10 @@ namespace render::gl {
 struct Variant {
   const char* vertex;
   const char* fragment;
-  int kind = 0, shadow = 0;
+  int kind = 0;
   std::string options{};  // switches that are on
   auto operator<=>(const Variant&) const = default;
 };
-
-/// Switches of the ground's pattern: what this ground has on it, and no more.
-std::string ground_switches(const RoadLook&);
 
 class Studio {
  public:
@@ -35,13 +32,12 @@ class Studio {
   /// Compiled at first sight, in use from here on.
   const Program& program(const Variant&);
   /// Frame block and textures, for all passes of a frame.
-  void bind_inputs(const FrameSetup&, const MaterialTable&);
+  void bind_inputs(const FrameSetup&);
   /// The rectangles of the bound framebuffer, with kTileVertex in use.
   void fill(const std::vector<Rectangle>&);
 
   const Effort cost;
   Targets targets;
-  VertexArray nothing;  // for shaders that make their own vertices
 
  private:
   Texture noise_;

@@ -18,7 +18,7 @@ TEST(DepthPyramid, HoldsEveryDepthWithinReach) {
   std::vector<float> depth(kSize * kSize);
   for (float& d : depth) d = any(random);
   DepthPyramid pyramid;
-  pyramid.build(depth, kSize, kReachX, kReachY);
+  pyramid.build(depth.data(), kSize, kSize, kReachX, kReachY);
   for (int round = 0; round < 300; ++round) {
     const int x0 = static_cast<int>(any(random) * kSize), x1 = std::min(kSize - 1, x0 + round % 70);
     const int y0 = static_cast<int>(any(random) * kSize), y1 = std::min(kSize - 1, y0 + round % 50);

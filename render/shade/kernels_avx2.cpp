@@ -1,0 +1,9 @@
+// The same source, compiled for processors with AVX2 (see CMakeLists.txt).
+#include "render/shade/surface.h"
+
+namespace render::shade {
+
+extern const Kernels kAvx2Kernels;
+const Kernels kAvx2Kernels{background, surfaces, occlusion};
+
+}  // namespace render::shade

@@ -1,0 +1,9 @@
+// For every x86-64 processor, and for others.
+#include "render/shade/surface.h"
+
+namespace render::shade {
+
+extern const Kernels kPlainKernels;
+const Kernels kPlainKernels{background, surfaces, occlusion};
+
+}  // namespace render::shade
