@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdlib>
 
 #include "render/gl/shaders.h"
@@ -42,7 +43,7 @@ void LightPass::draw(Studio& studio, const Lighting& lighting, const Rectangle& 
     glDepthFunc(GL_LEQUAL);
   }
   glDisable(GL_DEPTH_TEST);
-  lay(studio, r);
+  lay(studio.targets, r);
 }
 
 void LightPass::read(const Targets& targets, const Rectangle& r) {
@@ -95,7 +96,7 @@ void LightPass::add_pixel(const Rectangle& r, int x, int y, int samples) {
     }
     const float per = 1.0f / static_cast<float>(n), sample = 1.0f / static_cast<float>(samples);
     pixel_.push_back(y * r.width + x);
-    const int covered = surface == 0 ? n : __builtin_popcount(left);
+    const int covered = surface == 0 ? n : std::popcount(left);
     share_.push_back(static_cast<float>(covered) / static_cast<float>(all));
     x_.push_back(static_cast<float>(r.x + x) + sample * (0.5f + static_cast<float>(right) * per));
     y_.push_back(static_cast<float>(r.y + y) + sample * (0.5f + static_cast<float>(up) * per));
@@ -117,26 +118,23 @@ void LightPass::light(const Lighting& lighting) {
                              row_.data(), red_.data(), green_.data(), blue_.data()});
 }
 
-void LightPass::lay(Studio& studio, const Rectangle& r) {
-  lit_.assign(4 * static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height), 0);
+void LightPass::lay(const Targets& targets, const Rectangle& r) {
+  picture_.resize(4 * static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height));
+  glReadPixels(r.x, r.y, r.width, r.height, GL_RGBA, GL_UNSIGNED_BYTE, picture_.data());
   for (std::size_t i = 0; i < pixel_.size();) {
     const int pixel = pixel_[i];
-    std::array<float, 4> sum{};
+    std::uint8_t* out = &picture_[4 * static_cast<std::size_t>(pixel)];
+    float left = 1;
+    std::array<float, 3> sum{};
     for (; i < pixel_.size() && pixel_[i] == pixel; ++i) {
-      const std::array<float, 4> c{red_[i], green_[i], blue_[i], 1};
-      for (std::size_t k = 0; k < 4; ++k) sum[k] += share_[i] * std::clamp(c[k], 0.0f, 1.0f);
+      const std::array<float, 3> c{red_[i], green_[i], blue_[i]};
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += share_[i] * 255 * std::clamp(c[k], 0.0f, 1.0f);
+      left -= share_[i];
     }
-    std::uint8_t* out = &lit_[4 * static_cast<std::size_t>(pixel)];
-    for (std::size_t k = 0; k < 4; ++k) out[k] = static_cast<std::uint8_t>(sum[k] * 255 + 0.5f);
+    for (std::size_t k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>(sum[k] + left * static_cast<float>(out[k]) + 0.5f);
   }
-  glBindTexture(GL_TEXTURE_2D, *studio.targets.lit_colour);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, r.width, r.height, GL_RGBA, GL_UNSIGNED_BYTE, lit_.data());
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  const Program& p = studio.program({kTileVertex, kLitFragment});
-  p.set("origin", static_cast<float>(r.x), static_cast<float>(r.y));
-  studio.fill({r});
-  glDisable(GL_BLEND);
+  glBindTexture(GL_TEXTURE_2D, *targets.picture_colour);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, r.x, r.y, r.width, r.height, GL_RGBA, GL_UNSIGNED_BYTE, picture_.data());
 }
 
 }  // namespace render::gl

@@ -26,11 +26,11 @@ class LightPass {
   void find_surfaces(const Rectangle&, int samples);
   void add_pixel(const Rectangle&, int x, int y, int samples);
   void light(const Lighting&);
-  void lay(Studio&, const Rectangle&);
+  void lay(const Targets&, const Rectangle&);
 
   std::vector<std::uint16_t> seen_;  // RGBA of each sample
   std::vector<float> depth_;         // of each sample
-  std::vector<std::uint8_t> lit_;    // RGBA of each pixel, colour times share
+  std::vector<std::uint8_t> picture_;  // RGBA
   // a surface in a pixel
   std::vector<int> pixel_;
   std::vector<float> share_, x_, y_, z_, u_, v_, grain_, red_, green_, blue_;

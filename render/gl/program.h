@@ -11,7 +11,7 @@
 namespace render::gl {
 
 /// The samplers of all shaders, in the order of their texture units.
-constexpr const char* kSamplers[] = {"noise_map", "depth_map", "lit_map"};
+constexpr const char* kSamplers[] = {"noise_map", "depth_map"};
 
 /// Vertex and fragment shader, linked. The uniform block `Frame` sits at binding 0.
 class Program {

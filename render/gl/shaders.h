@@ -8,7 +8,6 @@ extern const char* const kTileVertex;
 extern const char* const kObjectVertex;
 extern const char* const kObjectFragment;
 extern const char* const kSeenDepthFragment;
-extern const char* const kLitFragment;
 extern const char* const kDepthVertex;
 extern const char* const kDepthFragment;
 extern const char* const kStripVertex;

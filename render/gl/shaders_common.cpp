@@ -24,13 +24,6 @@ uniform float depth;                   // 0..1
 void main() { gl_Position = vec4(corner * frame.xy - 1.0, depth * 2.0 - 1.0, 1.0); }
 )";
 
-// What was lit on the processor, onto the picture.
-const char* const kLitFragment = R"(
-uniform sampler2D lit_map;
-uniform vec2 origin;               // of the band, pixels of the picture
-out vec4 colour;
-void main() { colour = texelFetch(lit_map, ivec2(floor(gl_FragCoord.xy) - origin), 0); }
-)";
 const char* const kDepthVertex = R"(
 layout(location = 0) in vec3 position;
 uniform mat4 model_to_clip;

@@ -62,7 +62,7 @@ void Studio::bind_inputs(const FrameSetup& frame) {
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, *block_);
   glBufferSubData(GL_UNIFORM_BUFFER, 0, kSharedBytes, &frame.block);
   // in the order of kSamplers
-  const GLuint textures[] = {*noise_, *targets.seen_depth, *targets.lit_colour};
+  const GLuint textures[] = {*noise_, *targets.seen_depth};
   static_assert(std::size(textures) == std::size(kSamplers));
   for (GLuint unit = 0; unit < std::size(textures); ++unit) {
     glActiveTexture(GL_TEXTURE0 + unit);

@@ -59,7 +59,6 @@ Targets::Targets(int w, int h, int ow, int oh, int sample_side, int shadow_size)
   allocate(seen_depth, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, band_width * samples, band_height * samples);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, *seen_depth, 0);
   finish("object");
-  allocate(lit_colour, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, band_width, band_height);
   if (ow != w) {
     glBindFramebuffer(GL_FRAMEBUFFER, *out);
     attach(out_colour, GL_COLOR_ATTACHMENT0, GL_RGBA8, ow, oh);

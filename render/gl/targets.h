@@ -11,7 +11,7 @@ struct Targets {
 
   int width, height, out_width, out_height, samples, shadow_map_size;
   int band_width = 0, band_height = 0;  // pixels of the picture that the object pass holds at a time
-  Texture picture_colour, seen_colour, seen_depth, lit_colour, shadow_depth;  // lit: things on nothing
+  Texture picture_colour, seen_colour, seen_depth, shadow_depth;
   Renderbuffer picture_depth, out_colour;
   Framebuffer picture, seen, shadow, out;
 };

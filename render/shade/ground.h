@@ -9,24 +9,34 @@ namespace {
 enum Ground : int { sky, everything, roadway, asphalt, pavement, grass };  // as enum Zone
 enum Sunshine : int { bare, lit, dark, open };                             // as enum Sun
 
-/// Part of a footprint w around x that a bar of half width h at c covers.
-LANES F bar(F x, F c, float h, F w) { return saturate((min(x + 0.5f * w, c + h) - max(x - 0.5f * w, c - h)) / w); }
-LANES F bar(F x, float c, float h, F w) { return bar(x, all(c), h, w); }
+/// A footprint along one axis, and one over it.
+struct Width {
+  F w, per;
+};
+struct Footprint {
+  Width x, y;
+};
+LANES Footprint footprint(F x, F y) { return {{x, 1.0f / x}, {y, 1.0f / y}}; }
+
+/// Part of a footprint around x that a bar of half width h at c covers.
+LANES F bar(F x, float c, float h, const Width& w) {
+  return saturate((min(x + 0.5f * w.w, c + h) - max(x - 0.5f * w.w, c - h)) * w.per);
+}
 
 /// The same for bars repeated with a period, exact for any footprint.
-LANES F bars(F x, float period, float h, F w) {
+LANES F bars(F x, float period, float h, const Width& w) {
   const float r = h / period;
-  const F a = (x - 0.5f * w) * (1 / period), b = (x + 0.5f * w) * (1 / period);
+  const F a = (x - 0.5f * w.w) * (1 / period), b = (x + 0.5f * w.w) * (1 / period);
   const F na = floor(a + 0.5f), nb = floor(b + 0.5f);
   const F ia = na * (2 * r) + clamp(a - na, -r, r), ib = nb * (2 * r) + clamp(b - nb, -r, r);
-  return saturate((ib - ia) * period / w);
+  return saturate((ib - ia) * period * w.per);
 }
 
 /// Grain of a tile, gone to its mean where the footprint passes its texels: the next coarser layer takes over.
 LANES F grain(const Maps& maps, F x, F y, float tile, F size) {
   const F weight = saturate(1.4f - size * (0.4f * 256 / tile));
   if (!any(weight > 0.0f)) return all(0.0f);
-  const F u = fract(x * (1 / tile)) * 256.0f - 0.5f, v = fract(y * (1 / tile)) * 256.0f - 0.5f;
+  const F u = x * (256 / tile) - 0.5f, v = y * (256 / tile) - 0.5f;
   const F i = floor(u), j = floor(v), s = u - i, t = v - j;
   const I four = gather(maps.grain, ((to_int(j) & 255) << 8) | (to_int(i) & 255));
   const F a = to_float(four & 255), b = to_float((four >> 8) & 255), c = to_float((four >> 16) & 255), d = to_float((four >> 24) & 255);
@@ -44,12 +54,12 @@ LANES V3 grass_colour(const Grain& g) {
          (1.0f + 1.5f * g.fine + 0.5f * g.middle);
 }
 
-LANES V3 pavement_colour(F x, F y, const V2& w, const Grain& g) {
+LANES V3 pavement_colour(F x, F y, const Footprint& w, const Grain& g) {
   const F joint = max(bars(x, 0.6f, 0.005f, w.x), bars(y, 0.6f, 0.005f, w.y));
   return grey(0.215f, 0.21f, 0.2f, (1.0f + 0.45f * g.fine + 0.15f * g.middle + 0.25f * g.wide) * (1.0f - 0.4f * joint));
 }
 
-LANES V3 paint_markings(const FrameData& f, const V3& road, F x, F y, float lane, const V2& w, const Grain& g) {
+LANES V3 paint_markings(const FrameData& f, const V3& road, F x, F y, float lane, const Footprint& w, const Grain& g) {
   const float half = f.ground[1];
   F paint = bar(abs(y), half - 0.25f, 0.06f, w.y);
   const int lanes = static_cast<int>(f.ground[3]);
@@ -65,7 +75,7 @@ LANES V3 paint_markings(const FrameData& f, const V3& road, F x, F y, float lane
   return mix(road, white, paint * saturate(1.02f + 0.7f * g.middle));
 }
 
-LANES V3 road_colour(const FrameData& f, int zone, F x, F y, const V2& w, const Grain& g) {
+LANES V3 road_colour(const FrameData& f, int zone, F x, F y, const Footprint& w, const Grain& g) {
   V3 c = grey(0.118f, 0.117f, 0.118f, 1.0f + 0.95f * g.fine + 0.55f * g.middle + 0.40f * g.wide);
   // wheels polish two tracks in each lane
   const float half = f.ground[1], lane = 2 * half / (f.ground[3] > 1 ? f.ground[3] : 1);
@@ -75,14 +85,14 @@ LANES V3 road_colour(const FrameData& f, int zone, F x, F y, const V2& w, const 
   if (zone != everything) return c;
   // kerb stone, pavement of slabs, grass
   const F off = abs(y) - half;
-  c = mix(c, grey(0.25f, 0.245f, 0.235f, 1.0f + 0.4f * g.middle + 0.3f * g.fine), saturate(off / w.y + 0.5f));
-  c = mix(c, pavement_colour(x, y, w, g), saturate((off - 0.15f) / w.y + 0.5f));
-  return mix(c, grass_colour(g), saturate((off - 2.15f - 0.1f * (g.middle + g.fine)) / max(w.y, 0.02f) + 0.5f));
+  c = mix(c, grey(0.25f, 0.245f, 0.235f, 1.0f + 0.4f * g.middle + 0.3f * g.fine), saturate(off * w.y.per + 0.5f));
+  c = mix(c, pavement_colour(x, y, w, g), saturate((off - 0.15f) * w.y.per + 0.5f));
+  return mix(c, grass_colour(g), saturate((off - 2.15f - 0.1f * (g.middle + g.fine)) * min(w.y.per, 50.0f) + 0.5f));
 }
 
 /// Colour of the ground at x, y, filtered over the footprint w.
-LANES V3 ground_colour(const FrameData& f, const Maps& maps, int zone, F x, F y, const V2& w) {
-  const F size = 0.7f * max(w.x, w.y);
+LANES V3 ground_colour(const FrameData& f, const Maps& maps, int zone, F x, F y, const Footprint& w) {
+  const F size = 0.7f * max(w.x.w, w.y.w);
   const Grain g{grain(maps, x, y, 1.07f, size), grain(maps, x + 3.7f, y + 1.3f, 6.3f, size),
                 grain(maps, y + 11.0f, x + 5.0f, 41.0f, size)};
   const F across = y - f.ground[2];
@@ -128,17 +138,29 @@ LANES Ray ray_of(const FrameData& f, F x, F y) {
   return {from, to - from, near_x, far_x - near_x, near_y, far_y - near_y};
 }
 
+/// How far before the ray's first point the eye lies, in lengths of the ray; the same for all rays of a perspective picture.
+LANES float before_ray(const FrameData& f) {
+  float before = 0, along = 0;
+  for (int i = 0; i < 3; ++i) {
+    before += (f.near_0[i] - f.eye[i]) * f.forward[i];
+    along += (f.far_0[i] - f.near_0[i]) * f.forward[i];
+  }
+  return before / along;
+}
+
 LANES V3 ground_light(const FrameData& f, const Maps& maps, const Tile& tile, F x, F y) {
   const Ray ray = ray_of(f, x, y);
-  const V3 d = normalize(ray.along);
+  const F reach = sqrt(dot(ray.along, ray.along));  // [m] between the two points that make the ray
+  const V3 d = ray.along * (1.0f / reach);
   // where the ray meets the ground, and how far that moves from pixel to pixel; behind or beside the horizon: very far
   const F per_fall = -1.0f / min(ray.along.z, -1e-6f);
   const F s = min((ray.from.z - f.ground[0]) * per_fall, 1e5f);
   const V3 p{ray.from.x + s * ray.along.x, ray.from.y + s * ray.along.y, all(f.ground[0])};
   const V3 along_x = ray.from_x + ray.along_x * s, along_y = ray.from_y + ray.along_y * s;
   const F step_x = along_x.z * per_fall, step_y = along_y.z * per_fall;
-  const V2 w{clamp(abs(along_x.x + ray.along.x * step_x) + abs(along_y.x + ray.along.x * step_y), 1e-4f, 1e4f),
-             clamp(abs(along_x.y + ray.along.y * step_x) + abs(along_y.y + ray.along.y * step_y), 1e-4f, 1e4f)};
+  const Footprint w = footprint(
+             clamp(abs(along_x.x + ray.along.x * step_x) + abs(along_y.x + ray.along.x * step_y), 1e-4f, 1e4f),
+             clamp(abs(along_x.y + ray.along.y * step_x) + abs(along_y.y + ray.along.y * step_y), 1e-4f, 1e4f));
   V3 c = ground_colour(f, maps, tile.zone, p.x, p.y, w);
   F sky_open = all(1.0f), lit = all(1.0f);
   if (tile.sun != bare) {
@@ -148,8 +170,7 @@ LANES V3 ground_light(const FrameData& f, const Maps& maps, const Tile& tile, F 
   }
   const F sun = (f.sun[2] > 0 ? f.sun[2] : 0.0f) * lit * mix(sky_open, all(1.0f), all(0.6f));
   c = c * (three(kSunLight) * sun + ambient_light(f, all(1.0f), all(1.0f)) * sky_open);
-  const V3 to_eye = p - three(f.eye);
-  const F far_m = f.eye[3] > 0.5f ? all(0.0f) : length(to_eye);
+  const F far_m = f.eye[3] > 0.5f ? all(0.0f) : (s + before_ray(f)) * reach;
   // asphalt shines a little against the light
   const F steep = 1.0f - saturate(-d.z);
   c = c + haze_colour(f) * (0.05f * (1.0f - f.eye[3]) * steep * steep * steep * steep * steep * sky_open);
@@ -161,7 +182,11 @@ LANES V3 ground_light(const FrameData& f, const Maps& maps, const Tile& tile, F 
   return to_screen(mix(above, c, step(all(1e-5f), -d.z))) + dither(x, y);
 }
 
-void background(const FrameData& f, const Maps& maps, const Tile& tile, const Canvas& out) {
+void background(const FrameData& frame, const Maps& all_maps, const Tile& one, const Canvas& out) {
+  // copies of its own: a pixel written cannot change them, and what follows from them is computed once
+  const FrameData f = frame;
+  const Maps maps = all_maps;
+  const Tile tile = one;
   for (int row = tile.y; row < tile.y + tile.height; ++row) {
     std::uint8_t* at = out.pixels + 4 * (static_cast<std::int64_t>(row) * out.width + tile.x);
     const F y = all(static_cast<float>(row) + 0.5f);
@@ -176,7 +201,8 @@ void background(const FrameData& f, const Maps& maps, const Tile& tile, const Ca
   }
 }
 
-void occlusion(const FrameData& f, const Occluders& o, int size, float* out) {
+void occlusion(const FrameData& frame, const Occluders& o, int size, float* out) {
+  const FrameData f = frame;
   const int pitch = size + 2;
   for (int i = 0; i < pitch * pitch; ++i) out[i] = 1;
   for (int j = 0; j < size; ++j)

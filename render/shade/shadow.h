@@ -11,22 +11,23 @@ constexpr float kSunSpread = 0.030f;  // [rad] wider than the true 0.0093: a haz
 
 struct Lookup {
   const float* depth;
-  int size, pitch;
+  int pitch;
+  float size;  // without the rim
 };
 
-/// Depth at texel i, j; beyond the rim it is the rim's, 1.
-LANES F depth_at(const Lookup& map, I i, I j) {
-  return gather(map.depth, (clamp(j, -1, map.size) + 1) * map.pitch + clamp(i, -1, map.size) + 1);
+/// Depth of the texel at x, y, counted from the rim; beyond the rim it is the rim's, 1.
+LANES F depth_at(const Lookup& map, F x, F y) {
+  return gather(map.depth, to_int(clamp(y, 0, map.size + 1)) * map.pitch + to_int(clamp(x, 0, map.size + 1)));
 }
 
-/// Part of the four texels around u, v that lie no nearer to the sun than z, by their distance.
-LANES F nearer_than(const Lookup& map, F u, F v, F z) {
-  const F x = clamp(u, -1, 2) * static_cast<float>(map.size) - 0.5f, y = clamp(v, -1, 2) * static_cast<float>(map.size) - 0.5f;
-  const F i = floor(x), j = floor(y), s = x - i, t = y - j;
-  const I ii = to_int(i), jj = to_int(j);
-  const auto open = [&](I a, I b) { return z <= depth_at(map, a, b) ? all(1.0f) : all(0.0f); };
-  const F low = mix(open(ii, jj), open(ii + 1, jj), s), high = mix(open(ii, jj + 1), open(ii + 1, jj + 1), s);
-  return mix(low, high, t);
+/// Part of the four texels around x, y, counted from the rim's middle, that lie no nearer to the sun than z, by their distance.
+LANES F nearer_than(const Lookup& map, F x, F y, F z) {
+  x = clamp(x, 0, map.size + 0.99f);
+  y = clamp(y, 0, map.size + 0.99f);
+  const I i = to_int(x), j = to_int(y), at = j * map.pitch + i;
+  const F s = x - to_float(i), t = y - to_float(j);
+  const auto open = [&](int step) { return z <= gather(map.depth + step, at) ? all(1.0f) : all(0.0f); };
+  return mix(mix(open(0), open(1), s), mix(open(map.pitch), open(map.pitch + 1), s), t);
 }
 
 /// Places spread evenly over a disc: turned by the golden angle, step by step outwards.
@@ -56,20 +57,19 @@ LANES F sunlight(const FrameData& f, const Maps& maps, const V3& p, const V3& n,
   const I open = wanted & (z > least) & (z <= largest);
   if (!any(open)) return plain;
 
-  const Lookup map{maps.depth, maps.depth_size, maps.depth_size + 2};
+  const Lookup map{maps.depth, maps.depth_size + 2, static_cast<float>(maps.depth_size)};
+  const F texel_u = u * map.size + 1.0f, texel_v = v * map.size + 1.0f;  // from the rim
   Spiral first{two(1, 0)};
   if (maps.filter == 2) {
     const F turn = pixel_noise(x, y);
     first = {{sine_of_turn(turn + 0.25f), sine_of_turn(turn)}};
   }
   Spiral at = first;
-  const float wide_u = maps.reach / f.shadow_size[0], wide_v = maps.reach / f.shadow_size[1];
+  const float wide_u = maps.reach / f.shadow[0], wide_v = maps.reach / f.shadow[1];  // [texels]
   F blocker = all(0.0f), found = all(0.0f);
   for (int i = 0; i < blockers; ++i, at.next()) {
     const float r = radius(i, blockers);
-    const F pu = clamp(u + at.d.x * (r * wide_u), -1, 2) * static_cast<float>(map.size);
-    const F pv = clamp(v + at.d.y * (r * wide_v), -1, 2) * static_cast<float>(map.size);
-    const F depth = depth_at(map, to_int(floor(pu)), to_int(floor(pv)));
+    const F depth = depth_at(map, texel_u + at.d.x * (r * wide_u), texel_v + at.d.y * (r * wide_v));
     const F hit = depth <= z - 0.0002f ? all(1.0f) : all(0.0f);
     blocker += depth * hit;
     found += hit;
@@ -80,12 +80,12 @@ LANES F sunlight(const FrameData& f, const Maps& maps, const V3& p, const V3& n,
 
   const F gap = (z - blocker / max(found, 1.0f)) * f.shadow[2];
   const F spread = clamp(gap * kSunSpread, 1.2f * texel, maps.reach);
-  const F spread_u = spread * (1 / f.shadow_size[0]), spread_v = spread * (1 / f.shadow_size[1]);
+  const F spread_u = spread * (1 / f.shadow[0]), spread_v = spread * (1 / f.shadow[1]);
   at = first;
   F sum = all(0.0f);
   for (int i = 0; i < taps; ++i, at.next()) {
     const float r = radius(i, taps);
-    sum += nearer_than(map, u + at.d.x * r * spread_u, v + at.d.y * r * spread_v, z);
+    sum += nearer_than(map, texel_u - 0.5f + at.d.x * r * spread_u, texel_v - 0.5f + at.d.y * r * spread_v, z);
   }
   return edge ? sum * (1 / static_cast<float>(taps)) : lit;
 }

@@ -16,7 +16,9 @@ struct MaterialRows {
 };
 LANES MaterialRows rows_of(const float* table, I row) {
   const I at = row * 16;
-  const auto n = [&](int i) { return gather(table + i, at); };
+  const bool one = !any(row != row[0]);  // mostly
+  const float* only = table + at[0];
+  const auto n = [&](int i) { return one ? all(only[i]) : gather(table + i, at); };
   return {{n(0), n(1), n(2)}, n(3), n(4), n(5), n(6), n(7), n(8), n(9), n(10), n(11), n(12), n(13), n(14), n(15)};
 }
 
@@ -36,13 +38,13 @@ LANES V3 place_of(const FrameData& f, F x, F y, F depth) {
 }
 
 /// Size of a pixel on the plane through p with normal n, along the world's x and y.
-LANES V2 footprint(const FrameData& f, F x, F y, const V3& p, const V3& n) {
+LANES Footprint footprint(const FrameData& f, F x, F y, const V3& p, const V3& n) {
   const Ray ray = ray_of(f, x, y);
   const F s = sqrt(dot(p - ray.from, p - ray.from) / dot(ray.along, ray.along));
   const F steep = dot(n, ray.along), per = 1.0f / (abs(steep) > 1e-6f ? steep : all(-1e-6f));
   const V3 ax = ray.from_x + ray.along_x * s, ay = ray.from_y + ray.along_y * s;
   const V3 dx = ax - ray.along * (dot(n, ax) * per), dy = ay - ray.along * (dot(n, ay) * per);
-  return {clamp(abs(dx.x) + abs(dy.x), 1e-4f, 1e3f), clamp(abs(dx.y) + abs(dy.y), 1e-4f, 1e3f)};
+  return footprint(clamp(abs(dx.x) + abs(dy.x), 1e-4f, 1e3f), clamp(abs(dx.y) + abs(dy.y), 1e-4f, 1e3f));
 }
 
 /// Highlight of the sun, Blinn-Phong normalised.
@@ -67,7 +69,7 @@ LANES V3 surface_light(const FrameData& f, const Maps& maps, const float* materi
   const F reflects = m.straight + m.grazing * fresnel;
   V3 paint = m.base * (1.0f + m.grain * (grain - 0.5f));
   if (terrain && any(m.terrain > 0.0f)) {
-    const V2 w = footprint(f, x, y, p, n);
+    const Footprint w = footprint(f, x, y, p, n);
     paint = mix(paint, ground_colour(f, maps, everything, p.x, p.y, w), m.terrain);
   }
   // light goes a little way round into skin and comes out warmer
@@ -94,7 +96,10 @@ LANES F load(const float* from) {
   return v;
 }
 
-void surfaces(const FrameData& f, const Maps& maps, const float* materials, bool terrain, const Pieces& list) {
+void surfaces(const FrameData& frame, const Maps& all_maps, const float* materials, bool terrain, const Pieces& pieces) {
+  const FrameData f = frame;
+  const Maps maps = all_maps;
+  const Pieces list = pieces;
   for (int i = 0; i < list.count; i += kLanes) {
     const F x = load(list.x + i), y = load(list.y + i);
     I row;
