@@ -4,6 +4,7 @@
 #include "render/film.h"
 
 #include <fmt/format.h>
+#include <semaphore.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -15,6 +16,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <ctime>
 #include <new>
 #include <optional>
 #include <thread>
@@ -29,11 +31,28 @@ namespace {
 
 constexpr int kDeathsAllowed = 3;  // of one worker at one frame
 
+/// Sleeps until somebody posts, at most 10 ms: who posts may be dead. Between processes, in shared memory.
+void sleep_on(sem_t& bell) {
+  timespec until{};
+  clock_gettime(CLOCK_REALTIME, &until);
+  until.tv_nsec += 10'000'000;
+  if (until.tv_nsec >= 1'000'000'000) {
+    ++until.tv_sec;
+    until.tv_nsec -= 1'000'000'000;
+  }
+  sem_timedwait(&bell, &until);  // interrupted, late or posted: the caller looks again
+}
+
 struct Slot {
   std::atomic<int> frame{-1};  // the frame that lies here, drawn
   std::atomic<int> taken{-1};  // the last frame the parent has taken from here
   char error[480] = "";        // what the worker could not do
   FrameCost cost{};            // of the frame that lies here
+  sem_t drawn, free;           // rung when `frame` or `taken` changes
+  Slot() {
+    sem_init(&drawn, 1, 0);
+    sem_init(&free, 1, 0);
+  }
 };
 
 /// Shared anonymous memory that goes with its owner.
@@ -101,9 +120,10 @@ FrameCost draw_frame(const Job& j, Painter& painter, Image& image, int i) {
     Image image;
     for (; at < static_cast<int>(j.moments.size()); at += j.workers) {
       Slot& slot = j.ring[at % j.slots];
-      while (at >= j.slots && slot.taken.load() < at - j.slots) usleep(300);
+      while (at >= j.slots && slot.taken.load() < at - j.slots) sleep_on(slot.free);
       slot.cost = draw_frame(j, painter, image, at);
       slot.frame.store(at);
+      sem_post(&slot.drawn);
     }
     _exit(0);
   } catch (const std::exception& e) {
@@ -147,7 +167,7 @@ class Workers {
         start(w, i);
       }
       if (job_.job.look_around) job_.job.look_around();
-      usleep(300);
+      sleep_on(slot.drawn);
     }
   }
 
@@ -228,6 +248,7 @@ FilmCost make_film(const Stage& stage, const engine::Recording& recording, const
     add(ring[i % slots].cost, i < workers ? cost.first : cost.later);
     ++(i < workers ? cost.first_frames : cost.later_frames);
     ring[i % slots].taken.store(i);
+    sem_post(&ring[i % slots].free);
     if (progress) progress({i + 1, frames});
   }
   if (encoder) encoder->finish();

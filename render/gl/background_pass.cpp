@@ -1,6 +1,6 @@
-// The background is computed without things and kept while camera and road stay the same; where shadows and occlusion can fall it is
-// computed anew. A kept background and a fresh one come out of the same kernel, pixel by pixel, so a frame's bytes do not depend on
-// what was drawn before it.
+// The background is computed without things and kept while camera and road stay the same; where shadows and occlusion can fall it
+// is computed anew. A kept background and a fresh one come out of the same kernel, pixel by pixel, so a frame's bytes do not depend
+// on what was drawn before it.
 #include "render/gl/background_pass.h"
 
 #include <algorithm>

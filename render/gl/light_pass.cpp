@@ -60,7 +60,8 @@ void LightPass::find_surfaces(const Rectangle& r, int samples) {
   const int w = r.width * samples;
   for (int y = 0; y < r.height; ++y)
     for (int x = 0; x < r.width; ++x) {
-      const float* low = &depth_[static_cast<std::size_t>(y * samples) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x * samples)];
+      const float* low =
+          &depth_[static_cast<std::size_t>(y * samples) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x * samples)];
       bool empty = low[0] >= 1;
       if (samples == 2) empty = empty && low[1] >= 1 && low[w] >= 1 && low[w + 1] >= 1;
       if (!empty) add_pixel(r, x, y, samples);

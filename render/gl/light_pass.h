@@ -28,8 +28,8 @@ class LightPass {
   void light(const Lighting&);
   void lay(const Targets&, const Rectangle&);
 
-  std::vector<std::uint16_t> seen_;  // RGBA of each sample
-  std::vector<float> depth_;         // of each sample
+  std::vector<std::uint16_t> seen_;    // RGBA of each sample
+  std::vector<float> depth_;           // of each sample
   std::vector<std::uint8_t> picture_;  // RGBA
   // a surface in a pixel
   std::vector<int> pixel_;

@@ -61,7 +61,8 @@ void ShadowPass::draw(Studio& studio, const std::vector<Piece>& pieces, const Fr
   draw_map(studio, pieces, frame);
   const int size = studio.targets.shadow_map_size;
   read_depth(size);
-  bounds_.build(depth_.data() + size + 3, size, size + 2, reach(studio, frame.block.shadow[0]), reach(studio, frame.block.shadow[1]));
+  bounds_.build(depth_.data() + size + 3, size, size + 2, reach(studio, frame.block.shadow[0]),
+                reach(studio, frame.block.shadow[1]));
   const int side = studio.cost.occlusion_size;
   occlusion_.resize(static_cast<std::size_t>(side + 2) * static_cast<std::size_t>(side + 2));
   const FrameBlock& b = frame.block;
@@ -79,14 +80,8 @@ void ShadowPass::read_depth(int size) {
 }
 
 shade::Maps ShadowPass::maps(const Effort& cost) const {
-  return {grain_.data(),
-          depth_.data(),
-          cost.shadow_map_size,
-          &bounds_.blocks()[0].least,
-          bounds_.side(),
-          occlusion_.data(),
-          cost.occlusion_size,
-          static_cast<float>(cost.shadow_reach),
+  return {grain_.data(),     depth_.data(),     cost.shadow_map_size, &bounds_.blocks()[0].least,
+          bounds_.side(),    occlusion_.data(), cost.occlusion_size,  static_cast<float>(cost.shadow_reach),
           cost.shadow_filter};
 }
 

@@ -38,12 +38,7 @@ void attach(const Renderbuffer& r, GLenum attachment, GLenum format, int width, 
 }  // namespace
 
 Targets::Targets(int w, int h, int ow, int oh, int sample_side, int shadow_size)
-    : width(w),
-      height(h),
-      out_width(ow),
-      out_height(oh),
-      samples(sample_side),
-      shadow_map_size(shadow_size) {
+    : width(w), height(h), out_width(ow), out_height(oh), samples(sample_side), shadow_map_size(shadow_size) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
   if (w > largest || h > largest)

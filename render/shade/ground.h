@@ -16,7 +16,9 @@ struct Width {
 struct Footprint {
   Width x, y;
 };
-LANES Footprint footprint(F x, F y) { return {{x, 1.0f / x}, {y, 1.0f / y}}; }
+LANES Footprint footprint(F x, F y) {
+  return {{x, 1.0f / x}, {y, 1.0f / y}};
+}
 
 /// Part of a footprint around x that a bar of half width h at c covers.
 LANES F bar(F x, float c, float h, const Width& w) {
@@ -39,7 +41,8 @@ LANES F grain(const Maps& maps, F x, F y, float tile, F size) {
   const F u = x * (256 / tile) - 0.5f, v = y * (256 / tile) - 0.5f;
   const F i = floor(u), j = floor(v), s = u - i, t = v - j;
   const I four = gather(maps.grain, ((to_int(j) & 255) << 8) | (to_int(i) & 255));
-  const F a = to_float(four & 255), b = to_float((four >> 8) & 255), c = to_float((four >> 16) & 255), d = to_float((four >> 24) & 255);
+  const F a = to_float(four & 255), b = to_float((four >> 8) & 255), c = to_float((four >> 16) & 255),
+          d = to_float((four >> 24) & 255);
   return (mix(mix(a, b, s), mix(c, d, s), t) * (1 / 255.0f) - 0.5f) * weight;
 }
 
@@ -47,7 +50,9 @@ struct Grain {
   F fine, middle, wide;
 };
 
-LANES V3 grey(float r, float g, float b, F s) { return {r * s, g * s, b * s}; }
+LANES V3 grey(float r, float g, float b, F s) {
+  return {r * s, g * s, b * s};
+}
 
 LANES V3 grass_colour(const Grain& g) {
   return mix(three(0.085f, 0.110f, 0.045f), three(0.135f, 0.145f, 0.065f), saturate(0.5f + 1.8f * g.wide + g.middle)) *
@@ -121,8 +126,8 @@ LANES F open_sky(const FrameData& f, const Maps& maps, F x, F y) {
   const F i = floor(u), j = floor(v), s = u - i, t = v - j;
   const int pitch = maps.occlusion_size + 2;
   const auto at = [&](int a, int b) {
-    return gather(maps.occlusion, (clamp(to_int(j) + b, -1, maps.occlusion_size) + 1) * pitch +
-                                      clamp(to_int(i) + a, -1, maps.occlusion_size) + 1);
+    return gather(maps.occlusion,
+                  (clamp(to_int(j) + b, -1, maps.occlusion_size) + 1) * pitch + clamp(to_int(i) + a, -1, maps.occlusion_size) + 1);
   };
   return mix(mix(at(0, 0), at(1, 0), s), mix(at(0, 1), at(1, 1), s), t);
 }
@@ -158,9 +163,8 @@ LANES V3 ground_light(const FrameData& f, const Maps& maps, const Tile& tile, F 
   const V3 p{ray.from.x + s * ray.along.x, ray.from.y + s * ray.along.y, all(f.ground[0])};
   const V3 along_x = ray.from_x + ray.along_x * s, along_y = ray.from_y + ray.along_y * s;
   const F step_x = along_x.z * per_fall, step_y = along_y.z * per_fall;
-  const Footprint w = footprint(
-             clamp(abs(along_x.x + ray.along.x * step_x) + abs(along_y.x + ray.along.x * step_y), 1e-4f, 1e4f),
-             clamp(abs(along_x.y + ray.along.y * step_x) + abs(along_y.y + ray.along.y * step_y), 1e-4f, 1e4f));
+  const Footprint w = footprint(clamp(abs(along_x.x + ray.along.x * step_x) + abs(along_y.x + ray.along.x * step_y), 1e-4f, 1e4f),
+                                clamp(abs(along_x.y + ray.along.y * step_x) + abs(along_y.y + ray.along.y * step_y), 1e-4f, 1e4f));
   V3 c = ground_colour(f, maps, tile.zone, p.x, p.y, w);
   F sky_open = all(1.0f), lit = all(1.0f);
   if (tile.sun != bare) {
@@ -208,7 +212,8 @@ void occlusion(const FrameData& frame, const Occluders& o, int size, float* out)
   for (int j = 0; j < size; ++j)
     for (int i = 0; i < size; i += kLanes) {
       const V3 p{f.occlusion[0] + f.occlusion[2] / static_cast<float>(size) * count_up(static_cast<float>(i) + 0.5f),
-                 all(f.occlusion[1] + f.occlusion[3] / static_cast<float>(size) * (static_cast<float>(j) + 0.5f)), all(f.ground[0])};
+                 all(f.occlusion[1] + f.occlusion[3] / static_cast<float>(size) * (static_cast<float>(j) + 0.5f)),
+                 all(f.ground[0])};
       const auto row = [&p](const float* r) { return r[0] * p.x + r[1] * p.y + r[2] * p.z + r[3]; };
       F left = all(1.0f);
       for (int k = 0; k < o.rounds; ++k) {

@@ -14,4 +14,8 @@ const Kernels& kernels() {
 #endif
 }
 
+const Kernels& plain_kernels() {
+  return kPlainKernels;
+}
+
 }  // namespace render::shade

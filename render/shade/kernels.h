@@ -1,5 +1,5 @@
-// The light of a frame, computed on the processor: sky, ground, things. Plain data in, pixels out; what calls it (render/gl) keeps the
-// memory. The same source is compiled for every x86-64 processor and for those with AVX2; both give the same bytes.
+// The light of a frame, computed on the processor: sky, ground, things. Plain data in, pixels out; what calls it (render/gl) keeps
+// the memory. The same source is compiled for every x86-64 processor and for those with AVX2; both give the same bytes.
 #pragma once
 
 #include <cstdint>
@@ -43,12 +43,12 @@ struct Canvas {
 
 /// What surfaces are seen, in pieces: one piece a pixel and surface.
 struct Pieces {
-  int count;               // room for seven more in each list
-  const float *x, *y;      // pixels
-  const float *depth;      // 0..1
-  const float *u, *v;      // normal on the octahedron, 0..1
-  const float *grain;
-  const std::int32_t* row; // of the materials; from 32768 on: the inside of a body
+  int count;           // room for seven more in each list
+  const float *x, *y;  // pixels
+  const float* depth;  // 0..1
+  const float *u, *v;  // normal on the octahedron, 0..1
+  const float* grain;
+  const std::int32_t* row;    // of the materials; from 32768 on: the inside of a body
   float *red, *green, *blue;  // out: 0..1 as on the screen
 };
 
@@ -67,5 +67,7 @@ struct Kernels {
 
 /// For this processor.
 const Kernels& kernels();
+/// For every processor.
+const Kernels& plain_kernels();
 
 }  // namespace render::shade

@@ -17,9 +17,15 @@ constexpr int kLanes = 8;
 typedef float F __attribute__((vector_size(32)));
 typedef std::int32_t I __attribute__((vector_size(32)));  // also the answer of a comparison: all bits or none
 
-LANES F all(float x) { return F{} + x; }
-LANES I all(int x) { return I{} + x; }
-LANES F count_up(float from) { return F{0, 1, 2, 3, 4, 5, 6, 7} + from; }
+LANES F all(float x) {
+  return F{} + x;
+}
+LANES I all(int x) {
+  return I{} + x;
+}
+LANES F count_up(float from) {
+  return F{0, 1, 2, 3, 4, 5, 6, 7} + from;
+}
 
 LANES bool any(I mask) {
 #if defined(__AVX2__)
@@ -31,22 +37,44 @@ LANES bool any(I mask) {
 #endif
 }
 
-LANES F to_float(I x) { return __builtin_convertvector(x, F); }
-LANES I to_int(F x) { return __builtin_convertvector(x, I); }  // towards zero
+LANES F to_float(I x) {
+  return __builtin_convertvector(x, F);
+}
+LANES I to_int(F x) {
+  return __builtin_convertvector(x, I);
+}  // towards zero
 
-LANES F min(F a, F b) { return a < b ? a : b; }
-LANES F max(F a, F b) { return a > b ? a : b; }
-LANES F min(F a, float b) { return min(a, all(b)); }
-LANES F max(F a, float b) { return max(a, all(b)); }
+LANES F min(F a, F b) {
+  return a < b ? a : b;
+}
+LANES F max(F a, F b) {
+  return a > b ? a : b;
+}
+LANES F min(F a, float b) {
+  return min(a, all(b));
+}
+LANES F max(F a, float b) {
+  return max(a, all(b));
+}
 LANES I clamp(I x, int low, int high) {
   x = x < low ? all(low) : x;
   return x > high ? all(high) : x;
 }
-LANES F clamp(F x, float low, float high) { return min(max(x, low), high); }
-LANES F saturate(F x) { return clamp(x, 0, 1); }
-LANES F abs(F x) { return reinterpret_cast<F>(reinterpret_cast<I>(x) & 0x7fffffff); }
-LANES F mix(F a, F b, F s) { return a + (b - a) * s; }
-LANES F mix(float a, float b, F s) { return a + (b - a) * s; }
+LANES F clamp(F x, float low, float high) {
+  return min(max(x, low), high);
+}
+LANES F saturate(F x) {
+  return clamp(x, 0, 1);
+}
+LANES F abs(F x) {
+  return reinterpret_cast<F>(reinterpret_cast<I>(x) & 0x7fffffff);
+}
+LANES F mix(F a, F b, F s) {
+  return a + (b - a) * s;
+}
+LANES F mix(float a, float b, F s) {
+  return a + (b - a) * s;
+}
 LANES F floor(F x) {  // |x| < 2^31
 #if defined(__AVX__)
   return reinterpret_cast<F>(_mm256_floor_ps(reinterpret_cast<__m256>(x)));
@@ -55,12 +83,16 @@ LANES F floor(F x) {  // |x| < 2^31
   return t > x ? t - 1.0f : t;
 #endif
 }
-LANES F fract(F x) { return x - floor(x); }
+LANES F fract(F x) {
+  return x - floor(x);
+}
 LANES F smoothstep(float low, float high, F x) {
   const F t = saturate((x - low) * (1 / (high - low)));
   return t * t * (3.0f - 2.0f * t);
 }
-LANES F step(F edge, F x) { return x < edge ? all(0.0f) : all(1.0f); }
+LANES F step(F edge, F x) {
+  return x < edge ? all(0.0f) : all(1.0f);
+}
 
 LANES F sqrt(F x) {
 #if defined(__AVX__)
@@ -76,10 +108,13 @@ LANES F sqrt(F x) {
 LANES F exp2(F x) {
   x = clamp(x, -126, 126);
   const F whole = floor(x + 0.5f), f = x - whole;
-  const F p = 1.0f + f * (0.69314718f + f * (0.24022651f + f * (0.05550411f + f * (0.00961813f + f * (0.00133336f + f * 0.00015404f)))));
+  const F p =
+      1.0f + f * (0.69314718f + f * (0.24022651f + f * (0.05550411f + f * (0.00961813f + f * (0.00133336f + f * 0.00015404f)))));
   return p * reinterpret_cast<F>((to_int(whole) + 127) << 23);
 }
-LANES F exp(F x) { return exp2(x * 1.44269504f); }
+LANES F exp(F x) {
+  return exp2(x * 1.44269504f);
+}
 
 /// Logarithm to base 2 of x > 0, to 1e-7: series of the inverse hyperbolic tangent about the middle of an octave.
 LANES F log2(F x) {
@@ -93,7 +128,9 @@ LANES F log2(F x) {
   return to_float(exponent) + t * (2.88539008f + t2 * (0.96179669f + t2 * (0.57707802f + t2 * 0.41219858f)));
 }
 /// x^e for x in 0..1, e >= 1.
-LANES F pow(F x, F e) { return x > 1e-30f ? exp2(e * log2(max(x, 1e-30f))) : all(0.0f); }
+LANES F pow(F x, F e) {
+  return x > 1e-30f ? exp2(e * log2(max(x, 1e-30f))) : all(0.0f);
+}
 
 /// Sine and cosine of a turn 0..1, to 1e-3: where samples lie, not how bright they are.
 LANES F sine_of_turn(F turn) {
@@ -127,20 +164,48 @@ struct V2 {
 struct V3 {
   F x, y, z;
 };
-LANES V2 two(float x, float y) { return {all(x), all(y)}; }
-LANES V3 three(float x, float y, float z) { return {all(x), all(y), all(z)}; }
-LANES V3 three(const float* v) { return three(v[0], v[1], v[2]); }
-LANES V3 operator+(const V3& a, const V3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-LANES V3 operator-(const V3& a, const V3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-LANES V3 operator*(const V3& a, const V3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-LANES V3 operator*(const V3& a, F s) { return {a.x * s, a.y * s, a.z * s}; }
-LANES V3 operator*(const V3& a, float s) { return {a.x * s, a.y * s, a.z * s}; }
-LANES V3 operator+(const V3& a, F s) { return {a.x + s, a.y + s, a.z + s}; }
-LANES F dot(const V3& a, const V3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-LANES F length(const V3& a) { return sqrt(dot(a, a)); }
-LANES V3 normalize(const V3& a) { return a * (1.0f / sqrt(dot(a, a))); }
-LANES V3 mix(const V3& a, const V3& b, F s) { return {mix(a.x, b.x, s), mix(a.y, b.y, s), mix(a.z, b.z, s)}; }
-LANES V3 max(const V3& a, float s) { return {max(a.x, s), max(a.y, s), max(a.z, s)}; }
+LANES V2 two(float x, float y) {
+  return {all(x), all(y)};
+}
+LANES V3 three(float x, float y, float z) {
+  return {all(x), all(y), all(z)};
+}
+LANES V3 three(const float* v) {
+  return three(v[0], v[1], v[2]);
+}
+LANES V3 operator+(const V3& a, const V3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+LANES V3 operator-(const V3& a, const V3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+LANES V3 operator*(const V3& a, const V3& b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+LANES V3 operator*(const V3& a, F s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+LANES V3 operator*(const V3& a, float s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+LANES V3 operator+(const V3& a, F s) {
+  return {a.x + s, a.y + s, a.z + s};
+}
+LANES F dot(const V3& a, const V3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+LANES F length(const V3& a) {
+  return sqrt(dot(a, a));
+}
+LANES V3 normalize(const V3& a) {
+  return a * (1.0f / sqrt(dot(a, a)));
+}
+LANES V3 mix(const V3& a, const V3& b, F s) {
+  return {mix(a.x, b.x, s), mix(a.y, b.y, s), mix(a.z, b.z, s)};
+}
+LANES V3 max(const V3& a, float s) {
+  return {max(a.x, s), max(a.y, s), max(a.z, s)};
+}
 
 }  // namespace
 }  // namespace render::shade

@@ -46,21 +46,27 @@ LANES F haze_at(const FrameData& f, F distance_m) {
   return 1.0f - exp(distance_m * -(0.0015f + (0.018f - 0.0015f) * w * w));
 }
 
-// Filmic curve (Narkowicz 2015, fit of the ACES reference) of 0.72 c, then sRGB: both in one, as a rational function of sqrt(c) that
-// stays within 0.45 / 255 of them up to c = 10, where they reach white.
+// Filmic curve (Narkowicz 2015, fit of the ACES reference) of 0.72 c, then sRGB: both in one, as a rational function of sqrt(c)
+// that stays within 0.45 / 255 of them up to c = 10, where they reach white.
 LANES F to_screen(F c) {
   const F s = sqrt(clamp(c, 0, 10));
   const F p = 0.00145106685f + s * (-0.187896814f + s * (6.04647127f + s * (-34.9294162f + s * 67.172244f)));
   const F q = 1.0f + s * (-7.33100167f + s * (22.7312445f + s * (-39.779932f + s * 67.3452571f)));
   return p / q;
 }
-LANES V3 to_screen(const V3& c) { return {to_screen(c.x), to_screen(c.y), to_screen(c.z)}; }
+LANES V3 to_screen(const V3& c) {
+  return {to_screen(c.x), to_screen(c.y), to_screen(c.z)};
+}
 
 /// Noise of a pixel, 0..1 (Jimenez 2014, interleaved gradient noise).
-LANES F pixel_noise(F x, F y) { return fract(52.9829189f * fract(x * 0.06711056f + y * 0.00583715f)); }
+LANES F pixel_noise(F x, F y) {
+  return fract(52.9829189f * fract(x * 0.06711056f + y * 0.00583715f));
+}
 
 /// Half a step of noise hides the steps of eight bits in the sky.
-LANES F dither(F x, F y) { return (pixel_noise(x, y) - 0.5f) * (1 / 255.0f); }
+LANES F dither(F x, F y) {
+  return (pixel_noise(x, y) - 0.5f) * (1 / 255.0f);
+}
 
 /// The first `count` of eight pixels.
 LANES void put(const V3& c, int count, std::uint8_t* out) {

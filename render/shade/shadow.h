@@ -1,5 +1,6 @@
 // How much of the sun a place sees. Contact hardening: the farther the blocker, the wider the filter (Fernando 2005). Blockers are
-// looked for only where the least and largest depth around leave it open, the filter runs only where some are found and some are not.
+// looked for only where the least and largest depth around leave it open, the filter runs only where some are found and some are
+// not.
 #pragma once
 
 #include "render/shade/light.h"
@@ -35,7 +36,9 @@ struct Spiral {
   V2 d;
   LANES void next() { d = {d.x * -0.7373688f - d.y * 0.6754903f, d.x * 0.6754903f - d.y * 0.7373688f}; }
 };
-LANES float radius(int i, int count) { return __builtin_sqrtf((static_cast<float>(i) + 0.5f) / static_cast<float>(count)); }
+LANES float radius(int i, int count) {
+  return __builtin_sqrtf((static_cast<float>(i) + 0.5f) / static_cast<float>(count));
+}
 
 /// At p with normal n; x, y are its pixel. Where `wanted` is nought anything may come out.
 LANES F sunlight(const FrameData& f, const Maps& maps, const V3& p, const V3& n, I wanted, F x, F y) {

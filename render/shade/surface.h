@@ -9,8 +9,8 @@ namespace {
 /// Sixteen numbers of each lane's row.
 struct MaterialRows {
   V3 base;
-  F diffuse;                                   // share
-  F straight, grazing, mirror, glow;           // reflection straight on and at grazing, tinted mirror
+  F diffuse;                                       // share
+  F straight, grazing, mirror, glow;               // reflection straight on and at grazing, tinted mirror
   F broad, broad_exponent, sharp, sharp_exponent;  // tinted and white highlight
   F wrap, sheen, grain, terrain;
 };
@@ -48,10 +48,12 @@ LANES Footprint footprint(const FrameData& f, F x, F y, const V3& p, const V3& n
 }
 
 /// Highlight of the sun, Blinn-Phong normalised.
-LANES F shine(F cosine, F exponent) { return (exponent + 8.0f) * (1 / 25.13f) * pow(cosine, exponent); }
+LANES F shine(F cosine, F exponent) {
+  return (exponent + 8.0f) * (1 / 25.13f) * pow(cosine, exponent);
+}
 
-LANES V3 surface_light(const FrameData& f, const Maps& maps, const float* materials, bool terrain, const V3& p, const V3& n, I id, F grain,
-                       F x, F y) {
+LANES V3 surface_light(const FrameData& f, const Maps& maps, const float* materials, bool terrain, const V3& p, const V3& n, I id,
+                       F grain, F x, F y) {
   const I inside = id >= 32768;
   const MaterialRows m = rows_of(materials, inside ? id - 32768 : id);
   const V3 to_sun = three(f.sun);
@@ -59,8 +61,8 @@ LANES V3 surface_light(const FrameData& f, const Maps& maps, const float* materi
   const F toward = dot(n, to_sun), ndl = max(toward, 0.0f), ndv = saturate(dot(n, v));
   const F lit = sunlight(f, maps, p, n, toward >= -m.wrap, x, y);
   const F height = p.z - f.ground[0];
-  const V3 sky = ambient_light(f, n.z, mix(0.30f, 1.0f, smoothstep(0, 0.9f, height))) *
-                 mix(0.62f, 1.0f, smoothstep(-0.05f, 0.45f, height));
+  const V3 sky =
+      ambient_light(f, n.z, mix(0.30f, 1.0f, smoothstep(0, 0.9f, height))) * mix(0.62f, 1.0f, smoothstep(-0.05f, 0.45f, height));
   const V3 r = n * (2.0f * dot(n, v)) - v;
   // a mirror close to the road sees the car's own shade under it
   const F shade = r.z >= 0.0f ? all(1.0f) : mix(0.35f, 1.0f, smoothstep(0, 0.8f, height));

@@ -35,7 +35,7 @@ TEST(DepthPyramid, HoldsEveryDepthWithinReach) {
 
 TEST(DepthPyramid, BeyondTheMapNothingCasts) {
   DepthPyramid pyramid;
-  pyramid.build(std::vector<float>(64 * 64, 0.25f), 64, 8, 8);
+  pyramid.build(std::vector<float>(64 * 64, 0.25f).data(), 64, 64, 8, 8);
   const auto away = pyramid.over(1.2, 0.1, 1.4, 0.2), within = pyramid.over(0.45, 0.45, 0.55, 0.55);
   EXPECT_EQ(away.least, 1);
   EXPECT_EQ(within.least, 0.25f);
