@@ -48,6 +48,7 @@ struct Library {
 const std::vector<Library> kLibraries = {
     {"Eigen/.*", {"engine/", "render/", "scenes/", "cli/"}},
     {"GL/.*|EGL/.*", {"render/gl/"}},
+    {"immintrin\\.h", {"render/shade/lanes.h"}},
     {"lib(av|sw).*", {"render/video/"}},
     {"png\\.h|zlib\\.h", {"render/image/"}},
     {"cairo.*|pango.*|ft2build\\.h|freetype.*|fontconfig.*", {"render/text/", "render/figures/", "render/charts/"}},
@@ -56,7 +57,8 @@ const std::vector<Library> kLibraries = {
     {"CLI/.*", {"cli/command.cpp"}},
     {"nlohmann/.*", {"scenes/", "cli/"}},
     {"fmt/.*", {"render/", "scenes/", "cli/"}},
-    {"linux/.*|sys/.*|unistd\\.h|fcntl\\.h|poll\\.h|signal\\.h|sched\\.h|fnmatch\\.h", {"render/", "scenes/", "cli/"}},
+    {"linux/.*|sys/.*|unistd\\.h|fcntl\\.h|poll\\.h|semaphore\\.h|signal\\.h|sched\\.h|fnmatch\\.h",
+     {"render/", "scenes/", "cli/"}},
     // the engine knows no files, no text output, no clock, no threads, no order that depends on addresses, no chance
     {"(iostream|ostream|istream|fstream|cstdio|filesystem|chrono|ctime|thread|mutex|future|atomic|condition_variable|random"
      "|unordered_map|unordered_set)",

@@ -95,7 +95,7 @@ TEST(Shade, SurfacesAreTheSameOnEveryProcessor) {
 }
 
 TEST(Shade, ATileOfOneKindShowsWhatTheWholePatternWould) {
-  const Street street(false, test::look_down(0, 0, 16, 1.35f));
+  const Street street(false, test::look_down(0, -4.5f, 5, 1.35f));
   const gl::TileMap tiles = gl::lay_tiles(street.frame, street.list.road, gl::DepthPyramid(), gl::Shade::none, kWidth, kHeight);
   const std::vector<std::uint8_t> whole = background(kernels(), street, static_cast<int>(gl::Zone::everything), 0, 1);
   int kinds = 0;
