@@ -29,6 +29,8 @@ Recorder::Recorder(const World& world, const State& state)
       hit_ground_(world.model.persons.size(), 0),
       support_(world.model.bodies.size(), 0),
       last_ground_(world.model.persons.size(), 0) {
+  tallies_.reserve(kRoom);
+  events_.reserve(kRoom);
   initial_energy_ = kinetic_energy(world.model, state) + potential_energy(world.model, state) + world.spring_energy;
   last_energy_ = initial_energy_;
   // what stands within 2 cm of the ground at the start carries its person

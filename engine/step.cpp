@@ -61,6 +61,7 @@ Stepper::Stepper(World& world)
       force_(world.model.bodies.size(), Vec6::Zero()),
       result_(world.model.bodies.size(), Vec6::Zero()),
       damping_(world.model.bodies.size(), Vec6::Zero()) {
+  reserve(world);
   const Settings& settings = world.model.settings;
   if (settings.scheme == Scheme::adaptive) depth_tolerance_ = std::max(10 * settings.adaptive_tolerance, 2 * kSlop);
   if (settings.contact_law != ContactLaw::compliant || settings.scheme == Scheme::stepping) return;
@@ -72,6 +73,20 @@ Stepper::Stepper(World& world)
     world.step = step;
     world.constraints.swap(found);
   });
+}
+
+/// Every buffer at the size a step may want.
+void Stepper::reserve(const World& world) {
+  const std::size_t trees = world.topology.trees.size();
+  for (auto* list : {&step_constraints_, &contacts_, &end_contacts_}) list->reserve(kRoom);
+  for (auto* list : {&weight_, &allowed_, &targets_}) list->reserve(kRoom);
+  islands_.resize(trees);
+  for (auto& island : islands_) island.reserve(kRoom);
+  island_has_impact_.reserve(trees);
+  island_of_tree_.reserve(trees);
+  contact_trees_.reserve(trees);
+  members_.reserve(kRoom);
+  end_.warm.reserve(kRoom);
 }
 
 /// What stands inside something else before anything has moved.
@@ -172,7 +187,7 @@ bool Stepper::impact(World& world, State& state) {
   const Meter::Span span(world.meter, Phase::impulses);
   factor_for_impulses(world, state, nullptr);
   form_islands(world);
-  std::vector<int> members;
+  std::vector<int>& members = members_;
   for (const auto& island : islands_) {
     members.clear();
     bool has_impact = false;
@@ -216,7 +231,8 @@ void Stepper::exchange_impulses(World& world, State& state, const std::vector<in
     for (int r = 0; r < world.constraints[i].rows; ++r)
       energy_before += std::abs(world.constraints[i].impulse[r] * world.constraints[i].u_free[r]);
   if (energy_change > 1e-12 * energy_before) {
-    std::vector<double> targets;
+    std::vector<double>& targets = targets_;
+    targets.clear();
     for (const int i : members) targets.push_back(world.constraints[i].target);
     double low = 0, high = 1;
     for (int k = 0; k < 30; ++k) {

@@ -21,6 +21,7 @@ class Stepper {
   std::function<void(double time, double duration)> on_impulses;
 
  private:
+  void reserve(const World&);
   void warn_of_overlaps(World&) const;
   void choose_trees(World&, const State&);
   double attempt(World&, State&, double h);
@@ -56,6 +57,8 @@ class Stepper {
   std::vector<Twist>& V_ = end_.V_WB;
   std::vector<Constraint> step_constraints_;
   std::vector<double> allowed_;
+  std::vector<int> members_;                         // that exchange impulses at an instant
+  std::vector<double> targets_;                      // of those
   std::vector<Constraint> contacts_, end_contacts_;  // found at its start, at its end
   std::vector<int> contact_trees_;                   // trees awake when contacts_ were found
   bool contacts_known_ = false;

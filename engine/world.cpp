@@ -38,7 +38,10 @@ World::World(const Model& m, const Plan& p, const RunOptions& o)
   }
   dampers.resize(m.joints.size());
   resistances.resize(m.joints.size());
-  constraints.reserve(256);
+  constraints.reserve(kRoom);
+  solver.reserve(kRoom, n);
+  active_trees.reserve(topology.trees.size());
+  events.reserve(kRoom);
 }
 
 namespace {

@@ -44,7 +44,6 @@ struct MeshPair {
   int mesh_body = -1;  // -1: terrain
   const TriangleMesh* mesh = nullptr;
   Clearance clearance;  // of the segment in the frame of the mesh
-  MeshContactScratch scratch;
 };
 
 /// Two segments that may touch each other.
@@ -99,6 +98,9 @@ struct Resistance {
   int effect = 0;
 };
 
+/// Conditions the buffers of a step have room for from the start: a step allocates nothing until there are more.
+constexpr std::size_t kRoom = 128;
+
 struct World {
   World(const Model&, const Plan&, const RunOptions&);
 
@@ -121,9 +123,11 @@ struct World {
   std::vector<std::vector<SurfacePoint>> surface_points;  // per body with a mesh, for meshes against others
   std::vector<SurfaceContact> point_contacts;             // scratch of those
   std::vector<int> point_scratch;
+  MeshContactScratch mesh_scratch;
   std::vector<double> path_steer;  // [rad] per vehicle that follows a path
   std::vector<ImpactPair> impact_pairs;
   OverlapScratch overlap;
+  std::vector<Vec6> impact_force, impact_change;  // per body, of an impulse between two
 
   // this step
   double time = 0;  // [s] its start

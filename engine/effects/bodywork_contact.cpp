@@ -45,6 +45,15 @@ Finding look(const Model& model) {
   return {true, reason, "meshes whose boxes a step cannot bring together: exact"};
 }
 
+void reserve_scratch(World& world) {
+  std::size_t triangles = world.model.ground.terrain ? world.model.ground.terrain->triangles().size() : 0, points = 0;
+  for (const Body& body : world.model.bodies)
+    if (is_mesh(body)) triangles = std::max(triangles, std::get<MeshShape>(body.shape).mesh->triangles().size());
+  for (const auto& of_body : world.surface_points) points = std::max(points, of_body.size());
+  world.point_scratch.reserve(triangles);
+  world.point_contacts.reserve(points);
+}
+
 void begin(World& world, const State&, int) {
   const auto& bodies = world.model.bodies;
   world.surface_points.assign(bodies.size(), {});
@@ -61,6 +70,7 @@ void begin(World& world, const State&, int) {
           world.surface_points[b].push_back({wheel.hub_B + spoke, true});
         }
   }
+  reserve_scratch(world);
 }
 
 /// Box around a body's points in world axes.

@@ -53,6 +53,10 @@ Finding look(const Model& model) {
 
 void begin(World& world, const State&, int) {
   world.impact_pairs = pairs_of(world.model);
+  reserve(world.overlap);
+  world.exchanges.reserve(kRoom);
+  world.impact_force.resize(world.model.bodies.size());
+  world.impact_change.resize(world.model.bodies.size());
 }
 
 std::optional<MeshOverlap> overlap_now(World& world, const State& state, const ImpactPair& pair) {
@@ -69,7 +73,7 @@ Vec3 velocity_at(const State& state, int body, const Vec3& point) {
 class ImpulseThroughJoints {
  public:
   ImpulseThroughJoints(World& world, const State& state, int a, int b, const Vec3& point)
-      : world_(world), a_(a), b_(b), point_(point), state_(state), force_(state.X_WB.size()), change_(state.X_WB.size()) {
+      : world_(world), a_(a), b_(b), point_(point), state_(state), force_(world.impact_force), change_(world.impact_change) {
     for (const int body : {a, b}) {
       const int tree = world.topology.tree_of_body[body];
       if (tree < 0 || std::find(trees_.begin(), trees_.end(), tree) != trees_.end()) continue;
@@ -94,7 +98,7 @@ class ImpulseThroughJoints {
     }
     return 0.5 * (K + K.transpose());
   }
-  const std::vector<int>& trees() const { return trees_; }
+  const SmallVector<int, 2>& trees() const { return trees_; }
   const Vec6& change(int body) const { return change_[body]; }
 
  private:
@@ -102,8 +106,8 @@ class ImpulseThroughJoints {
   int a_, b_;
   Vec3 point_;
   const State& state_;
-  std::vector<int> trees_;
-  std::vector<Vec6> force_, change_;  // an impact is rare: these may allocate
+  SmallVector<int, 2> trees_;
+  std::vector<Vec6>&force_, &change_;
 };
 
 void record(World& world, const ImpactPair& pair, const State& state, const Vec3& point, const Vec3& normal,

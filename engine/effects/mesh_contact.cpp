@@ -38,7 +38,8 @@ void begin(World& world, const State&, int self) {
   for (int m = 0; m < static_cast<int>(bodies.size()); ++m)
     for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
       if (can_meet(bodies[b], bodies[m]))
-        world.mesh_pairs.push_back({self, b, m, std::get<MeshShape>(bodies[m].shape).mesh.get(), {}, {}});
+        world.mesh_pairs.push_back({self, b, m, std::get<MeshShape>(bodies[m].shape).mesh.get(), {}});
+  for (const MeshPair& pair : world.mesh_pairs) reserve(world.mesh_scratch, *pair.mesh);
 }
 
 void find(World& world, const State& state, int self) {
@@ -52,9 +53,9 @@ void find(World& world, const State& state, int self) {
     const double margin = pair_margin(world, state, pair.body, pair.mesh_body);
     const Pose X_MA = X_WM.inverse() * state.X_WB[pair.body];
     if (pair.clearance.beyond(margin, X_MA, world.reach[pair.body])) continue;
-    contacts_with_mesh(std::get<HyperEllipsoid>(round.shape), state.X_WB[pair.body], *pair.mesh, X_WM, margin, pair.scratch,
+    contacts_with_mesh(std::get<HyperEllipsoid>(round.shape), state.X_WB[pair.body], *pair.mesh, X_WM, margin, world.mesh_scratch,
                        touches);
-    pair.clearance = {pair.scratch.apart, X_MA};
+    pair.clearance = {world.mesh_scratch.apart, X_MA};
     const double mu = std::min(round.surface.friction_body.at(state.time), mesh.surface.friction_body.at(state.time));
     const double e = std::max(round.surface.restitution_body.at(state.time), mesh.surface.restitution_body.at(state.time));
     for (const SurfaceContact& touch : touches)

@@ -22,7 +22,8 @@ Finding look(const Model& model) {
 void begin(World& world, const State&, int self) {
   if (!world.model.ground.terrain) return;
   for (int b = 0; b < static_cast<int>(world.model.bodies.size()); ++b)
-    if (has_surface(world.model.bodies[b])) world.mesh_pairs.push_back({self, b, -1, world.model.ground.terrain.get(), {}, {}});
+    if (has_surface(world.model.bodies[b])) world.mesh_pairs.push_back({self, b, -1, world.model.ground.terrain.get(), {}});
+  reserve(world.mesh_scratch, *world.model.ground.terrain);
 }
 
 void find(World& world, const State& state, int self) {
@@ -33,8 +34,8 @@ void find(World& world, const State& state, int self) {
     const auto& shape = std::get<HyperEllipsoid>(body.shape);
     const double margin = contact_margin(world, state, pair.body);
     if (pair.clearance.beyond(margin, state.X_WB[pair.body], world.reach[pair.body])) continue;
-    contacts_with_mesh(shape, state.X_WB[pair.body], *pair.mesh, Pose{}, margin, pair.scratch, touches);
-    pair.clearance = {pair.scratch.apart, state.X_WB[pair.body]};
+    contacts_with_mesh(shape, state.X_WB[pair.body], *pair.mesh, Pose{}, margin, world.mesh_scratch, touches);
+    pair.clearance = {world.mesh_scratch.apart, state.X_WB[pair.body]};
     const Ground& ground = world.model.ground;
     const double t = state.time;
     const double e = std::max(body.surface.restitution_ground.at(t), ground.surface.restitution_ground.at(t));

@@ -65,8 +65,8 @@ void before_step(World& world, State& state, int) {
     if (world.model.bodies[pair.mesh_body].person == world.model.bodies[pair.body].person) continue;  // what it rides
     const auto& mesh = std::get<MeshShape>(world.model.bodies[pair.mesh_body].shape);
     contacts_with_mesh(std::get<HyperEllipsoid>(world.model.bodies[pair.body].shape), state.X_WB[pair.body], *pair.mesh,
-                       state.X_WB[pair.mesh_body] * mesh.X_BM, pair_margin(world, state, pair.body, pair.mesh_body), pair.scratch,
-                       found);
+                       state.X_WB[pair.mesh_body] * mesh.X_BM, pair_margin(world, state, pair.body, pair.mesh_body),
+                       world.mesh_scratch, found);
     for (const SurfaceContact& touch : found)
       if (touches(world, state, touch, pair.body, pair.mesh_body)) release(world, state, pair.body, pair.mesh_body, touch.p_a);
   }

@@ -149,6 +149,13 @@ void keep_the_telling(std::vector<SurfaceContact>& found, double apart, ContactP
 
 }  // namespace
 
+void reserve(MeshContactScratch& scratch, const TriangleMesh& mesh) {
+  const std::size_t count = mesh.triangles().size();
+  scratch.triangles.reserve(count);
+  scratch.vertices.reserve(6 * count);
+  scratch.candidates.reserve(std::min<std::size_t>(4 * count, 4096));
+}
+
 void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const TriangleMesh& mesh, const Pose& X_WM, double margin,
                         MeshContactScratch& scratch, ContactPoints& out) {
   out.clear();

@@ -17,6 +17,9 @@ struct MeshContactScratch {
   double apart = 0;  // [m] when nothing was found: the surfaces are at least this far from each other
 };
 
+/// Room for whatever a body can meet of the mesh.
+void reserve(MeshContactScratch&, const TriangleMesh&);
+
 /// Points with gap < margin [m] between the hyper-ellipsoid at X_WA and the mesh at X_WM; `out` is cleared first. Normals within
 /// 10 degrees are clustered; the deepest and up to three spread points stay. A part sliding over a flat sheet of many triangles
 /// gets the contacts of a plane. A triangle whose plane the centre has passed by more than a quarter of the body is its far side

@@ -73,6 +73,10 @@ bool tighten(const OverlapScratch& s, Grid& grid) {
 
 }  // namespace
 
+void reserve(OverlapScratch& scratch) {
+  for (auto* spans : {&scratch.a, &scratch.b}) spans->reserve(static_cast<std::size_t>(kSide) * kSide);
+}
+
 Aabb world_bounds(const TriangleMesh& mesh, const Pose& X_WM) {
   const Vec3 centre = X_WM * Vec3(0.5 * (mesh.bounds().lower + mesh.bounds().upper));
   const Vec3 half = X_WM.q.toRotationMatrix().cwiseAbs() * (0.5 * (mesh.bounds().upper - mesh.bounds().lower));

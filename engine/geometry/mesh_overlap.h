@@ -28,6 +28,8 @@ struct OverlapScratch {
   std::vector<Span> a, b;
 };
 
+void reserve(OverlapScratch&);
+
 /// Box in world axes of a mesh at a pose.
 Aabb world_bounds(const TriangleMesh&, const Pose& X_WM);
 

@@ -31,6 +31,10 @@ CompliantContacts::CompliantContacts(const Model& model, Finder finder) : model_
   const double g = model.settings.gravity.norm();
   // a scheme that chooses its own steps takes short ones where surfaces rest
   const double step = model.settings.scheme == Scheme::adaptive ? std::min(model.settings.step, 1e-3) : model.settings.step;
+  found_.reserve(kRoom);
+  touches_.reserve(kRoom);
+  next_touches_.reserve(kRoom);
+  exchanged_.reserve(kRoom);
   rest_speed_ = std::max(kSlowestRest, 2 * g * step);
   smoothing_ = std::max(kSlowestSmooth, g * step);
   for (const Body& body : model.bodies) {

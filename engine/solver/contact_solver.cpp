@@ -177,6 +177,17 @@ Vec3 solve_bounded_contact(const Mat3& A, const Vec3& u, double target, double s
   return next;
 }
 
+void ContactSolver::reserve(std::size_t constraints, std::size_t bodies) {
+  const std::size_t rows = 3 * constraints;
+  G_.reserve(rows * rows);
+  newton_.reserve(rows);
+  rule_.reserve(rows);
+  L_start_.reserve(constraints);
+  Y_.reserve(bodies);
+  for (std::vector<double>* list : {&u_, &L_, &u_kept_, &L_kept_, &u_start_, &bound_}) list->reserve(rows);
+  for (std::vector<int>* list : {&offset_, &unknown_}) list->reserve(rows);
+}
+
 void ContactSolver::assemble(const Topology& topology, const Response& response, const std::vector<Constraint>& all,
                              const std::vector<int>& members) {
   const int count = static_cast<int>(members.size());

@@ -25,6 +25,9 @@ struct SolveReport {
 
 class ContactSolver {
  public:
+  /// Buffers for so many constraints and bodies, so that no step allocates.
+  void reserve(std::size_t constraints, std::size_t bodies);
+
   /// Builds G for the constraints named. Their rows and bodies must be set.
   void assemble(const Topology&, const Response&, const std::vector<Constraint>&, const std::vector<int>& members);
 

@@ -7,6 +7,7 @@ namespace engine {
 
 class DenseSystem {
  public:
+  void reserve(std::size_t n) { A_.reserve(n * n), b_.reserve(n); }
   void resize(int n);
   int size() const { return n_; }
   double& A(int row, int column) { return A_[static_cast<std::size_t>(column) * stride_ + static_cast<std::size_t>(row)]; }

@@ -10,6 +10,15 @@ void Response::reset(const Topology& topology) {
   base_.assign(topology.trees.size(), 0);
   trees_.clear();
   touched_.clear();
+  std::size_t blocks = 0;
+  for (std::size_t tree = 0; tree < topology.trees.size(); ++tree) {
+    const auto bodies = static_cast<std::size_t>(topology.trees[tree].end - topology.trees[tree].begin);
+    marked_[tree].reserve(bodies);
+    blocks += bodies * bodies;
+  }
+  blocks_.reserve(blocks);
+  trees_.reserve(topology.trees.size());
+  touched_.reserve(topology.tree_of_body.size());
 }
 
 void Response::clear() {
