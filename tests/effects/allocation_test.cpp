@@ -85,7 +85,7 @@ TEST_P(StepLoop, AllocatesNothingAfterWarmUp) {
   EXPECT_EQ(allocations, 0) << "in steps" << where;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, StepLoop, testing::ValuesIn(shipped_scenes()),
+INSTANTIATE_TEST_SUITE_P(Scenes, StepLoop, testing::ValuesIn(moving_scenes()),
                          [](const auto& scene) { return test_name(scene.param); });
 
 }  // namespace effects_tests

@@ -19,6 +19,13 @@ inline std::vector<std::string> shipped_scenes() {
   return out;
 }
 
+/// Those in which something happens: not the poses, which stand and wait.
+inline std::vector<std::string> moving_scenes() {
+  std::vector<std::string> out = shipped_scenes();
+  std::erase_if(out, [](const std::string& path) { return path.find("/pose_") != std::string::npos; });
+  return out;
+}
+
 /// A scene's path as the name of its test.
 inline std::string test_name(std::string path) {
   path = path.substr(path.find('/') + 1);
