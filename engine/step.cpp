@@ -37,6 +37,7 @@ constexpr double kSmoothSwing = 2.0;       // [-] rate of a swing under joint fo
 constexpr double kLargestTurn = 0.3;       // [rad] in one step of all
 constexpr double kMostParts = 20;
 constexpr double kMostAdaptiveParts = 1000;
+constexpr int kMostPasses = 6;       // through the impulses of one step, while joints are torn loose
 constexpr double kCarried = 0.02;    // [s] over which an error of speed counts as one of place: a bounce is short, its speed lasts
 constexpr double kSpringStep = 0.3;  // [rad] of a compliant contact's spring in one step: it keeps its energy to 1e-5
 
@@ -610,6 +611,37 @@ bool Stepper::locate_contact_event(World& world, const State& state, double& tak
   return any;
 }
 
+/// Joint resistance and the impulses of all conditions over the step; false when there are none of either. Again, from the smooth
+/// motion on, when a joint turned out not to be held by its friction.
+bool Stepper::exchange_over_step(World& world, State& state, double h, double& residual) {
+  drop_open_rows(world, h);
+  if (!world.any_damper && world.constraints.empty()) return false;
+  const Meter::Span span(world.meter, Phase::impulses);
+  if (world.any_damper) {
+    X_smooth_ = X_;
+    V_smooth_ = V_;
+  }
+  for (int pass = 0;; ++pass) {
+    factor_for_impulses(world, state, world.any_damper ? &world.dampers : nullptr);
+    if (world.any_damper) apply_resistance(world, h);
+    for (Constraint& c : world.constraints) c.u_free = row_velocity(c, V_);
+    if (pass == 0) form_islands(world);
+    set_targets(world, h);
+    residual = solve_islands(world, state, h);
+    apply(world, h);
+    if (!world.any_damper || pass == kMostPasses || !friction_gave_way(world)) return true;
+    X_ = X_smooth_;
+    V_ = V_smooth_;
+  }
+}
+
+bool Stepper::friction_gave_way(World& world) const {
+  bool any = false;
+  for (const Effect* effect : world.plan.active)
+    if (effect->gave_way) any = effect->gave_way(world, end_) || any;
+  return any;
+}
+
 /// A step of at most h from contacts_; halves it until what it leaves at its end is acceptable.
 double Stepper::attempt(World& world, State& state, double h) {
   // cut the step where the next impact with restitution happens
@@ -637,19 +669,8 @@ double Stepper::attempt(World& world, State& state, double h) {
   if (compliant_ && world.model.settings.locate_events) crossed = locate_contact_event(world, state, taken, crossing);
   if (taken != world.step) assemble_constraints(world, state, taken);
 
-  drop_open_rows(world, taken);
-  const bool impulses = world.any_damper || !world.constraints.empty();
   double residual = 0;
-  if (impulses) {
-    const Meter::Span span(world.meter, Phase::impulses);
-    factor_for_impulses(world, state, world.any_damper ? &world.dampers : nullptr);
-    if (world.any_damper) apply_resistance(world, taken);
-    for (Constraint& c : world.constraints) c.u_free = row_velocity(c, V_);
-    form_islands(world);
-    set_targets(world, taken);
-    residual = solve_islands(world, state, taken);
-    apply(world, taken);
-  }
+  const bool impulses = exchange_over_step(world, state, taken, residual);
   const double gap = close_joints(world);
   const int lost = lost_body(end_);
 

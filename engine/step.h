@@ -36,6 +36,8 @@ class Stepper {
   void exchange_impulses(World&, State&, const std::vector<int>& members, double& energy_change);
   bool impact(World&, State&);
   void prepare_resistance(World&, const State&, double h);
+  bool exchange_over_step(World&, State&, double h, double& residual);
+  bool friction_gave_way(World&) const;
   void factor_for_impulses(World&, const State&, const std::vector<JointDamper>* dampers);
   void set_targets(World&, double h);
   void form_islands(World&);
@@ -55,6 +57,8 @@ class Stepper {
   State end_;                  // of the step
   std::vector<Pose>& X_ = end_.X_WB;
   std::vector<Twist>& V_ = end_.V_WB;
+  std::vector<Twist> V_smooth_;  // before resistance and impulses
+  std::vector<Pose> X_smooth_;
   std::vector<Constraint> step_constraints_;
   std::vector<double> allowed_;
   std::vector<int> members_;                         // that exchange impulses at an instant

@@ -35,6 +35,8 @@ struct Effect {
                      int self) = nullptr;
   /// Implicit joint resistance over the step: fills dampers and resistances.
   void (*resist)(World&, const State&, int self) = nullptr;
+  /// Sees the end of a step the resistance has acted over; true when it has revised a damper and the impulses must be found again.
+  bool (*gave_way)(World&, const State& end) = nullptr;
   /// End of every step.
   void (*after_step)(World&, State&, int self) = nullptr;
 };

@@ -11,7 +11,9 @@
 namespace engine {
 namespace {
 
-constexpr double kFrictionRate = 0.05;  // [rad/s] below it dry friction acts like a damper
+constexpr double kStuckRate = 1e-5;  // [rad/s] at which a joint held by dry friction gives way: 0.6 mrad in a minute at most
+constexpr double kGivesWay = 0.05;   // [rad/s] above which a joint counts as broken loose ...
+constexpr double kMayExceed = 1.5;   // [-] ... if its friction exceeded the given torque by more than this in the step
 
 bool resists(const ArticulationAngle& a) {
   return a.stiffness > 0 || a.damping > 0 || a.friction_torque > 0;
@@ -45,9 +47,11 @@ Finding look(const Model& model) {
 }
 
 /// Schemes rk4 and adaptive evaluate springs and dampers anew in each stage, unless the damping is too stiff for an explicit scheme
-/// at this step (a light hand on a damped wrist): those stay implicit, and so does dry friction, which is not smooth.
+/// at this step (a light hand on a damped wrist): those stay implicit, and so do joints with dry friction, which is not smooth and
+/// must hold a spring at the very instant the spring pulls, or the joint creeps.
 bool in_stages(const Model& model, const Joint& joint) {
   if (model.settings.scheme == Scheme::stepping) return false;
+  if (std::any_of(joint.angles.begin(), joint.angles.end(), [](auto& a) { return a.friction_torque > 0; })) return false;
   constexpr double kStable = 1.5;  // [-] rate times step
   double largest_inverse = 0;
   for (const int b : {joint.parent, joint.child})
@@ -138,11 +142,15 @@ void resist(World& world, const State& state, int self) {
     damper.matrix.setZero();
     world.resistances[j].torque_W.setZero();
     world.resistances[j].effect = self;
+    world.resistances[j].slip_rate.setZero();
     for (int i = 0; i < 3; ++i) {
       const ArticulationAngle& a = joint.angles[i];
       if (!now.free[i] || !resists(a)) continue;
       const Vec3 g = now.gradient_W.col(i), axis = now.axes_W.col(i);
-      const double friction = a.friction_torque / std::max(std::abs(axis.dot(w_PC)), kFrictionRate);
+      world.resistances[j].axes_W.col(i) = axis;
+      double& rate = world.resistances[j].slip_rate[i];
+      rate = std::max(std::abs(axis.dot(w_PC)), kStuckRate);
+      const double friction = a.friction_torque / rate;
       const double damping = world.resistance_in_stages[j] ? 0 : a.damping;
       damper.matrix += h * (damping + friction) * axis * axis.transpose();
       if (world.resistance_in_stages[j] || a.stiffness == 0) continue;
@@ -163,6 +171,39 @@ void resist(World& world, const State& state, int self) {
     });
 }
 
+/// Dry friction acts as a damper that yields the given torque at the rate assumed for the end of the step. Where a joint was torn
+/// loose within the step the assumed rate was far too small and the joint all but rigid: assumes the rate at which it would have
+/// come out with the torque given, by its own inertia, and asks for the impulses again.
+bool gave_way(World& world, const State& end) {
+  const double h = world.step;
+  bool any = false;
+  for (int j = 0; j < static_cast<int>(world.model.joints.size()); ++j) {
+    const Joint& joint = world.model.joints[j];
+    if (!world.dampers[j].present) continue;
+    const Vec3 w_PC = end.V_WB[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : end.V_WB[joint.parent].w);
+    for (int i = 0; i < 3; ++i) {
+      const double torque = joint.angles[i].friction_torque;
+      double& assumed = world.resistances[j].slip_rate[i];
+      if (torque <= 0 || assumed <= 0) continue;
+      const Vec3 axis = world.resistances[j].axes_W.col(i);
+      const double came_out = std::abs(axis.dot(w_PC));
+      if (came_out < kGivesWay || came_out < kMayExceed * assumed) continue;
+      double inverse_inertia = 0;
+      for (const int b : {joint.parent, joint.child}) {
+        if (b < 0 || world.model.bodies[b].fixed) continue;
+        const Vec3 axis_B = end.X_WB[b].q.conjugate() * axis;
+        inverse_inertia += axis_B.dot(axis_B.cwiseQuotient(world.model.bodies[b].inertia_B.diagonal()));
+      }
+      const double slower = inverse_inertia * torque * h;  // [rad/s] what the torque takes away
+      const double rate = std::max(came_out + slower * (came_out / assumed - 1), came_out);
+      world.dampers[j].matrix += h * torque * (1 / rate - 1 / assumed) * axis * axis.transpose();
+      assumed = rate;
+      any = true;
+    }
+  }
+  return any;
+}
+
 }  // namespace
 
 const Effect kJointResistanceEffect{.name = "joint_resistance",
@@ -171,6 +212,7 @@ const Effect kJointResistanceEffect{.name = "joint_resistance",
                                     .before_step = before_step,
                                     .add_forces = add_forces,
                                     .resist = resist,
+                                    .gave_way = gave_way,
                                     .after_step = after_step};
 
 }  // namespace engine

@@ -21,6 +21,7 @@ constexpr int kPlainSweeps = 60;         // before the friction bounds are follo
 constexpr int kPatience = 3;             // Newton steps without a new best
 constexpr int kBoundedSweeps = 200;      // in each
 constexpr int kBoundSteps = 40;          // of the fixed point on the friction bounds
+constexpr int kMostSweeps = 2000;        // of all in one solve: what is not solved by then gets a shorter step instead
 constexpr double kNearBound = 1e-2;      // [m/s] change of a step after which Newton on the whole is tried
 constexpr int kNewtonSteps = 8;          // in a row
 constexpr double kProgress = 0.5;        // [-] of the residual: what a Newton step must reach to count
@@ -498,7 +499,8 @@ void ContactSolver::follow_bounds(std::vector<Constraint>& all, const std::vecto
   bound_.resize(count);
   for (std::size_t i = 0; i < count; ++i) bound_[i] = all[members[i]].friction * all[members[i]].impulse[0];
   double share = 1, last = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < kBoundSteps; ++k) {
+  const int last_sweep = report.sweeps + kMostSweeps;
+  for (int k = 0; k < kBoundSteps && report.sweeps < last_sweep; ++k) {
     bounded_ = true;
     report.residual = residual(all, members);
     iterate(all, members, 0.1 * tolerance, kBoundedSweeps, report);

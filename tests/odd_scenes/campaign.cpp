@@ -47,6 +47,7 @@ constexpr const char* kNames[] = {"ran", "diverged and said so", "not finite", "
 struct Worker {
   std::atomic<std::uint64_t> seed{0}, started{0};  // [s] of the clock
   std::atomic<long> outcomes[kOutcomes] = {}, oddities{0}, drawn{0};
+  std::atomic<std::uint64_t> slowest{0}, slowest_ms{0};
   pid_t pid = -1;
 };
 
@@ -177,6 +178,7 @@ void tell(const odd::OddScene& odd) {
   for (std::uint64_t seed = first; seed < wish.seed + wish.scenes; seed += static_cast<std::uint64_t>(wish.jobs)) {
     me.seed = seed;
     me.started = now();
+    const auto start = std::chrono::steady_clock::now();
     const bool drawn = wish.draw_every > 0 && seed % static_cast<std::uint64_t>(wish.draw_every) == 0;
     try {
       const odd::OddScene odd = generator.make(seed, kDuration);
@@ -188,6 +190,11 @@ void tell(const odd::OddScene& odd) {
     } catch (const std::exception& error) {
       ++me.outcomes[threw];
       std::printf("seed %lu: %s\n", seed, error.what());
+    }
+    const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - start).count();
+    if (const auto ms = static_cast<std::uint64_t>(took); ms > me.slowest_ms) {
+      me.slowest_ms = ms;
+      me.slowest = seed;
     }
     std::fflush(stdout);
   }
@@ -271,6 +278,9 @@ int main(int argc, char** argv) {
   }
   std::printf("%lu odd scenes, %.1f oddities each, %ld drawn:", wish.scenes,
               static_cast<double>(oddities) / static_cast<double>(wish.scenes), drawn);
+  const Worker& slow = *std::max_element(
+      workers, workers + wish.jobs, [](const Worker& a, const Worker& b) { return a.slowest_ms.load() < b.slowest_ms.load(); });
   for (int o = 0; o < kOutcomes; ++o) std::printf(" %ld %s%s", sums[o], kNames[o], o + 1 < kOutcomes ? "," : "\n");
+  std::printf("slowest: seed %lu, %.1f s\n", slow.slowest.load(), 1e-3 * static_cast<double>(slow.slowest_ms.load()));
   return sums[not_finite] + sums[threw] + sums[died] + sums[hung] == 0 ? 0 : 1;
 }
