@@ -93,10 +93,13 @@ struct PassiveLeg {
 
 /// What a joint's resistance does over one step.
 struct Resistance {
-  Vec3 torque_W = Vec3::Zero();   // [N m] on the child at the start of the step, for springs
-  Vec3 w_PC = Vec3::Zero();       // [rad/s] relative angular velocity under smooth forces alone
-  Mat3 axes_W = Mat3::Zero();     // of the articulation angles, columns
-  Vec3 slip_rate = Vec3::Zero();  // [rad/s] per angle, at which dry friction yields its torque in this step; 0: none
+  Vec3 torque_W = Vec3::Zero();  // [N m] on the child at the start of the step, for springs
+  Vec3 w_PC = Vec3::Zero();      // [rad/s] relative angular velocity under smooth forces alone
+  Mat3 axes_W = Mat3::Zero();    // of the articulation angles, columns
+  // of dry friction, per articulation angle
+  Vec3 rate = Vec3::Zero();       // [rad/s] at the start of the step
+  Vec3 slip_rate = Vec3::Zero();  // [rad/s] at which it yields its torque in this step, 0: has none
+  Vec3 change = Vec3::Zero();     // [rad/s^2] of the rate over the last step
   int effect = 0;
 };
 

@@ -12,8 +12,8 @@ namespace engine {
 namespace {
 
 constexpr double kStuckRate = 1e-5;  // [rad/s] at which a joint held by dry friction gives way: 0.6 mrad in a minute at most
-constexpr double kGivesWay = 0.05;   // [rad/s] above which a joint counts as broken loose ...
-constexpr double kMayExceed = 1.5;   // [-] ... if its friction exceeded the given torque by more than this in the step
+constexpr double kMayGrow = 1.5;     // [-] in a step, of the rate that is looked ahead
+constexpr double kHeldBack = 1e-3;   // [rad/s] by more friction than the given: the impulses are found again
 
 bool resists(const ArticulationAngle& a) {
   return a.stiffness > 0 || a.damping > 0 || a.friction_torque > 0;
@@ -126,8 +126,24 @@ void before_step(World& world, State& state, int) {
 }
 
 void after_step(World& world, State& state, int self) {
+  for (std::size_t j = 0; j < world.model.joints.size(); ++j) {
+    Resistance& resistance = world.resistances[j];
+    if (!world.dampers[j].present || resistance.slip_rate.isZero(0)) continue;
+    const Joint& joint = world.model.joints[j];
+    Vec3 w_PC = state.V_WB[joint.child].w;
+    if (joint.parent >= 0) w_PC -= state.V_WB[joint.parent].w;
+    resistance.change = (resistance.axes_W.transpose() * w_PC - resistance.rate) / world.step;
+  }
   if (world.model.settings.scheme == Scheme::stepping) return;
   world.dissipated[self] += 0.5 * world.step * (world.resistance_power + power_taken(world, state));
+}
+
+/// The rate [rad/s] at which an angle that turns at `now` will come out of the step if it goes on as in the last; held, if it comes
+/// to rest on the way.
+double expect_slip(Resistance& resistance, int angle, double now, double h) {
+  const double ahead = std::copysign(1.0, now) * (now + h * resistance.change[angle]);
+  resistance.rate[angle] = now;
+  return resistance.slip_rate[angle] = std::max(std::min(ahead, kMayGrow * std::abs(now)), kStuckRate);
 }
 
 void resist(World& world, const State& state, int self) {
@@ -136,7 +152,11 @@ void resist(World& world, const State& state, int self) {
     const Joint& joint = world.model.joints[j];
     JointDamper& damper = world.dampers[j];
     damper.present = false;
-    if (!resists(joint) || !world.awake[joint.child]) continue;
+    if (!resists(joint)) continue;
+    if (!world.awake[joint.child]) {
+      world.resistances[j].change.setZero();
+      continue;
+    }
     const JointAngles now = joint_angles(joint, joint.parent < 0 ? Pose{} : state.X_WB[joint.parent], state.X_WB[joint.child]);
     const Vec3 w_PC = state.V_WB[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : state.V_WB[joint.parent].w);
     damper.matrix.setZero();
@@ -148,9 +168,7 @@ void resist(World& world, const State& state, int self) {
       if (!now.free[i] || !resists(a)) continue;
       const Vec3 g = now.gradient_W.col(i), axis = now.axes_W.col(i);
       world.resistances[j].axes_W.col(i) = axis;
-      double& rate = world.resistances[j].slip_rate[i];
-      rate = std::max(std::abs(axis.dot(w_PC)), kStuckRate);
-      const double friction = a.friction_torque / rate;
+      const double friction = a.friction_torque / expect_slip(world.resistances[j], i, axis.dot(w_PC), h);
       const double damping = world.resistance_in_stages[j] ? 0 : a.damping;
       damper.matrix += h * (damping + friction) * axis * axis.transpose();
       if (world.resistance_in_stages[j] || a.stiffness == 0) continue;
@@ -171,9 +189,9 @@ void resist(World& world, const State& state, int self) {
     });
 }
 
-/// Dry friction acts as a damper that yields the given torque at the rate assumed for the end of the step. Where a joint was torn
-/// loose within the step the assumed rate was far too small and the joint all but rigid: assumes the rate at which it would have
-/// come out with the torque given, by its own inertia, and asks for the impulses again.
+/// Dry friction acts as a damper that yields the given torque at the rate expected at the end of the step. Where a joint was torn
+/// loose the expected rate was far too small and the joint all but rigid: expects the rate at which it would have come out with the
+/// torque given, by its own inertia, and asks for the impulses again.
 bool gave_way(World& world, const State& end) {
   const double h = world.step;
   bool any = false;
@@ -187,7 +205,7 @@ bool gave_way(World& world, const State& end) {
       if (torque <= 0 || assumed <= 0) continue;
       const Vec3 axis = world.resistances[j].axes_W.col(i);
       const double came_out = std::abs(axis.dot(w_PC));
-      if (came_out < kGivesWay || came_out < kMayExceed * assumed) continue;
+      if (came_out <= assumed) continue;
       double inverse_inertia = 0;
       for (const int b : {joint.parent, joint.child}) {
         if (b < 0 || world.model.bodies[b].fixed) continue;
@@ -195,7 +213,9 @@ bool gave_way(World& world, const State& end) {
         inverse_inertia += axis_B.dot(axis_B.cwiseQuotient(world.model.bodies[b].inertia_B.diagonal()));
       }
       const double slower = inverse_inertia * torque * h;  // [rad/s] what the torque takes away
-      const double rate = std::max(came_out + slower * (came_out / assumed - 1), came_out);
+      const double held_back = slower * (came_out / assumed - 1);
+      if (held_back < kHeldBack) continue;
+      const double rate = came_out + held_back;
       world.dampers[j].matrix += h * torque * (1 / rate - 1 / assumed) * axis * axis.transpose();
       assumed = rate;
       any = true;
