@@ -76,7 +76,6 @@ class Stepper {
   double turning_ = 0;          // [rad/s] of the fastest body
   int cuts_ = 0;                // of the step under way
   bool locating_ = false;       // impacts are still placed inside this step
-  std::vector<Vec6> damping_;   // dV by joint resistance, per body
 };
 
 }  // namespace engine

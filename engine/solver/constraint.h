@@ -46,4 +46,13 @@ struct Constraint {
   int wheel = -1;                    // running number of the wheel
 };
 
+inline bool is_contact(const Constraint& c) {
+  return c.kind == ConstraintKind::contact;
+}
+
+/// A contact whose depth is a deformation, not an error.
+inline bool is_compliant(const Constraint& c) {
+  return c.stiffness > 0;
+}
+
 }  // namespace engine

@@ -1,0 +1,19 @@
+// Bounds that several parts of the step go by.
+#pragma once
+
+#include <algorithm>
+
+#include "engine/world.h"
+
+namespace engine {
+
+constexpr double kSlop = 2e-5;          // [m] penetration that is let be: pushing it out would make resting bodies hum
+constexpr double kMayPenetrate = 9e-4;  // [m] more after a step than before: the step is halved
+constexpr double kMayExceed = 7e-3;     // [rad] the same of joint limits
+
+/// Closing speed [m/s] above which restitution acts and a touch counts as an impact; below, things come to rest.
+inline double impact_speed(const World& world) {
+  return std::max(2 * world.model.settings.gravity.norm() * world.step, 0.01);
+}
+
+}  // namespace engine
