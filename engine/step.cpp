@@ -80,7 +80,8 @@ void Stepper::choose_trees(World& world, const State& state) {
   world.active_trees.clear();
   for (int tree = 0; tree < static_cast<int>(world.topology.trees.size()); ++tree) {
     const int person = world.topology.trees[tree].person;
-    const bool asleep = person >= 0 && !state.released[person];
+    const bool waits = person >= 0 && !state.released[person];
+    const bool asleep = waits || (!world.sleep.asleep.empty() && world.sleep.asleep[tree]);
     const auto& range = world.topology.trees[tree];
     for (int l = range.begin; l < range.end; ++l) world.awake[world.topology.links[l].body] = static_cast<char>(!asleep);
     if (!asleep) world.active_trees.push_back(tree);

@@ -91,6 +91,14 @@ struct PassiveLeg {
   int ankle = -1;
 };
 
+/// Trees of bodies that lie still and are left alone until something comes near.
+struct Sleep {
+  std::vector<char> asleep;  // per tree; empty: the effect is off
+  std::vector<char> still;   // per tree, scratch
+  std::vector<Pose> X_then;  // per body, at the last look
+  double next_look = 0;      // [s]
+};
+
 /// What a joint's resistance does over one step.
 struct Resistance {
   Vec3 torque_W = Vec3::Zero();  // [N m] on the child at the start of the step, for springs
@@ -131,6 +139,7 @@ struct World {
   MeshContactScratch mesh_scratch;
   std::vector<double> path_steer;  // [rad] per vehicle that follows a path
   std::vector<ImpactPair> impact_pairs;
+  Sleep sleep;
   OverlapScratch overlap;
   std::vector<Vec6> impact_force, impact_change;  // per body, of an impulse between two
 

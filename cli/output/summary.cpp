@@ -41,6 +41,7 @@ Json settings_json(const engine::Settings& s) {
           {"gravity_mps2", vector_json(s.gravity)},
           {"solver_tolerance_mps", s.solver_tolerance},
           {"locate_events", s.locate_events},
+          {"sleep", s.sleep},
           {"stop_at_rest", s.stop_at_rest}};
 }
 

@@ -58,7 +58,7 @@ void find_pair_contacts(World& world, const State& state, int effect, ContactKin
     const Body& A = world.model.bodies[pair.a];
     const Body& B = world.model.bodies[pair.b];
     const bool frozen = (!world.awake[pair.a] && !A.fixed) || (!world.awake[pair.b] && !B.fixed);
-    if (frozen) continue;  // in the zero condition: that effect watches
+    if (frozen) continue;  // waits or sleeps: those effects watch
     const Pose X_AB = state.X_WB[pair.a].inverse() * state.X_WB[pair.b];
     if (pair.clearance.beyond(margin, X_AB, world.reach[pair.b])) continue;
     pair.clearance.least = 0;

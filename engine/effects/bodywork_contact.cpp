@@ -162,7 +162,7 @@ void find_between(World& world, const State& state, int a, int b, int self) {
 }
 
 bool frozen(const World& world, int body) {
-  return !world.awake[body] && !world.model.bodies[body].fixed;  // in the zero condition: that effect watches
+  return !world.awake[body] && !world.model.bodies[body].fixed;  // waits or sleeps: those effects watch
 }
 
 void find(World& world, const State& state, int self) {

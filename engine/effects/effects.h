@@ -6,6 +6,7 @@
 namespace engine {
 
 extern const Effect kZeroConditionEffect;
+extern const Effect kSleepEffect;
 extern const Effect kGravityEffect;
 extern const Effect kJointsEffect;
 extern const Effect kJointLimitsEffect;

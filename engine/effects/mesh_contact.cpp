@@ -46,9 +46,10 @@ void find(World& world, const State& state, int self) {
   ContactPoints touches;
   for (MeshPair& pair : world.mesh_pairs) {
     if (pair.effect != self) continue;
-    if (!world.awake[pair.body] && !world.model.bodies[pair.body].fixed) continue;  // in the zero condition: that effect watches
+    if (!world.awake[pair.body] && !world.model.bodies[pair.body].fixed) continue;  // waits or sleeps: those effects watch
     const Body& round = world.model.bodies[pair.body];
     const Body& mesh = world.model.bodies[pair.mesh_body];
+    if (!world.awake[pair.mesh_body] && !mesh.fixed) continue;
     const Pose X_WM = state.X_WB[pair.mesh_body] * std::get<MeshShape>(mesh.shape).X_BM;
     const double margin = pair_margin(world, state, pair.body, pair.mesh_body);
     const Pose X_MA = X_WM.inverse() * state.X_WB[pair.body];

@@ -7,9 +7,10 @@ namespace engine {
 
 std::span<const Effect* const> effect_table() {
   static constexpr std::array kTable{
-      &kZeroConditionEffect, &kGravityEffect,     &kJointsEffect,      &kJointLimitsEffect,     &kJointResistanceEffect,
-      &kJointLoopsEffect,    &kDriverEffect,      &kTyresEffect,       &kGroundContactEffect,   &kTerrainContactEffect,
-      &kMeshContactEffect,   &kSelfContactEffect, &kBodyContactEffect, &kBodyworkContactEffect, &kKudlichSlibarEffect,
+      &kZeroConditionEffect, &kSleepEffect,           &kGravityEffect,         &kJointsEffect,
+      &kJointLimitsEffect,   &kJointResistanceEffect, &kJointLoopsEffect,      &kDriverEffect,
+      &kTyresEffect,         &kGroundContactEffect,   &kTerrainContactEffect,  &kMeshContactEffect,
+      &kSelfContactEffect,   &kBodyContactEffect,     &kBodyworkContactEffect, &kKudlichSlibarEffect,
   };
   return kTable;
 }

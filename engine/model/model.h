@@ -52,6 +52,7 @@ struct Settings {
   double adaptive_tolerance = 1e-5;      // [m] error of a step, scheme `adaptive`
   int contacts_per_pair = 10;            // points at which two meshes hold each other at a time
   bool locate_events = true;             // place restitution impacts inside the step
+  bool sleep = false;                    // what lies still is left alone until something comes near
   bool stop_at_rest = true;              // end the run when everything has come to rest
   std::map<std::string, Force> effects;  // forced effects by name
 };

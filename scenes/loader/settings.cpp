@@ -48,6 +48,8 @@ const Key kKeys[] = {
      "Points at most at which two meshes, or a mesh and the ground, hold each other at a time.", between(3, 1000)},
     {"locate_events", Type::boolean, Dimension::none, "true",
      "Place impacts (and with rk4 touch, turn and separation of compliant contacts) inside the step."},
+    {"sleep", Type::boolean, Dimension::none, "false",
+     "What moves less than 0.02 mm in a second is left alone until something comes near: long waits cost little."},
     {"stop_at_rest", Type::boolean, Dimension::none, "true", "End the run when everything has come to rest."},
     {"effects", Type::table, Dimension::none, "", "Effects forced on or off.", kAny, {}, &kEffectsSection},
 };
@@ -84,6 +86,7 @@ void read_settings(Builder& builder, std::optional<Reader> reader) {
   s.solver_tolerance = r.has("solver_tolerance") ? r.number("solver_tolerance") : profile.solver_tolerance;
   s.contacts_per_pair = r.integer("contacts_per_pair");
   s.locate_events = r.boolean("locate_events");
+  s.sleep = r.boolean("sleep");
   s.stop_at_rest = r.boolean("stop_at_rest");
   if (s.step > 0 && s.record_interval < s.step) r.fail("record_interval", "must not be shorter than the step");
   if (auto effects = r.table("effects")) {

@@ -6,35 +6,51 @@
 namespace hard_cases {
 namespace {
 
-class RestingPerson : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
+struct Lying {
+  const char *pose, *scheme;
+};
+void PrintTo(const Lying& lying, std::ostream* out) {
+  *out << lying.pose << ' ' << lying.scheme;
+}
+
+class RestingPerson : public testing::TestWithParam<Lying> {};
+// every joint has dry friction, which makes the schemes the same: once is enough to see that
 INSTANTIATE_TEST_SUITE_P(In, RestingPerson,
-                         testing::Combine(testing::Values("lying_supine", "lying_prone", "cat"),
-                                          testing::Values("stepping", "rk4")));
+                         testing::Values(Lying{"lying_supine", "stepping"}, Lying{"lying_prone", "stepping"},
+                                         Lying{"cat", "stepping"}, Lying{"lying_supine", "rk4"}));
 
 constexpr double kSettle = kSanitized ? 4 : 15;  // [s] until damped joints have come to where their friction holds them
 constexpr double kRest = kSanitized ? 1 : 60;    // [s]
 
-Outcome lie(const char* pose, const char* scheme, const char* sleep) {
-  return run("resting_person", {"1 ms", scheme},
-             {std::string("person.person.pose=") + pose, "simulation.duration=" + std::to_string(kSettle + kRest) + " s",
+Outcome lie(const Lying& lying, const char* sleep) {
+  return run("resting_person", {"1 ms", lying.scheme},
+             {std::string("person.person.pose=") + lying.pose, "simulation.duration='" + std::to_string(kSettle + kRest) + " s'",
               std::string("simulation.sleep=") + sleep});
 }
 
-TEST_P(RestingPerson, LiesStill) {
-  const auto [pose, scheme] = GetParam();
-  const Outcome it = lie(pose, scheme, "false");
+double apart(const engine::Snapshot& a, const engine::Snapshot& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.bodies.size(); ++i) most = std::max(most, (a.bodies[i].X_WB.p - b.bodies[i].X_WB.p).norm());
+  return most;
+}
+
+TEST_P(RestingPerson, LiesStillAwakeAndAsleep) {
+  const Outcome it = lie(GetParam(), "false");
   const engine::Snapshot settled = it.recording.at(kSettle), last = it.recording.snapshots.back();
-  double creep = 0;
-  for (std::size_t b = 0; b < it.model.bodies.size(); ++b)
-    creep = std::max(creep, (last.bodies[b].X_WB.p - settled.bodies[b].X_WB.p).norm());
+  const double creep = apart(last, settled);
+  // springs of joints are not in it: what a leg's passive torques lift counts as a gain
   const double gain = (energy(last) - energy(settled)) / kRest;
-  const auto& d = it.diagnostics();
-  row("resting person", it, "%s: energy without joint springs %+.1e J/s, creep %.1e m, drift %.1e m, kinetic energy at the end %.1e J",
-      pose, gain, creep, d.max_joint_gap, last.energies.kinetic);
+  const Outcome sleeper = lie(GetParam(), "true");
+  const double aside = apart(sleeper.recording.snapshots.back(), last);
+  row("resting person", it, "%s: energy %+.1e J/s, creep %.1e m, drift %.1e m; asleep %.1e m aside, %.0f times as fast",
+      GetParam().pose, gain, creep, it.diagnostics().max_joint_gap, aside, it.wall_s / sleeper.wall_s);
+  EXPECT_LT(it.diagnostics().max_joint_gap, 1e-6);
+  EXPECT_LT(last.energies.kinetic, kSanitized ? 1e-3 : 1e-9);
+  if (kSanitized) return;  // too short to have settled
   EXPECT_LT(gain, 1e-6);
   EXPECT_LT(creep, 5e-4);
-  EXPECT_LT(d.max_joint_gap, 1e-6);
-  EXPECT_LT(last.energies.kinetic, 1e-9);
+  EXPECT_LT(aside, 5e-4);
+  EXPECT_EQ(sleeper.recording.snapshots.back().energies.kinetic, 0);
 }
 
 }  // namespace
