@@ -55,6 +55,8 @@ void Stepper::reserve(const World& world) {
   const std::size_t trees = world.topology.trees.size();
   for (auto* list : {&step_constraints_, &contacts_, &end_contacts_}) list->reserve(kRoom);
   for (auto* list : {&weight_, &allowed_, &targets_}) list->reserve(kRoom);
+  X_smooth_.resize(world.model.bodies.size());
+  V_smooth_.resize(world.model.bodies.size());
   islands_.resize(trees);
   for (auto& island : islands_) island.reserve(kRoom);
   island_has_impact_.reserve(trees);
