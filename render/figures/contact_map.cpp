@@ -1,14 +1,13 @@
-// The struck vehicle unrolled: along a taut tape over its longitudinal section, from the ground up over front, bonnet and
-// windscreen, against the place across. A touch is a mark: its shape tells the part of the body, its lightness the time, its size
-// the impulse.
+// The struck vehicle unrolled, with its parts, and on it the touches as marks: the shape tells the part of the body, the lightness
+// the time, the size the impulse.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "render/figures/figures.h"
-#include "render/figures/outline.h"
 #include "render/figures/sheet.h"
+#include "render/figures/unrolled.h"
 #include "render/overlays/overlay.h"
 
 namespace render {
@@ -16,53 +15,13 @@ namespace {
 
 constexpr double kLeft = 34, kTop = 34, kRight = 215, kBottom = kSheetHeight - 26;  // [mm]
 constexpr double kLeast = 0.2;                                                      // [N s]
-constexpr double kCell = 0.04;  // [m] one mark a cell and part: the strongest touch
+constexpr double kSpread = 0.04;  // [m] one mark a cell and part: the strongest touch
 
 struct Touch {
   int part = 5;
   double along = 0, across = 0;  // [m] tape from the ground; to the left
   double time = 0, impulse = 0;
 };
-
-/// The tape: the upper front of the section's convex outline, from the ground to the top of the roof.
-std::vector<Point2> tape_of(const Stage& stage, int body, double ground) {
-  std::vector<Point2> points;
-  for (const MeshActor& actor : stage.meshes) {
-    if (actor.body != body) continue;
-    for (std::size_t i = 0; i + 2 < actor.mesh->positions.size(); i += 3) {
-      const float* p = &actor.mesh->positions[i];
-      const Vec3 q = actor.X_BM * Vec3(p[0], p[1], p[2]);
-      points.emplace_back(q.x(), q.z());
-    }
-  }
-  const std::vector<Point2> hull = convex_hull(points);
-  if (hull.size() < 3) return {};
-  // counter-clockwise, x forward and z up: from the foremost point upwards and backwards
-  const auto top = std::max_element(hull.begin(), hull.end(), [](const Point2& a, const Point2& b) { return a.y() < b.y(); });
-  const auto front = std::max_element(hull.begin(), hull.end(), [](const Point2& a, const Point2& b) { return a.x() < b.x(); });
-  std::vector<Point2> tape{{front->x(), ground}};
-  for (auto at = front;; at = at + 1 == hull.end() ? hull.begin() : at + 1) {
-    tape.push_back(*at);
-    if (at == top) break;
-  }
-  return tape;
-}
-
-/// Length along the tape to the place on it nearest to p.
-double along_tape(const std::vector<Point2>& tape, const Point2& p) {
-  double best = 1e300, length = 0, answer = 0;
-  for (std::size_t i = 1; i < tape.size(); ++i) {
-    const Point2 side = tape[i] - tape[i - 1];
-    const double s = std::clamp((p - tape[i - 1]).dot(side) / std::max(side.squaredNorm(), 1e-12), 0.0, 1.0);
-    const double distance = (tape[i - 1] + s * side - p).norm();
-    if (distance < best) {
-      best = distance;
-      answer = length + s * side.norm();
-    }
-    length += side.norm();
-  }
-  return answer;
-}
 
 std::vector<Touch> touches(const engine::Recording& recording, const std::vector<Point2>& tape, int body) {
   std::vector<Touch> out;
@@ -71,10 +30,10 @@ std::vector<Touch> touches(const engine::Recording& recording, const std::vector
       if (c.kind != engine::ContactKind::vehicle || c.body_b != body || c.impulse.norm() < kLeast) continue;
       const Pose& X = s.bodies[static_cast<std::size_t>(body)].X_WB;
       const Vec3 p = X.q.conjugate() * (c.point - X.p);
-      const Touch touch{part_of(recording.body_names[static_cast<std::size_t>(c.body_a)]), along_tape(tape, {p.x(), p.z()}), p.y(),
-                        s.time, c.impulse.norm()};
+      const Touch touch{part_of(recording.body_names[static_cast<std::size_t>(c.body_a)]), on_tape(tape, {p.x(), p.z()}).along,
+                        p.y(), s.time, c.impulse.norm()};
       const auto same = std::find_if(out.begin(), out.end(), [&](const Touch& t) {
-        return t.part == touch.part && std::hypot(t.along - touch.along, t.across - touch.across) < kCell;
+        return t.part == touch.part && std::hypot(t.along - touch.along, t.across - touch.across) < kSpread;
       });
       if (same == out.end())
         out.push_back(touch);
@@ -92,7 +51,61 @@ struct Scales {
   double y(double across) const { return (kTop + kBottom) / 2 - (kRight - kLeft) * across / length; }
 };
 
-void draw_grid(cairo_t* c, const Scales& s, const std::vector<Point2>& tape, double half_width) {
+/// Calls `each` for every run of equal answers of `what` to 0 .. count - 1.
+template <typename What, typename Each>
+void for_runs(int count, const What& what, const Each& each) {
+  for (int i = 0, end = 0; i < count; i = end) {
+    const auto value = what(i);
+    for (end = i + 1; end < count && what(end) == value;) ++end;
+    each(i, end, value);
+  }
+}
+
+/// The vehicle: its surfaces in greys, and lines where they meet. One path a grey, so that the file stays small.
+void draw_vehicle(cairo_t* c, const Scales& s, const UnrolledPicture& picture) {
+  constexpr double kGreys[] = {1, 0.96, 0.84, 0.90, 0.74};  // nothing, body, glass, lamp, trim
+  constexpr double kCell = UnrolledPicture::kCell;
+  const auto x = [&](int i) { return s.x(i * kCell); };
+  const auto y = [&](int j) { return s.y(j * kCell - s.half_width); };
+  for (const auto surface : {UnrolledPicture::body, UnrolledPicture::glass, UnrolledPicture::lamp, UnrolledPicture::trim}) {
+    for (int j = 0; j < picture.width; ++j)
+      for_runs(
+          picture.length, [&](int i) { return picture.at(i, j) == surface; },
+          [&](int from, int to, bool here) {
+            if (here) cairo_rectangle(c, x(from), y(j + 1), x(to) - x(from), y(j) - y(j + 1));
+          });
+    grey(c, kGreys[surface]);
+    cairo_fill(c);
+  }
+  const auto segment = [c](double x0, double y0, double x1, double y1) {
+    cairo_move_to(c, x0, y0);
+    cairo_line_to(c, x1, y1);
+  };
+  for (int j = 0; j <= picture.width; ++j)
+    for_runs(
+        picture.length, [&](int i) { return picture.at(i, j) != picture.at(i, j - 1); },
+        [&](int from, int to, bool border) {
+          if (border) segment(x(from), y(j), x(to), y(j));
+        });
+  for (int i = 0; i <= picture.length; ++i)
+    for_runs(
+        picture.width, [&](int j) { return picture.at(i, j) != picture.at(i - 1, j); },
+        [&](int from, int to, bool border) {
+          if (border) segment(x(i), y(from), x(i), y(to));
+        });
+  grey(c, 0.45);
+  cairo_set_line_width(c, 0.18);
+  cairo_set_line_cap(c, CAIRO_LINE_CAP_ROUND);
+  cairo_stroke(c);
+}
+
+void draw_names(cairo_t* c, const Scales& s, const std::vector<Stretch>& names) {
+  grey(c, 0.3);
+  for (const Stretch& stretch : names)
+    draw_text(c, s.x((stretch.from + stretch.to) / 2), s.y(s.half_width) - 2, stretch.name, 3.0, Align::centre);
+}
+
+void draw_grid(cairo_t* c, const Scales& s) {
   cairo_set_line_width(c, 0.15);
   for (double v = 0; v <= s.length + 1e-9; v += 0.5) {
     grey(c, 0.75);
@@ -113,12 +126,6 @@ void draw_grid(cairo_t* c, const Scales& s, const std::vector<Point2>& tape, dou
   cairo_rotate(c, -M_PI / 2);
   draw_text(c, 0, 0, "across, to the left, m", 3.2, Align::centre);
   cairo_restore(c);
-  // the vehicle's sides, and where its front begins
-  grey(c, 0.2);
-  cairo_set_line_width(c, 0.4);
-  const double start = (tape[1] - tape[0]).norm();
-  cairo_rectangle(c, s.x(start), s.y(half_width), s.x(s.length) - s.x(start), s.y(-half_width) - s.y(half_width));
-  cairo_stroke(c);
 }
 
 void draw_key(cairo_t* c, const std::vector<Touch>& marks, double first, double last) {
@@ -178,10 +185,14 @@ std::vector<std::string> contact_map(const Stage& stage, const engine::Recording
   Scales scales{std::max(std::ceil(2 * farthest + 0.6) / 2, 2.0), shown};
   // as long as it must be to keep the width on the paper
   scales.length = std::max(scales.length, std::ceil(2 * 2 * shown * (kRight - kLeft) / (kBottom - kTop)) / 2);
+  const UnrolledPicture picture = unroll(stage, body, tape, scales.length, scales.half_width);
+  const std::vector<Stretch> names = stretches(picture, tape);
   return write_sheets(job.folder, "contact_map", "Contact map: " + stage.title, [&](cairo_t* c) {
     draw_frame_of_sheet(
         c, stage, "Contact map of " + recording.body_names[static_cast<std::size_t>(body)] + ", unrolled, with " + struck->name);
-    draw_grid(c, scales, tape, half_width);
+    draw_vehicle(c, scales, picture);
+    draw_grid(c, scales);
+    draw_names(c, scales, names);
     for (const Touch& t : marks) {
       const Float4 k = colour_of_share(last > first ? (t.time - first) / (last - first) : 0);
       cairo_set_source_rgb(c, k[0], k[1], k[2]);

@@ -14,8 +14,9 @@ namespace render {
 namespace {
 
 constexpr double kLeft = kMargin, kTop = 28, kRight = kSheetWidth - kMargin, kBottom = kSheetHeight - 22;  // [mm] of the plan
-constexpr double kAround = 1.2;  // [m] kept free around what moves
-constexpr double kSkids = 0.3;   // [m/s] slip that leaves a mark
+constexpr double kAround = 1.2;    // [m] kept free around what moves
+constexpr double kLeastLine = 32;  // [mm] of a dimension that holds its own number
+constexpr double kSkids = 0.3;     // [m/s] slip that leaves a mark
 
 /// World to paper: x right, y up, one scale.
 struct Plan {
@@ -184,9 +185,15 @@ void draw_dimensions(cairo_t* c, const Site& site, const PersonFacts& facts) {
   auto com = [&](double t) { return centre_of_mass(facts, site.recording, t); };
   const double end = facts.rest.value_or(site.recording.end_time());
   // the parts above, the whole below them
-  if (facts.landed && facts.released) draw_dimension(c, site, com(*facts.released), com(*facts.landed), "airborne", 16);
-  if (facts.landed) draw_dimension(c, site, com(*facts.landed), com(end), "slide", 16);
-  draw_dimension(c, site, com(*facts.hit), com(end), facts.rest ? "throw distance" : "so far", 28);
+  double row = 16;  // [mm] below the path
+  if (facts.landed && facts.released) {
+    // side by side where each number has room over its own line, else one below the other
+    const double airborne = (site.plan.at(com(*facts.landed)) - site.plan.at(com(*facts.released))).norm();
+    draw_dimension(c, site, com(*facts.released), com(*facts.landed), "airborne", row);
+    if (airborne < kLeastLine) row += 8;
+  }
+  if (facts.landed) draw_dimension(c, site, com(*facts.landed), com(end), "slide", row);
+  draw_dimension(c, site, com(*facts.hit), com(end), facts.rest ? "throw distance" : "so far", row + 12);
 }
 
 /// A number in a circle beside each place of the person, explained in the key.
