@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -98,6 +99,18 @@ struct PersonActor {
 /// One closed surface over the segments that bends at the joints: built once, for look `skin`.
 std::shared_ptr<const Skin> build_skin(const PersonActor&);
 
+/// A picture that lies on the ground, an aerial photograph or a drawing to scale. Square texels.
+struct GroundPicture {
+  /// Texels as they are packed in a PNG, red lowest; the lowest row first. From one level to the next half the size.
+  struct Level {
+    int width = 0, height = 0;
+    std::vector<std::int32_t> texels;
+  };
+  std::vector<Level> levels;
+};
+/// From a PNG; null where it cannot be read, and why.
+std::shared_ptr<const GroundPicture> read_ground_picture(const std::filesystem::path&, std::string& problem);
+
 struct RoadLook {
   bool road = true;  // asphalt with lane markings along x; false: plain ground with a metre grid
   double height = 0;
@@ -108,6 +121,10 @@ struct RoadLook {
   bool zebra = false;  // pedestrian crossing across the road at x = zebra_x
   double zebra_x = 0;
   std::shared_ptr<const Mesh> terrain;
+  std::shared_ptr<const GroundPicture> picture;
+  double picture_x = 0, picture_y = 0;  // [m] of its lower left corner
+  double picture_width = 0;             // [m] of its lower edge
+  double picture_turn = 0;              // [rad] of its lower edge from +x towards +y
 };
 
 struct SkyLook {

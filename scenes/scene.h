@@ -18,7 +18,12 @@ struct Output {
   int height = 720;
   double fps = 30;
   std::string quality = "standard";
-  std::vector<std::pair<double, std::string>> stills;  // [s], camera (empty: as the film shows it): what snapshot tests draw
+  struct Still {
+    double time = 0;     // [s]
+    std::string camera;  // empty: as the film shows it
+    int card = -1;       // of the stage's cards, in place of a camera
+  };
+  std::vector<Still> stills;  // what snapshot tests draw
 };
 
 /// A rectangle of pixels that is not compared.

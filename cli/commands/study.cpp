@@ -66,7 +66,7 @@ void write_report(const StudyWish& wish, const Report& report) {
 /// The moment of --at, else the first the scene is pictured at, else the middle of the run.
 render::Moment moment_of(const StudyWish& wish, const scenes::Scene& scene, const engine::Recording& recording) {
   double time = recording.end_time() / 2;
-  if (!scene.output.stills.empty()) time = scene.output.stills.front().first;
+  if (!scene.output.stills.empty()) time = scene.output.stills.front().time;
   if (!wish.at.empty()) time = parse_time("--at", wish.at);
   for (const render::Shot& shot : scene.stage.shots)
     if (time >= shot.from && time <= shot.to) return {time, shot.camera};

@@ -60,10 +60,12 @@ fs::path baseline_folder(const fs::path& scene) {
 
 std::vector<Still> stills_of(const scenes::Scene& scene) {
   std::vector<Still> out;
-  for (const auto& [time, camera] : scene.output.stills) {
+  for (const auto& [time, camera, card] : scene.output.stills) {
     Still still;
     still.moment = camera.empty() ? still_of({}, scene.stage, time) : render::Moment{time, camera, 1};
-    still.name = fmt::format("{}_{}_{:g}s", scene.path.stem().string(), camera.empty() ? "film" : camera, time);
+    still.moment.card = card;
+    const std::string seen = card >= 0 ? fmt::format("card{}", card + 1) : camera.empty() ? "film" : camera;
+    still.name = fmt::format("{}_{}_{:g}s", scene.path.stem().string(), seen, time);
     // a camera's name may hold what a file's may not
     std::replace(still.name.begin(), still.name.end(), '/', '_');
     still.baseline = baseline_folder(scene.path) / (still.name + ".png");

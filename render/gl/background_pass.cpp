@@ -27,6 +27,10 @@ void BackgroundPass::draw(Studio& studio, const DrawList& list, const FrameSetup
   const std::size_t bytes = 4 * static_cast<std::size_t>(targets.width) * static_cast<std::size_t>(targets.height);
   canvas_.resize(bytes);
   const shade::Canvas canvas{canvas_.data(), targets.width};
+  if (picture_ != list.road.picture) {
+    picture_ = list.road.picture;
+    kept_ = last_ = std::nullopt;
+  }
   // kept from the second equal frame on: a moving camera pays for no copy
   if (last_ && same_background(*last_, frame.block) && !(kept_ && same_background(*kept_, frame.block))) {
     bare_.resize(bytes);

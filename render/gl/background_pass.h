@@ -18,8 +18,9 @@ class BackgroundPass {
  private:
   void draw_strips(Studio&, const DrawList&);
 
-  std::vector<std::uint8_t> canvas_, bare_;  // RGBA, lowest row first
-  std::optional<FrameBlock> kept_, last_;    // whose background lies in bare_, and whose was drawn last
+  std::vector<std::uint8_t> canvas_, bare_;       // RGBA, lowest row first
+  std::optional<FrameBlock> kept_, last_;         // whose background lies in bare_, and whose was drawn last
+  std::shared_ptr<const GroundPicture> picture_;  // that lay on it
   Buffer strip_vertices_;
   VertexArray strip_array_;
 };

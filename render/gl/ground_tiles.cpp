@@ -31,7 +31,7 @@ std::optional<Array2d> meet(const FrameBlock& b, double x, double y) {
 }
 
 Zone zone_of(const Field& f, const RoadLook& road) {
-  if (!road.road || road.metre_grid) return Zone::everything;
+  if (!road.road || road.metre_grid || road.picture) return Zone::everything;
   // filters reach over the tile by part of its own size
   const double reach = 0.5 * (f.upper - f.lower).maxCoeff() + 0.05;
   const double low = f.lower[1] - reach - road.centre_y, high = f.upper[1] + reach - road.centre_y;

@@ -85,7 +85,7 @@ void Renderer::draw(const DrawList& list, Image& out) {
   r.shadow.draw(r.studio, pieces, frame);
   lap(watch, Pass::shadow);
   const shade::FrameData data = frame_data(frame.block);
-  const shade::Maps maps = r.shadow.maps(r.studio.cost);
+  const shade::Maps maps = r.shadow.maps(r.studio.cost, list.road);
   r.background.draw(r.studio, list, frame, r.shadow.bounds(), data, maps);
   lap(watch, Pass::background);
   const bool depth = std::any_of(list.lines.begin(), list.lines.end(), [](const LineItem& l) { return l.hidden_behind; });

@@ -46,6 +46,23 @@ std::vector<std::int32_t> fourfold(const std::vector<std::uint8_t>& grain) {
   return out;
 }
 
+shade::Photograph photograph_of(const RoadLook& road) {
+  shade::Photograph out;
+  if (!road.picture) return out;
+  for (const GroundPicture::Level& level : road.picture->levels) {
+    if (out.levels == shade::Photograph::kMostLevels) break;
+    out.texels[out.levels] = level.texels.data();
+    out.width[out.levels] = level.width;
+    out.height[out.levels++] = level.height;
+  }
+  out.x = static_cast<float>(road.picture_x);
+  out.y = static_cast<float>(road.picture_y);
+  out.cosine = static_cast<float>(std::cos(road.picture_turn));
+  out.sine = static_cast<float>(std::sin(road.picture_turn));
+  out.texel = static_cast<float>(road.picture_width / out.width[0]);
+  return out;
+}
+
 /// [texels] the widest filter, one of its linear weights and one of rounding
 int reach(const Studio& studio, float texel) {
   return static_cast<int>(std::ceil(studio.cost.shadow_reach / static_cast<double>(texel))) + 2;
@@ -79,10 +96,10 @@ void ShadowPass::read_depth(int size) {
   glPixelStorei(GL_PACK_ROW_LENGTH, 0);
 }
 
-shade::Maps ShadowPass::maps(const Effort& cost) const {
-  return {grain_.data(),     depth_.data(),     cost.shadow_map_size, &bounds_.blocks()[0].least,
-          bounds_.side(),    occlusion_.data(), cost.occlusion_size,  static_cast<float>(cost.shadow_reach),
-          cost.shadow_filter};
+shade::Maps ShadowPass::maps(const Effort& cost, const RoadLook& road) const {
+  return {grain_.data(),      depth_.data(),      cost.shadow_map_size, &bounds_.blocks()[0].least,
+          bounds_.side(),     occlusion_.data(),  cost.occlusion_size,  static_cast<float>(cost.shadow_reach),
+          cost.shadow_filter, photograph_of(road)};
 }
 
 }  // namespace render::gl

@@ -18,7 +18,7 @@ class ShadowPass {
   /// Of the map that was drawn last.
   const DepthPyramid& bounds() const { return bounds_; }
   /// For the light of the frame that was drawn last; good until the next.
-  shade::Maps maps(const Effort&) const;
+  shade::Maps maps(const Effort&, const RoadLook&) const;
 
  private:
   void read_depth(int size);

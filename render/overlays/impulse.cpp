@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kShown = 0.4;                           // [s] of simulated time
 constexpr double kNewtonSecondsAMetre = 4e3;             // that one metre of arrow stands for
+constexpr double kMinor = 0.1;                           // of the run's largest: cars that rub along each other; an arrow is enough
 constexpr double kPlaneWidth = 1.6, kPlaneHeight = 1.0;  // [m]
 
 bool shown(const Frame& frame) {
@@ -31,25 +32,38 @@ void add_plane(const engine::ContactRecord& c, DrawList& list) {
   list.lines.push_back(border);
 }
 
+bool is_impulse(const engine::ContactRecord& c) {
+  return c.kind == engine::ContactKind::vehicle_pair && c.state == engine::ContactState::impact && c.energy_lost != 0;
+}
+
+LabelItem label_of(const engine::ContactRecord& c) {
+  LabelItem label;
+  label.lines = {fmt::format("impulse {:.0f} N s", c.impulse.norm()), fmt::format("{:.1f} kJ lost", c.energy_lost / 1000)};
+  label.sizes = {20, 20};
+  label.colours = {{1, 1, 1, 1}, {1, 0.68f, 0.25f, 1}};
+  label.at_world_point = true;
+  label.world = to_float(c.point + Vec3(0, 0, 1.2));
+  label.pivot = {-0.3f, 1.6f};
+  return label;
+}
+
 void add(const Frame& frame, DrawList& list) {
+  double largest = 0;  // [N s]
+  for (const auto& s : frame.recording.snapshots)
+    for (const auto& c : s.contacts)
+      if (is_impulse(c)) largest = std::max(largest, c.impulse.norm());
   for (const auto& s : frame.recording.snapshots) {
     if (s.time > frame.now.time) break;
     if (s.time < frame.now.time - kShown) continue;
     for (const auto& c : s.contacts) {
-      if (c.kind != engine::ContactKind::vehicle_pair || c.state != engine::ContactState::impact || c.energy_lost == 0) continue;
-      add_plane(c, list);
+      if (!is_impulse(c)) continue;
       const Vec3 arm = c.impulse / kNewtonSecondsAMetre;
       for (const double side : {1.0, -1.0})
         list.arrows.push_back({to_float(c.point), to_float(c.point + side * arm), {1.00f, 0.58f, 0.10f, 1}, 5.0f});
       list.markers.push_back({to_float(c.point), {1, 1, 1, 1}, 6});
-      LabelItem label;
-      label.lines = {fmt::format("impulse {:.0f} N s", c.impulse.norm()), fmt::format("{:.1f} kJ lost", c.energy_lost / 1000)};
-      label.sizes = {20, 20};
-      label.colours = {{1, 1, 1, 1}, {1, 0.68f, 0.25f, 1}};
-      label.at_world_point = true;
-      label.world = to_float(c.point + Vec3(0, 0, 1.2));
-      label.pivot = {-0.3f, 1.6f};
-      list.labels.push_back(label);
+      if (c.impulse.norm() < kMinor * largest) continue;
+      add_plane(c, list);
+      list.labels.push_back(label_of(c));
     }
   }
 }

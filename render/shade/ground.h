@@ -95,6 +95,40 @@ LANES V3 road_colour(const FrameData& f, int zone, F x, F y, const Footprint& w,
   return mix(c, grass_colour(g), saturate((off - 2.15f - 0.1f * (g.middle + g.fine)) * min(w.y.per, 50.0f) + 0.5f));
 }
 
+/// Straight from the screen's curve to light, to 2 %.
+LANES F from_screen(F c) {
+  return c * (c * (c * 0.305306011f + 0.682171111f) + 0.012522878f);
+}
+
+/// The photograph over what else the ground is, where it lies; between the two levels whose texels come near the footprint.
+LANES V3 over_photograph(const Photograph& p, const V3& ground, F x, F y, const Footprint& w) {
+  const F dx = x - p.x, dy = y - p.y;
+  const F u = (dx * p.cosine + dy * p.sine) * (1 / p.texel), v = (dy * p.cosine - dx * p.sine) * (1 / p.texel);  // [texels]
+  const I inside = (u >= 0.0f) & (v >= 0.0f) & (u < static_cast<float>(p.width[0])) & (v < static_cast<float>(p.height[0]));
+  if (!any(inside)) return ground;
+  const F level = clamp(log2(max(0.5f * (w.x.w + w.y.w) * (1 / p.texel), 1.0f)), 0, static_cast<float>(p.levels - 1));
+  V3 sum = three(0, 0, 0);
+  F cover = all(0.0f);
+  for (int l = 0; l < p.levels; ++l) {
+    const F weight = inside ? saturate(1.0f - abs(level - static_cast<float>(l))) : all(0.0f);
+    if (!any(weight > 0.0f)) continue;
+    const float scale = 1 / static_cast<float>(1 << l);
+    const F a = u * scale - 0.5f, b = v * scale - 0.5f, i = floor(a), j = floor(b), s = a - i, t = b - j;
+    for (int corner = 0; corner < 4; ++corner) {
+      const int right = corner & 1, up = corner >> 1;
+      const I at = clamp(to_int(j) + up, 0, p.height[l] - 1) * p.width[l] + clamp(to_int(i) + right, 0, p.width[l] - 1);
+      const I texel = gather(p.texels[l], at);
+      const F share = weight * (right ? s : 1.0f - s) * (up ? t : 1.0f - t);
+      const auto channel = [&](int shift) { return to_float((texel >> shift) & 255) * (1 / 255.0f); };
+      const F opaque = share * channel(24);
+      cover += opaque;
+      sum = sum + V3{from_screen(channel(0)), from_screen(channel(8)), from_screen(channel(16))} * opaque;
+    }
+  }
+  // a photograph has the light of its day in it: about twice what the ground itself reflects
+  return ground * (1.0f - cover) + sum * 0.5f;
+}
+
 /// Colour of the ground at x, y, filtered over the footprint w.
 LANES V3 ground_colour(const FrameData& f, const Maps& maps, int zone, F x, F y, const Footprint& w) {
   const F size = 0.7f * max(w.x.w, w.y.w);
@@ -115,6 +149,7 @@ LANES V3 ground_colour(const FrameData& f, const Maps& maps, int zone, F x, F y,
     const F line = max(bars(x, 1, 0.008f, w.x), bars(y, 1, 0.008f, w.y));
     c = mix(c, three(0.42f, 0.42f, 0.42f), 0.55f * line);
   }
+  if (maps.photograph.levels > 0 && zone == everything) c = over_photograph(maps.photograph, c, x, y, w);
   return max(c, 0.005f);
 }
 

@@ -15,6 +15,16 @@ struct FrameData {
   float shadow[4], shadow_size[4], occlusion[4];
 };
 
+/// A picture on the ground.
+struct Photograph {
+  static constexpr int kMostLevels = 16;
+  int levels = 0;  // 0: none
+  const std::int32_t* texels[kMostLevels] = {};
+  int width[kMostLevels] = {}, height[kMostLevels] = {};
+  float x = 0, y = 0, cosine = 1, sine = 0;  // [m] its lower left corner, the direction of its lower edge
+  float texel = 1;                           // [m] of the finest level
+};
+
 /// Pictures that are looked up. Depths have a rim of one texel of depth 1 around them.
 struct Maps {
   const std::int32_t* grain;  // 256 x 256, each with its three neighbours to the right and above: a byte each
@@ -26,6 +36,7 @@ struct Maps {
   int occlusion_size;      // without the rim
   float reach;             // [m] radius of the widest penumbra
   int filter;              // 1 plain, 2 soft
+  Photograph photograph{};
 };
 
 /// Rectangle of one kind of background; numbers as enum Zone and enum Sun.

@@ -102,6 +102,7 @@ const Key kOverlayKeys[] = {
 const Key kStillKeys[] = {
     {"time", Type::number, Dimension::time, kRequired, "Simulated time.", kNotNegative},
     {"camera", Type::text, Dimension::none, "''", "Camera; left out: seen as the film shows this time, two cameras included."},
+    {"card", Type::integer, Dimension::none, "", "The film's first, second ... card in place of a camera.", between(1, 100)},
 };
 const Section kStillSection{"output.still", "[[output.still]]", "Stills a snapshot test draws.", kStillKeys};
 
@@ -122,6 +123,10 @@ const Key kRoadKeys[] = {
     {"lanes", Type::integer, Dimension::none, "2", "Lanes in all.", between(1, 12)},
     {"grid", Type::boolean, Dimension::none, "false", "A grid of metres on the road as well."},
     {"zebra", Type::number, Dimension::length, "", "x of a pedestrian crossing; left out: none."},
+    {"picture", Type::path, Dimension::none, "", "A PNG that lies on the ground: an aerial photograph, a drawing to scale."},
+    {"picture_width", Type::number, Dimension::length, "'50 m'", "How wide the picture is on the ground.", kPositive},
+    {"picture_corner", Type::vector2, Dimension::length, "'0 0 m'", "Where its lower left corner lies."},
+    {"picture_heading", Type::number, Dimension::angle, "'0 deg'", "Where its lower edge points, from +x towards +y."},
 };
 
 const Key kSkyKeys[] = {
@@ -295,8 +300,34 @@ void read_output(Builder& builder, Reader r) {
   for (Reader& still : r.tables("still")) {
     const std::string camera = still.text("camera");
     if (!camera.empty()) check_camera_name(builder, still, camera);
-    out.stills.emplace_back(still.number("time"), camera);
+    out.stills.push_back({still.number("time"), camera, still.has("card") ? still.integer("card") - 1 : -1});
+    const int cards = static_cast<int>(builder.scene.stage.cards.size());
+    if (out.stills.back().card >= cards) still.fail("card", fmt::format("must be one of the scene's {} cards", cards));
   }
+}
+
+/// A picture beside the scene, or of the program.
+void read_ground_picture(Builder& builder, Reader& r, render::RoadLook& look) {
+  const std::string name = r.text("picture");
+  std::error_code ignored;
+  std::filesystem::path file = builder.folder / name;
+  if (!std::filesystem::is_regular_file(file, ignored)) file = home_folder() / name;
+  if (!std::filesystem::is_regular_file(file, ignored)) {
+    r.fail("picture", fmt::format("must be a PNG file; there is no {} and no {}", (builder.folder / name).string(), file.string()));
+    return;
+  }
+  std::string problem;
+  look.picture = render::read_ground_picture(file, problem);
+  if (!look.picture) {
+    r.fail("picture", problem);
+    return;
+  }
+  builder.assets += file_hash(file);
+  const engine::Vec3 corner = r.vector("picture_corner");
+  look.picture_x = corner.x();
+  look.picture_y = corner.y();
+  look.picture_width = r.number("picture_width");
+  look.picture_turn = r.number("picture_heading");
 }
 
 void read_road_and_sky(Builder& builder, Reader road, Reader sky) {
@@ -311,6 +342,7 @@ void read_road_and_sky(Builder& builder, Reader road, Reader sky) {
   look.metre_grid = road.boolean("grid") || !look.road;
   look.zebra = road.has("zebra");
   if (look.zebra) look.zebra_x = road.number("zebra");
+  if (road.has("picture")) read_ground_picture(builder, road, look);
   builder.scene.stage.sky = {sky.number("sun_azimuth"), sky.number("sun_elevation"), sky.number("haze")};
   builder.scene.stage.north = sky.number_if("north");
 }

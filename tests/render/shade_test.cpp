@@ -1,6 +1,7 @@
 // The light comes out the same whatever the processor, and the cheap kind of a tile shows what the dear one would.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <random>
 
@@ -92,6 +93,36 @@ TEST(Shade, SurfacesAreTheSameOnEveryProcessor) {
   for (const bool terrain : {false, true}) EXPECT_EQ(lit(kernels(), terrain), lit(plain_kernels(), terrain));
   const std::vector<std::vector<float>> colours = lit(kernels(), true);
   for (const float v : colours[1]) EXPECT_TRUE(v >= 0 && v <= 1.01f) << v;
+}
+
+TEST(Shade, APictureLiesOnTheGroundToScale) {
+  Street street(false, test::look_down(0, 0, 8, 1.35f));
+  // 2 x 2 texels of 1 m, turned a quarter: its lower edge points along +y
+  const std::int32_t texels[] = {static_cast<std::int32_t>(0xff0000ffu), static_cast<std::int32_t>(0xff00ff00u),
+                                 static_cast<std::int32_t>(0xffff0000u), 0};
+  Maps maps = street.maps(1);
+  maps.photograph.levels = 1;
+  maps.photograph.texels[0] = texels;
+  maps.photograph.width[0] = maps.photograph.height[0] = 2;
+  maps.photograph.x = 1;
+  maps.photograph.y = -1;
+  maps.photograph.cosine = 0;
+  maps.photograph.sine = 1;
+  std::vector<std::uint8_t> out(4 * kWidth * kHeight);
+  kernels().background(street.data, maps, {0, 0, kWidth, kHeight, static_cast<int>(gl::Zone::everything), 0, true},
+                       {out.data(), kWidth});
+  // 8 m are kHeight pixels
+  const auto dominant = [&out](double x, double y) {
+    const int i = static_cast<int>(kWidth / 2.0 + x * kHeight / 8), j = static_cast<int>(kHeight / 2.0 + y * kHeight / 8);
+    const std::uint8_t* p = &out[4 * static_cast<std::size_t>(j * kWidth + i)];
+    const int most = std::max({p[0], p[1], p[2]}), least = std::min({p[0], p[1], p[2]});
+    return most - least < 40 ? 'n' : most == p[0] ? 'r' : most == p[1] ? 'g' : 'b';
+  };
+  EXPECT_EQ(dominant(0.7, -0.7), 'r') << "its first texel";
+  EXPECT_EQ(dominant(0.7, 0.7), 'g') << "along its lower edge";
+  EXPECT_EQ(dominant(-0.7, -0.7), 'b') << "the row above";
+  EXPECT_EQ(dominant(-0.9, 0.9), 'n') << "transparent";
+  EXPECT_EQ(dominant(1.3, 0), 'n') << "beyond its edge";
 }
 
 TEST(Shade, ATileOfOneKindShowsWhatTheWholePatternWould) {
