@@ -64,12 +64,19 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
   return recording;
 }
 
+void bound_what_is_left_out(const Model& model, Recording& recording) {
+  for (const Effect* effect : effect_table())
+    for (PlanLine& line : recording.plan)
+      if (effect->left_out && !line.active && line.effect == effect->name) line.left_out = effect->left_out(model, recording);
+}
+
 }  // namespace
 
 Recording simulate(const Model& model, const Plan& plan, const RunOptions& options) {
   const LocalFrame frame(model);
   Recording recording = run(frame.inwards(model), plan, options);
   frame.outwards(model, recording);
+  bound_what_is_left_out(model, recording);
   return recording;
 }
 

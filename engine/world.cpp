@@ -19,6 +19,7 @@ std::vector<char> apart(const Model& model, const Plan& plan) {
 
 World::World(const Model& m, const Plan& p, const RunOptions& o)
     : model(m), plan(p), options(o), topology(build_topology(m, apart(m, p))), smooth(m), impulse(m), meter(o.clock) {
+  memory.resize(p.active.size());
   for (const Effect* effect : p.active) meter.effects.push_back({effect->name, 0, 0});
   smooth.reset(topology);
   impulse.reset(topology);

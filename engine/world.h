@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <any>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -153,6 +154,8 @@ struct World {
   std::vector<PassiveLeg> passive_legs;
   double resistance_power = 0;  // [W] what those take out at the start of the step
   bool any_damper = false;
+
+  std::vector<std::any> memory;  // per effect of the plan: what it keeps to itself, set in its `begin`
 
   // for the books, per effect of the plan
   std::vector<double> dissipated;  // [J]

@@ -2,6 +2,7 @@
 // Adding one is one file in this folder and one line in table.cpp.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 
@@ -16,9 +17,31 @@ struct Finding {
   std::string left_out;  // what the effect, on or off, does not compute, and how much that is worth; empty: nothing
 };
 
+/// A key of a scene that an effect brings with it; the loader, the reference and the schema read it from here.
+struct SceneKey {
+  const char* name;
+  const char* unit;      // SI: "kg/m^3"; empty for a plain number
+  int components;        // 1 or 3
+  const char* fallback;  // as in a scene file, with ' for "
+  const char* doc;       // a sentence
+  double lower = -std::numeric_limits<double>::infinity();
+};
+
+/// What the scene has under such a key, by "section.key"; null where it has no such section.
+inline const Vec3* input(const Model& model, const std::string& key) {
+  const auto found = model.inputs.find(key);
+  return found == model.inputs.end() ? nullptr : &found->second;
+}
+
 struct Effect {
   const char* name = "";
   Finding (*look)(const Model&) = nullptr;
+  /// Finding::left_out of an effect that was not in the plan, once the run is known: closer than before it.
+  std::string (*left_out)(const Model&, const Recording&) = nullptr;
+  /// A section of the scene file that is the effect's own, and its keys.
+  const char* section = "";
+  const char* section_doc = "";
+  std::span<const SceneKey> keys = {};
   /// Once, before the first step: pairs, static loads. `self` is the effect's index in the plan.
   void (*begin)(World&, const State&, int self) = nullptr;
   /// Start of every step: inputs that follow the clock, dynamic pruning.

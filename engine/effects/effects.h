@@ -8,6 +8,7 @@ namespace engine {
 extern const Effect kZeroConditionEffect;
 extern const Effect kSleepEffect;
 extern const Effect kGravityEffect;
+extern const Effect kAirDragEffect;
 extern const Effect kJointsEffect;
 extern const Effect kJointLimitsEffect;
 extern const Effect kJointResistanceEffect;

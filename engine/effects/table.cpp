@@ -7,7 +7,7 @@ namespace engine {
 
 std::span<const Effect* const> effect_table() {
   static constexpr std::array kTable{
-      &kZeroConditionEffect, &kSleepEffect,           &kGravityEffect,         &kJointsEffect,
+      &kZeroConditionEffect, &kSleepEffect, &kGravityEffect, &kAirDragEffect, &kJointsEffect,
       &kJointLimitsEffect,   &kJointResistanceEffect, &kJointLoopsEffect,      &kDriverEffect,
       &kTyresEffect,         &kGroundContactEffect,   &kTerrainContactEffect,  &kMeshContactEffect,
       &kSelfContactEffect,   &kBodyContactEffect,     &kBodyworkContactEffect, &kKudlichSlibarEffect,

@@ -65,6 +65,7 @@ struct Model {
   std::vector<ImpactSettings> impacts;  // pairs not named here have the defaults
   Ground ground;
   Settings settings;
+  std::map<std::string, Vec3> inputs;  // SI, by "section.key", a number in x: scene keys that effects bring with them
 };
 
 }  // namespace engine

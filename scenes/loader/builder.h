@@ -33,6 +33,9 @@ struct Builder {
 };
 
 void read_settings(Builder&, std::optional<Reader>);
+/// Sections that effects bring with them: their keys for the top of the file, and what they say, into Model::inputs.
+std::vector<Key> keys_of_effects();
+void read_inputs_of_effects(Builder&, Reader& scene);
 void read_ground(Builder&, std::optional<Reader>);
 void read_body(Builder&, Reader);
 void read_joint(Builder&, Reader);

@@ -43,7 +43,6 @@ const Key kSceneKeys[] = {
     {"expect", Type::table, Dimension::none, "", "Measures that are tested.", kAny, {}, &kExpectSection},
     {"closed_form", Type::table, Dimension::none, "", "Answers known in closed form.", kAny, {}, &kClosedFormSection},
 };
-const Section kSceneSection{"", "(top of the file)", "A scene.", kSceneKeys};
 
 std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -92,7 +91,15 @@ bool Builder::is_declared(const std::string& name) const {
 }
 
 const Section& scene_section() {
-  return kSceneSection;
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> out(std::begin(kSceneKeys), std::end(kSceneKeys));
+    const auto after = std::find_if(out.begin(), out.end(), [](const Key& key) { return key.name == "ground"; }) + 1;
+    const std::vector<Key> more = keys_of_effects();
+    out.insert(after, more.begin(), more.end());
+    return out;
+  }();
+  static const Section section{"", "(top of the file)", "A scene.", keys};
+  return section;
 }
 
 std::filesystem::path home_folder() {
@@ -135,7 +142,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
 
   Builder builder;
   builder.folder = file.parent_path();
-  Reader r(root, kSceneSection, "", builder.errors);
+  Reader r(root, scene_section(), "", builder.errors);
   builder.scene.title = r.text("title");
   builder.scene.path = file;
   builder.scene.overrides = overrides;
@@ -146,6 +153,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   // joints and cameras name bodies, so those come first
   read_settings(builder, r.table("simulation"));
   read_ground(builder, r.table("ground"));
+  read_inputs_of_effects(builder, r);
   for (Reader& vehicle : r.tables("vehicle")) read_vehicle(builder, vehicle);
   for (Reader& person : r.tables("person")) read_person(builder, person);
   for (Reader& body : r.tables("body")) read_body(builder, body);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -23,7 +24,7 @@ struct DimensionLine {
   Powers powers;
 };
 
-constexpr std::array<DimensionLine, 15> kDimensions{{
+constexpr std::array<DimensionLine, 16> kDimensions{{
     {"a plain number", "", "", "", {}},
     {"a length", "m", "m", "cm", {1, 0, 0, 0}},
     {"a mass", "kg", "kg", "lb", {0, 1, 0, 0}},
@@ -39,6 +40,7 @@ constexpr std::array<DimensionLine, 15> kDimensions{{
     {"an angular stiffness", "N m/rad", "N m/rad", "N m/deg", {2, 1, -2, -1}},
     {"an angular damping", "N m s/rad", "N m s/rad", "N m s/deg", {2, 1, -1, -1}},
     {"a moment of inertia", "kg m^2", "kg m^2", "g cm^2", {2, 1, 0, 0}},
+    {"a density", "kg/m^3", "kg/m^3", "g/cm^3", {-3, 1, 0, 0}},
 }};
 
 const DimensionLine& line(Dimension d) {
@@ -172,6 +174,13 @@ std::string must_be(Dimension d) {
 }
 
 }  // namespace
+
+Dimension dimension_of(std::string_view unit) {
+  for (std::size_t d = 0; d < kDimensions.size(); ++d)
+    if (kDimensions[d].si == unit) return static_cast<Dimension>(d);
+  assert(false && "a unit of the table");
+  return Dimension::none;
+}
 
 std::string_view name_of(Dimension d) {
   return line(d).name;

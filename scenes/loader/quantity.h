@@ -23,8 +23,12 @@ enum class Dimension {
   torque,
   angular_stiffness,
   angular_damping,
-  inertia
+  inertia,
+  density
 };
+
+/// The dimension whose SI unit is written so; asserts that there is one.
+Dimension dimension_of(std::string_view si_unit);
 
 /// The name of a dimension ("speed"), its SI unit ("m/s"), and the unit people write ("km/h").
 std::string_view name_of(Dimension);

@@ -1,0 +1,151 @@
+// Resistance of the air and wind against closed forms, and the bound of leaving them out against runs that have them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/plan.h"
+#include "scenes/scene.h"
+#include "tests/engine/experiment.h"
+
+namespace effects_tests {
+
+using namespace engine;
+
+namespace {
+
+constexpr double kDensity = 1.2;  // [kg/m^3]
+
+void add_air(Model& model, const Vec3& wind) {
+  model.inputs["air.density"] = {kDensity, 0, 0};
+  model.inputs["air.wind"] = wind;
+  model.inputs["air.drag"] = {1, 0, 0};
+  model.inputs["air.vehicle_drag"] = {0.3, 0.8, 1};
+}
+
+/// k = rho A/(2 m) [1/m] of a ball with a coefficient of one.
+double drag_of_ball(double radius, double mass) {
+  return kDensity * std::numbers::pi * radius * radius / (2 * mass);
+}
+
+PlanLine air_line(const std::vector<PlanLine>& lines) {
+  for (const PlanLine& line : lines)
+    if (line.effect == "air_drag") return line;
+  return {};
+}
+
+/// "at most 0.1 m/s and 0.2 m" as numbers.
+std::array<double, 2> bound_in(const std::string& text) {
+  std::array<double, 2> out{};
+  const auto at = text.find("at most ");
+  EXPECT_EQ(std::sscanf(text.c_str() + at, "at most %lf m/s and %lf m", &out[0], &out[1]), 2) << text;
+  return out;
+}
+
+Model shipped(const std::string& name) {
+  return scenes::load(std::filesystem::path(CRASHREEL_SOURCE_DIR) / "scenes" / name).model;
+}
+
+}  // namespace
+
+TEST(AirDrag, SlowsABallAsTheReciprocalOfTime) {
+  Model model = test::free_space(2.0);
+  model.bodies = {test::ball(0.1, 0.2, {0, 0, 0})};
+  model.bodies[0].V_WB.v = {30, 0, 0};
+  add_air(model, {0, 0, 0});
+  const Recording run = simulate(model);
+  const double k = drag_of_ball(0.1, 0.2), s = 1 + k * 30 * 2.0;
+  // RK4 at 1 ms leaves 1e-12 of a motion as smooth as this
+  EXPECT_NEAR(run.snapshots.back().bodies[0].V_WB.v.x(), 30 / s, 1e-9);
+  EXPECT_NEAR(run.snapshots.back().bodies[0].X_WB.p.x(), std::log(s) / k, 1e-9);
+  // the work of the air is booked by the trapezoidal rule, whose error is h^2/12 times the change of the power k m v^3
+  const double unexplained = 1e-6 / 12 * 3 * k * k * 0.2 * std::pow(30, 4);
+  EXPECT_NEAR(run.snapshots.back().energies.residual, unexplained, 0.01 * unexplained);
+}
+
+TEST(AirDrag, LetsABallFallNoFasterThanItsTerminalSpeed) {
+  Model model = test::free_space(5.0);
+  model.settings.gravity = {0, 0, -kGravity};
+  model.bodies = {test::ball(0.1, 0.2, {0, 0, 0})};
+  add_air(model, {0, 0, 0});
+  const Recording run = simulate(model);
+  const double terminal = std::sqrt(kGravity / drag_of_ball(0.1, 0.2)), t = 5.0;
+  EXPECT_NEAR(run.snapshots.back().bodies[0].V_WB.v.z(), -terminal * std::tanh(kGravity * t / terminal), 1e-9);
+  EXPECT_NEAR(run.snapshots.back().bodies[0].X_WB.p.z(),
+              -terminal * terminal / kGravity * std::log(std::cosh(kGravity * t / terminal)), 1e-8);
+}
+
+TEST(AirDrag, IsOfTheSpeedThroughTheAirSoThatWindBlowsABallAlong) {
+  Model model = test::free_space(3.0);
+  model.bodies = {test::ball(0.1, 0.2, {0, 0, 0})};
+  const Vec3 wind(3, 12, -4);  // 13 m/s
+  add_air(model, wind);
+  const Recording run = simulate(model);
+  const double k = drag_of_ball(0.1, 0.2), way = 13 * 3.0 - std::log(1 + k * 13 * 3.0) / k;
+  EXPECT_LT((run.snapshots.back().bodies[0].X_WB.p - way * wind / 13).norm(), 1e-9);
+}
+
+TEST(AirDrag, OfAStandingAdultIsThatOfItsFront) {
+  Model model = shipped("cases/sedan_pedestrian_40kmh.toml");
+  const Person person = model.persons[0];
+  const double v = 10;
+  const Vec3 forward = model.bodies[person.torso].X_WB.q * Vec3::UnitX();
+  for (Body& body : model.bodies) body.V_WB = {v * forward, Vec3::Zero()};
+  model.persons[0].zero_condition = false;
+  model.ground.plane = false;
+  model.settings.gravity.setZero();
+  model.settings.duration = 5e-3;
+  for (const char* off : {"joint_resistance", "mesh_contact", "joint_limits"}) model.settings.effects[off] = Force::off;
+  add_air(model, {0, 0, 0});
+  const Recording run = simulate(model);
+  double lost = 0;
+  for (const int b : person.bodies) lost += model.bodies[b].mass * (v - run.snapshots.back().bodies[b].V_WB.v.dot(forward));
+  const double area = lost / model.settings.duration / (0.5 * kDensity * v * v);
+  RecordProperty("drag_area_m2", std::to_string(area));
+  // a front of 1.75 m by 0.3 to 0.45 m, with gaps between arms, legs and trunk, times a coefficient of one
+  EXPECT_GT(area, 1.75 * 0.30);
+  EXPECT_LT(area, 1.75 * 0.45);
+}
+
+TEST(AirDrag, IsLeftOutOfASceneWithoutAirAndForcingItOnHasNothingToDo) {
+  Model model = test::free_space(1.0);
+  model.bodies = {test::ball(0.1, 0.2, {0, 0, 0})};
+  model.bodies[0].V_WB.v = {30, 0, 0};
+  EXPECT_FALSE(air_line(compile(model).lines).active);
+  model.settings.effects["air_drag"] = Force::on;
+  EXPECT_EQ(simulate(model).snapshots.back().bodies[0].V_WB.v.x(), 30);
+}
+
+/// What the plan says is left out is at least what the air does, before the run and closer after it.
+TEST(AirDrag, ChangesNoMoreThanTheBoundThatThePlanPrints) {
+  for (const char* name : {"cases/thrown_body.toml", "gallery/projectile_slide.toml", "gallery/ball_default_auto.toml",
+                           "cases/intersection_ks.toml"}) {
+    Model model = shipped(name);
+    const std::array<double, 2> before = bound_in(air_line(compile(model).lines).left_out);
+    const Recording without = simulate(model);
+    const std::array<double, 2> after = bound_in(air_line(without.plan).left_out);
+    EXPECT_LE(after[0], before[0]) << name;
+    EXPECT_LE(after[1], before[1]) << name;
+    add_air(model, {0, 0, 0});
+    const Recording with = simulate(model);
+    double change = 0;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b)
+      change = std::max(change, (with.snapshots.back().bodies[b].X_WB.p - without.snapshots.back().bodies[b].X_WB.p).norm());
+    EXPECT_GT(change, 0) << name;
+    EXPECT_LE(change, after[1]) << name;
+  }
+}
+
+TEST(AirDrag, IsReadFromTheScene) {
+  const Model model = shipped("gallery/wind.toml");
+  const PlanLine line = air_line(compile(model).lines);
+  EXPECT_TRUE(line.active);
+  EXPECT_EQ(line.reason, "air of 1.2 kg/m^3, wind of 20 m/s");
+  const Recording run = simulate(model);
+  for (std::size_t b = 0; b < 2; ++b) {
+    const double k = 0.47 * kDensity * std::numbers::pi * 0.04 / (2 * model.bodies[b].mass), w = 20, t = 2;
+    EXPECT_NEAR(run.snapshots.back().bodies[b].X_WB.p.x(), w * t - std::log(1 + k * w * t) / k, 1e-8);
+  }
+}
+
+}  // namespace effects_tests
