@@ -1,5 +1,5 @@
 // A physical effect: its name, what in a Model calls for it, and the hooks of the step it takes part in.
-// Adding one is one file in this folder and one line in table.cpp.
+// Adding one is one file in this folder and one line in effects.h.
 #pragma once
 
 #include <limits>

@@ -1,26 +1,34 @@
-// The effects by name, for the table. Each is defined in the file of its name.
+// The table of all effects, in the order of the step. Each is defined in the file of its name; adding one is that file and a line
+// here.
 #pragma once
 
 #include "engine/effects/effect.h"
 
+// clang-format off
+#define CRASHREEL_EFFECTS(line)  \
+  line(kZeroConditionEffect)     \
+  line(kSleepEffect)             \
+  line(kGravityEffect)           \
+  line(kAirDragEffect)           \
+  line(kJointsEffect)            \
+  line(kJointLimitsEffect)       \
+  line(kJointResistanceEffect)   \
+  line(kJointLoopsEffect)        \
+  line(kDriverEffect)            \
+  line(kTyresEffect)             \
+  line(kGroundContactEffect)     \
+  line(kTerrainContactEffect)    \
+  line(kMeshContactEffect)       \
+  line(kSelfContactEffect)       \
+  line(kBodyContactEffect)       \
+  line(kBodyworkContactEffect)   \
+  line(kKudlichSlibarEffect)
+// clang-format on
+
 namespace engine {
 
-extern const Effect kZeroConditionEffect;
-extern const Effect kSleepEffect;
-extern const Effect kGravityEffect;
-extern const Effect kAirDragEffect;
-extern const Effect kJointsEffect;
-extern const Effect kJointLimitsEffect;
-extern const Effect kJointResistanceEffect;
-extern const Effect kJointLoopsEffect;
-extern const Effect kDriverEffect;
-extern const Effect kTyresEffect;
-extern const Effect kGroundContactEffect;
-extern const Effect kTerrainContactEffect;
-extern const Effect kMeshContactEffect;
-extern const Effect kSelfContactEffect;
-extern const Effect kBodyContactEffect;
-extern const Effect kBodyworkContactEffect;
-extern const Effect kKudlichSlibarEffect;
+#define CRASHREEL_DECLARE(effect) extern const Effect effect;
+CRASHREEL_EFFECTS(CRASHREEL_DECLARE)
+#undef CRASHREEL_DECLARE
 
 }  // namespace engine

@@ -1,4 +1,4 @@
-// The one list of all effects, in the order of the step.
+// What the table of effects is asked for: all of them, and the plan of a model.
 #include <array>
 
 #include "engine/effects/effects.h"
@@ -6,12 +6,9 @@
 namespace engine {
 
 std::span<const Effect* const> effect_table() {
-  static constexpr std::array kTable{
-      &kZeroConditionEffect, &kSleepEffect, &kGravityEffect, &kAirDragEffect, &kJointsEffect,
-      &kJointLimitsEffect,   &kJointResistanceEffect, &kJointLoopsEffect,      &kDriverEffect,
-      &kTyresEffect,         &kGroundContactEffect,   &kTerrainContactEffect,  &kMeshContactEffect,
-      &kSelfContactEffect,   &kBodyContactEffect,     &kBodyworkContactEffect, &kKudlichSlibarEffect,
-  };
+#define CRASHREEL_ADDRESS(effect) &effect,
+  static constexpr std::array kTable{CRASHREEL_EFFECTS(CRASHREEL_ADDRESS)};
+#undef CRASHREEL_ADDRESS
   return kTable;
 }
 

@@ -1,7 +1,12 @@
 // Resistance of the air and wind against closed forms, and the bound of leaving them out against runs that have them.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
 #include <numbers>
 
 #include "engine/plan.h"
@@ -134,6 +139,24 @@ TEST(AirDrag, ChangesNoMoreThanTheBoundThatThePlanPrints) {
     EXPECT_GT(change, 0) << name;
     EXPECT_LE(change, after[1]) << name;
   }
+}
+
+/// The effect is the pattern for new ones: its scene keys included, the program knows it from one file and its line in the table.
+TEST(AirDrag, StandsInOneFileAndOneLineOfTheTable) {
+  const std::filesystem::path root = CRASHREEL_SOURCE_DIR;
+  std::map<std::string, int> lines;
+  for (const char* room : {"engine", "scenes/loader", "render", "cli"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / room)) {
+      if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
+      std::ifstream file(entry.path());
+      for (std::string line; std::getline(file, line);)
+        if (line.find("AirDrag") != std::string::npos || line.find("\"air.") != std::string::npos ||
+            line.find("air_drag") != std::string::npos)
+          ++lines[entry.path().filename().string()];
+    }
+  EXPECT_GT(lines.at("air_drag.cpp"), 1);
+  EXPECT_EQ(lines.at("effects.h"), 1);
+  EXPECT_EQ(lines.size(), 2U);
 }
 
 TEST(AirDrag, IsReadFromTheScene) {
