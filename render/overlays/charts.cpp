@@ -45,7 +45,10 @@ ChartItem empty_chart(const Frame& frame, const std::string& title, std::size_t 
   chart.end = std::max(frame.recording.end_time(), 1e-3);
   chart.ceiling = 0;
   chart.now = frame.now.time;
-  chart.anchor = {0.016f, 0.028f + 0.235f * static_cast<float>(place)};
+  // below each other; beside each other, in the sky, where a pane is narrow and what happens stands in its middle
+  const float step = static_cast<float>(place);
+  const bool narrow = frame.moment.layout == Layout::split;
+  chart.anchor = {0.016f + (narrow ? 0.230f * step : 0), 0.028f + (narrow ? 0 : 0.235f * step)};
   return chart;
 }
 
