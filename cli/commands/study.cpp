@@ -108,9 +108,10 @@ int run(const StudyWish& wish) {
   if (wish.effects && wish.picture) throw UsageError("--effects and --picture are studies of their own; give one of them");
   make_writable_folder(run.folder);
   refuse_existing_report(wish, wish.effects ? "effects" : wish.picture ? "picture" : "study");
-  write_report(wish, wish.effects   ? of_effects(scene, run)
-                     : wish.picture ? of_picture(wish, scene)
-                                    : of_accuracy(wish, scene, run));
+  Report report = wish.effects ? of_effects(scene, run) : wish.picture ? of_picture(wish, scene) : of_accuracy(wish, scene, run);
+  report.json["warnings"] = scene.stage.warnings;
+  for (const std::string& warning : scene.stage.warnings) report.text += fmt::format("  warning: {}\n", warning);
+  write_report(wish, report);
   return kDone;
 }
 

@@ -183,6 +183,7 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
   line("solver residual", fmt::format("{:.3g} m/s at most", d.max_solver_residual));
   line("simulated", fmt::format("{:.4g} s in {:.3g} s, {} steps, {:.3g} times real time", recording.end_time(), recording.wall_s,
                                 recording.steps, per_second(recording.end_time(), recording.wall_s)));
+  for (const std::string& warning : d.warnings) line("warning", warning);
   line("recording hash", fmt::format("{:016x}", engine::hash(recording)));
   return out;
 }

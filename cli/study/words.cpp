@@ -103,9 +103,11 @@ std::string with_unit(double value, const std::string& unit) {
 }
 
 std::string provenance_of(const scenes::Scene& scene) {
-  return fmt::format("crashreel {}, {} | {} | scene SHA-256 {}{}{} | times: computing on one core, warm, median", CRASHREEL_VERSION,
-                     CRASHREEL_BUILD, scene.path.filename().string(), scene.sha256.substr(0, 16),
-                     scene.overrides.empty() ? "" : " with ", fmt::join(scene.overrides, ", "));
+  std::string warnings;
+  for (const std::string& warning : scene.stage.warnings) warnings += "Warning: " + warning + " | ";
+  return warnings + fmt::format("crashreel {}, {} | {} | scene SHA-256 {}{}{} | times: computing on one core, warm, median",
+                                CRASHREEL_VERSION, CRASHREEL_BUILD, scene.path.filename().string(), scene.sha256.substr(0, 16),
+                                scene.overrides.empty() ? "" : " with ", fmt::join(scene.overrides, ", "));
 }
 
 std::string with_digits(double value, double uncertainty) {

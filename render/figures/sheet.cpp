@@ -53,11 +53,11 @@ void draw_frame_of_sheet(cairo_t* c, const Stage& stage, const std::string& titl
   draw_text(c, kMargin, kMargin + 9, stage.title, 3.6);
   draw_text(c, kMargin, kSheetHeight - 7, "Simulation, not measured at the scene", 2.8);
   draw_text(c, kSheetWidth - kMargin, kSheetHeight - 7, stage.provenance, 2.8, Align::right);
-  double y = kMargin + 3;
+  double y = kSheetHeight - 7;  // between the two, from the foot up
   for (const std::string& warning : stage.warnings) {
     grey(c, 0);
-    draw_text(c, kSheetWidth - kMargin, y, "Warning: " + warning, 3.2, Align::right);
-    y += 5;
+    draw_text(c, kSheetWidth / 2, y, "Warning: " + warning, 3.2, Align::centre);
+    y -= 5;
   }
 }
 

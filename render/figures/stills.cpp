@@ -119,6 +119,7 @@ std::vector<std::string> contact_sheet(const Stage& stage, const engine::Recordi
   scene.overlays.contact_history = true;
   scene.overlays.disclaimer = scene.overlays.caption = scene.overlays.legend = false;
   scene.overlays.speed_chart = scene.overlays.energy_chart = false;
+  scene.warnings.clear();  // they stand in the foot, where they can be read
   Painter painter(w, h, job.quality);
   Image sheet, still;
   sheet.width = w * kColumns;
@@ -143,8 +144,9 @@ std::vector<std::string> contact_sheet(const Stage& stage, const engine::Recordi
   DrawList foot;
   LabelItem label;
   label.lines = {"Simulation, not footage   " + stage.provenance};
-  label.sizes = {16};
-  label.colours = {{1, 1, 1, 1}};
+  for (const std::string& warning : stage.warnings) label.lines.push_back("Warning: " + warning);
+  label.sizes.assign(label.lines.size(), 16);
+  label.colours.assign(label.lines.size(), {1, 1, 1, 1});
   label.anchor = {0.992f, 0.99f};
   label.pivot = {1, 1};
   foot.labels.push_back(label);

@@ -9,6 +9,8 @@
 namespace render {
 namespace {
 
+constexpr Float4 kWarning{1, 0.45f, 0.35f, 1};
+
 const Float4 kWhite{1, 1, 1, 1}, kPale{0.80f, 0.85f, 0.90f, 1}, kAmber{1, 0.70f, 0.25f, 1};
 
 std::string speed_factor(double speed) {
@@ -45,7 +47,7 @@ void add_caption(const Frame& frame, DrawList& list) {
   for (const std::string& warning : frame.stage.warnings) {
     label.lines.push_back(warning);
     label.sizes.push_back(18);
-    label.colours.push_back({1, 0.45f, 0.35f, 1});
+    label.colours.push_back(kWarning);
   }
   list.labels.push_back(label);
 }
@@ -59,6 +61,13 @@ void add_disclaimer(const Frame& frame, DrawList& list) {
   label.sizes.assign(label.lines.size(), 16);
   label.colours.assign(label.lines.size(), {0.92f, 0.94f, 0.96f, 0.95f});
   label.sizes[0] = 19;
+  // without the caption a warning stands here: it can not be switched off
+  for (const std::string& warning : frame.stage.warnings) {
+    if (frame.stage.overlays.caption) break;
+    label.lines.push_back(warning);
+    label.sizes.push_back(18);
+    label.colours.push_back(kWarning);
+  }
   list.labels.push_back(label);
 }
 
@@ -115,6 +124,11 @@ void add_scale_bar(const Frame& frame, DrawList& list) {
 const Overlay kCaption{"caption", [](const Frame& f) { return f.stage.overlays.caption; }, add_caption, true};
 const Overlay kScaleBar{"scale_bar", [](const Frame& f) { return f.stage.overlays.scale_bar && f.camera.kind == CameraKind::top; },
                         add_scale_bar};
-const Overlay kDisclaimer{"disclaimer", [](const Frame& f) { return f.stage.overlays.disclaimer; }, add_disclaimer, true};
+const Overlay kDisclaimer{"disclaimer",
+                          [](const Frame& f) {
+                            const bool unsaid = !f.stage.warnings.empty() && !f.stage.overlays.caption;
+                            return f.stage.overlays.disclaimer || unsaid;
+                          },
+                          add_disclaimer, true};
 
 }  // namespace render

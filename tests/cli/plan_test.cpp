@@ -54,3 +54,36 @@ TEST(Plan, SaysThatAnEffectIsForced) {
   EXPECT_THAT(result.out, HasSubstr("switched on by the author, with nothing to do: no vehicle"));
   EXPECT_THAT(result.out, HasSubstr("warning: effect gravity switched off by the author"));
 }
+
+/// Whoever sees only one of them must know.
+TEST(ForcedOff, IsSaidInEveryOutputOfTheRun) {
+  const Folder folder;
+  folder.write("ball.toml", ball_with("stop_at_rest = false", "stop_at_rest = false\neffects = {gravity = \"off\"}"));
+  const std::string warning = "effect gravity switched off by the author";
+  const Result result = run(folder, {"simulate", "ball.toml", "-o", "out", "-q"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr(warning));
+  EXPECT_THAT(contents(folder / "out/summary.json"), HasSubstr(warning));
+
+  const Result studied = run(folder, {"study", "ball.toml", "-o", "study", "--effects", "-q"});
+  ASSERT_EQ(studied.code, 0) << studied.err;
+  EXPECT_THAT(studied.out, HasSubstr(warning));
+  EXPECT_EQ(Json::parse(contents(folder / "study/effects.json")).at("warnings"), Json::array({warning}));
+}
+
+TEST(ForcedOff, StandsInThePictureEvenWithoutACaption) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  const std::vector<std::string> bare = {"render", "ball.toml",
+                                         "--at",   "0.1s",
+                                         "--size", "320x180",
+                                         "--set",  "overlays.caption=false",
+                                         "--set",  "overlays.disclaimer=false",
+                                         "-q"};
+  std::vector<std::string> without = bare, with = bare;
+  without.insert(without.end(), {"-o", "a.png"});
+  with.insert(with.end(), {"-o", "b.png", "--effects", "joint_loops=off"});  // which the ball has none of: the motion is the same
+  ASSERT_EQ(run(folder, without).code, 0);
+  ASSERT_EQ(run(folder, with).code, 0);
+  EXPECT_EQ(run(folder, {"compare", "a.png", "b.png"}).code, 1);
+}
