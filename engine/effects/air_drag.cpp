@@ -16,7 +16,7 @@
 namespace engine {
 namespace {
 
-constexpr double kDensity = 1.2;                       // [kg/m^3] at 20 deg C and 1013 hPa
+constexpr double kDensity = 1.2;                             // [kg/m^3] at 20 deg C and 1013 hPa
 const Vec3 kDrag{1.2, 1.2, 1.2}, kVehicleDrag{0.3, 0.8, 1};  // [-] along x, y, z of the body
 
 constexpr SceneKey kKeys[] = {
@@ -152,7 +152,8 @@ Bound bound_along(const Model& model, const Recording& run) {
 Finding look(const Model& model) {
   const Vec3* density = input(model, "air.density");
   if (!density)
-    return {false, "the scene has no [air]", in_words(bound_before(model), " in the whole duration at the greatest speed")};
+    return {false, "the scene has no [air]",
+            in_words(bound_before(model), " (all the time at the greatest speed; --measure bounds it closer)")};
   if (density->x() == 0) return {false, "air.density is 0", ""};
   const Vec3 wind = *input(model, "air.wind");
   return {true,

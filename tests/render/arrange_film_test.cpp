@@ -257,5 +257,18 @@ TEST(ColourRamp, OnlyGetsLighter) {
   }
 }
 
+TEST(Overlays, ThatAreNotShownAreNotComputed) {
+  Stage bare = stage();
+  bare.overlays.contacts = bare.overlays.forces = bare.overlays.caption = bare.overlays.disclaimer = bare.overlays.scale_bar =
+      false;
+  const engine::Recording recording = run();
+  const engine::Snapshot now = recording.at(0.5);
+  const Moment moment{0.5, "side", 1};
+  const Frame frame{bare, recording, now, moment, bare.cameras[0]};
+  for (const Overlay* overlay : overlay_table()) EXPECT_FALSE(overlay->shown(frame)) << overlay->name;
+  const DrawList list = arrange(bare, recording, moment, 1.78);
+  EXPECT_EQ(list.lines.size() + list.arrows.size() + list.markers.size() + list.labels.size() + list.charts.size(), 0U);
+}
+
 }  // namespace
 }  // namespace render
