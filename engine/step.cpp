@@ -23,7 +23,7 @@ namespace engine {
 namespace {
 
 constexpr int kMaxCuts = 8;           // of one step; then impulses act where the bodies are
-constexpr double kUnsolved = 0.01;    // [m/s] residual above which the step is halved and taken again
+constexpr double kUnsolved = 2;       // [-] residual over the tolerance above which the step is halved and taken again
 constexpr double kSmoothTurn = 0.1;   // [rad] of any body in one step of the smooth motion
 constexpr double kSmoothSwing = 2.0;  // [-] rate of a swing under joint forces times the step: RK4 bears 2.8
 constexpr double kLargestTurn = 0.3;  // [rad] in one step of all
@@ -273,7 +273,7 @@ double Stepper::attempt(World& world, State& state, double h) {
   if (lost < 0) find_contacts(world, end_, end_contacts_);
   world.constraints.swap(of_step);
   world.step = taken;
-  if (may_halve && (lost >= 0 || residual > kUnsolved || !acceptable(end_contacts_))) {
+  if (may_halve && (lost >= 0 || residual > kUnsolved * world.model.settings.solver_tolerance || !acceptable(end_contacts_))) {
     ++world.diagnostics.substeps;
     next_step_ = 0.5 * taken;
     assemble_constraints(world, state, next_step_);

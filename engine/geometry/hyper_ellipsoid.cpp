@@ -52,14 +52,24 @@ double support_value(const HyperEllipsoid& shape, const Vec3& direction) {
 }
 
 Vec3 support_point(const HyperEllipsoid& shape, const Vec3& direction) {
-  const double h = support_value(shape, direction);
-  assert(h > 0 && "a support point needs a direction");
-  const double exponent = 1 / (shape.exponent - 1);
-  Vec3 s;
-  for (int i = 0; i < 3; ++i) {
-    const double u = shape.semi_axes[i] * std::abs(direction[i]) / h;
-    s[i] = std::copysign(shape.semi_axes[i] * (u == 0 ? 0 : power(u, exponent)), direction[i]);
+  assert(direction.squaredNorm() > 0 && "a support point needs a direction");
+  if (shape.exponent == 2) {
+    const Vec3 w = shape.semi_axes.cwiseProduct(direction);
+    return shape.semi_axes.cwiseProduct(w / w.norm());
   }
+  // s_i = a_i (w_i/h)^(1/(n-1)) with h^q = sum w_i^q, q = n/(n-1): the same powers serve both
+  const Vec3 w = shape.semi_axes.cwiseProduct(direction.cwiseAbs());
+  const double largest = w.maxCoeff();
+  Vec3 powers;
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double u = w[i] / largest;
+    powers[i] = u == 0 ? 0 : power(u, 1 / (shape.exponent - 1));
+    sum += u * powers[i];
+  }
+  const double scale = 1 / power(sum, 1 / shape.exponent);
+  Vec3 s;
+  for (int i = 0; i < 3; ++i) s[i] = std::copysign(shape.semi_axes[i] * scale * powers[i], direction[i]);
   return s;
 }
 

@@ -68,8 +68,10 @@ double climb_about(const Pair& pair, const Vec3& w, double tolerance, Vec3& n) {
   return low;
 }
 
-/// One step of Newton on the tangential miss, taken if it halves it.
-bool newton(const Pair& pair, Vec3& n) {
+/// One step of Newton on the tangential miss, taken if it halves it. `top`: there is none to take, it is a maximum to rounding.
+bool newton(const Pair& pair, Vec3& n, bool& top) {
+  constexpr double kRounding = 2e-14;  // [m]
+  top = false;
   auto frame_at = [](const Vec3& m) {
     const Vec3 t1 = m.unitOrthogonal();
     Eigen::Matrix<double, 3, 2> E;
@@ -78,9 +80,10 @@ bool newton(const Pair& pair, Vec3& n) {
   };
   const auto E = frame_at(n);
   const Eigen::Vector2d miss = E.transpose() * (pair.d - pair.support_sum(n));
-  if (miss.norm() < 1e-14) return false;
   const Eigen::Matrix2d H = E.transpose() * pair.hessian_sum(n) * E + pair.gap(n) * Eigen::Matrix2d::Identity();
   if (!(H.determinant() > 0 && H.trace() > 0)) return false;
+  top = miss.norm() < kRounding;
+  if (top) return false;
   const Eigen::Vector2d step = H.inverse() * miss;
   if (!(step.norm() < 0.1)) return false;
   const Vec3 next = (n + E * step).normalized();
@@ -96,7 +99,9 @@ Found settle(const Pair& pair, Found at, double tolerance) {
   constexpr int kRounds = 200, kAround = 16;
   Vec3 n = at.n;
   for (int round = 0; round < kRounds; ++round) {
-    while (newton(pair, n)) continue;
+    bool top = false;
+    while (newton(pair, n, top)) continue;
+    if (top) break;
     double moved = 0;
     bool kinks = false;
     for (int i = 0; i < 6; ++i) {

@@ -16,7 +16,7 @@ double length_of(double x, double y) {
 
 constexpr double kLeastResponse = 0.01;  // [-] of the free response of a contact's bodies
 constexpr int kFirstSweeps = 1;          // before Newton is tried; twice as many before it is tried again, and so on
-constexpr double kFirstGoal = 1e-5;      // [-] of the tolerance
+constexpr double kFirstGoal = 1e-3;      // [-] of the tolerance
 constexpr int kPlainSweeps = 60;         // before the friction bounds are followed
 constexpr int kPatience = 3;             // Newton steps without a new best
 constexpr int kBoundedSweeps = 200;      // in each
