@@ -223,14 +223,15 @@ TEST_P(EitherTyre, SteadyCircleHasTheRadiusOfTheGeometryAndTheForceOfTheSpeed) {
   Model model = one_car(12, 2, GetParam());
   model.vehicles[0].steer = Schedule(std::vector<Schedule::Knot>{{0, 0}, {1, 0.2}});
   const Recording run = simulate(model);
-  const Twist& V = last_of(run).bodies[0].V_WB;
+  const Snapshot last = last_of(run);
+  const Twist& V = last.bodies[0].V_WB;
   const double rear = 106 * kInch / std::tan(0.2), centre = std::hypot(rear, (106 - 38.1) * kInch);
   // slip angles at a_y = 0.03 g: 0.4 degrees against 11 of steer, nearly alike in front and rear; equal wheel angles (no Ackermann)
   // drag a little
   EXPECT_NEAR(V.v.norm() / V.w.z(), centre, 0.03 * centre);
   // lateral forces carry the centripetal acceleration: all components, over the steered frames
   double lateral = 0;
-  for (const WheelRecord& w : last_of(run).wheels) lateral += w.lateral;
+  for (const WheelRecord& w : last.wheels) lateral += w.lateral;
   EXPECT_NEAR(lateral, 1495.95 * V.v.norm() * V.w.z(), 0.03 * lateral);
 }
 
