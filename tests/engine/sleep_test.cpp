@@ -64,8 +64,9 @@ TEST(Sleep, OneWhoLiesByARestlessNeighbourDoesNotSleep) {
   model.bodies[1].V_WB = {Vec3(0.02, 0, 0), Vec3(0, 0.2, 0)};
   model.bodies[1].surface.friction_ground = 0.8;
   const Recording run = simulate(model);
-  EXPECT_GT(run.at(2.5).bodies[1].V_WB.v.norm(), 0.01);
-  EXPECT_TRUE(std::any_of(run.at(2.5).contacts.begin(), run.at(2.5).contacts.end(), [](auto& c) { return c.body_a == 0; }));
+  const Snapshot then = run.at(2.5);
+  EXPECT_GT(then.bodies[1].V_WB.v.norm(), 0.01);
+  EXPECT_TRUE(std::any_of(then.contacts.begin(), then.contacts.end(), [](auto& c) { return c.body_a == 0; }));
 }
 
 }  // namespace

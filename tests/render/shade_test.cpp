@@ -21,7 +21,7 @@ struct Street {
   explicit Street(bool zebra = true, const View& view = test::look_along_y({0, -6, 2}, 0.25f, 1.35f)) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> any(0, 1);
-    for (const std::uint8_t byte : gl::grain_picture()) grain.push_back(byte * 0x01010101);
+    for (const std::uint8_t byte : gl::grain_picture()) grain.push_back(byte * 0x01010101u);
     for (float& d : depth) d = any(random) < 0.5f ? 1.0f : any(random);
     for (float& b : bounds) b = any(random);
     for (float& o : open) o = any(random);
