@@ -60,7 +60,7 @@ TEST(Sleep, OneWhoLiesByARestlessNeighbourDoesNotSleep) {
   Model model = on_ground(4);
   model.settings.sleep = true;
   model.settings.record_interval = 1e-3;
-  model.bodies = {solid({{0.3, 0.2, 0.1}, 15}, 20, {0, 0, 0.1}), ball(0.1, 1, {0.55, 0, 0.1})};
+  model.bodies = {solid({{0.3, 0.2, 0.1}, 15}, 20, {0, 0, 0.1}), ball(0.1, 1, {0.45, 0, 0.1})};
   model.bodies[1].V_WB = {Vec3(0.02, 0, 0), Vec3(0, 0.2, 0)};
   model.bodies[1].surface.friction_ground = 0.8;
   const Recording run = simulate(model);
