@@ -49,6 +49,28 @@ namespace {
 constexpr double kSpare = 2e-3;  // [m] so that a contact is known before it is needed
 }
 
+void Nearness::look(const World& world, const State& state) {
+  const std::size_t trees = world.topology.trees.size();
+  centre_.resize(trees);
+  radius_.resize(trees);
+  close_.resize(trees * trees);
+  for (std::size_t t = 0; t < trees; ++t) {
+    const Topology::Tree& range = world.topology.trees[t];
+    centre_[t] = state.X_WB[world.topology.links[range.begin].body].p;
+    radius_[t] = 0;
+    for (int l = range.begin; l < range.end; ++l) {
+      const int b = world.topology.links[l].body;
+      const double way = world.step * (state.V_WB[b].v.norm() + state.V_WB[b].w.norm() * world.reach[b]);
+      radius_[t] = std::max(radius_[t], (state.X_WB[b].p - centre_[t]).norm() + world.reach[b] + way);
+    }
+  }
+  const double spare = 2 * (kSpare + world.model.settings.gravity.norm() * world.step * world.step);
+  for (std::size_t a = 0; a < trees; ++a)
+    for (std::size_t b = a + 1; b < trees; ++b)
+      close_[a * trees + b] = close_[b * trees + a] =
+          static_cast<char>((centre_[a] - centre_[b]).norm() <= radius_[a] + radius_[b] + spare);
+}
+
 double contact_margin(const World& world, const State& state, int body) {
   const Twist& V = state.V_WB[body];
   const double g = world.model.settings.gravity.norm();

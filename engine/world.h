@@ -55,6 +55,30 @@ struct BodyPair {
   Clearance clearance;           // of b in the frame of a
 };
 
+struct World;
+
+/// Neighbours in the list of pairs, all of the same two trees.
+struct PairRun {
+  int effect = 0;
+  int tree_a = -1, tree_b = -1;  // -1: a fixed body
+  std::size_t begin = 0, end = 0;
+};
+
+/// Which trees of bodies have anything to do with each other in a step: spheres about them, with the way they can go in it.
+class Nearness {
+ public:
+  /// From where bodies are and how they move; a bound on `pair_margin` of any two of them.
+  void look(const World&, const State&);
+  bool close(int tree_a, int tree_b) const {
+    return tree_a < 0 || tree_b < 0 || tree_a == tree_b || close_[static_cast<std::size_t>(tree_a) * radius_.size() + tree_b] != 0;
+  }
+
+ private:
+  std::vector<Vec3> centre_;  // [m]
+  std::vector<double> radius_;
+  std::vector<char> close_;  // trees x trees
+};
+
 /// A point that stands for a body's mesh, or for one of its wheels, where it meets other surfaces.
 struct SurfacePoint {
   Vec3 p_B = Vec3::Zero();  // [m]
@@ -132,6 +156,8 @@ struct World {
   std::vector<int> active_trees;
   std::vector<MeshPair> mesh_pairs;
   std::vector<BodyPair> body_pairs;
+  std::vector<PairRun> body_pair_runs;
+  Nearness nearness;
   std::vector<WheelState> wheels;
   std::vector<Vec3> joint_load;                           // [N] on the child, per joint; of those that can break
   std::vector<std::vector<SurfacePoint>> surface_points;  // per body with a mesh, for meshes against others

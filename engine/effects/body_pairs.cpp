@@ -48,9 +48,23 @@ std::vector<BodyPair> pairs_between_bodies(const Model& model, int effect) {
   return pairs;
 }
 
-void find_pair_contacts(World& world, const State& state, int effect, ContactKind kind) {
-  for (BodyPair& pair : world.body_pairs) {
-    if (pair.effect != effect) continue;
+void add_pairs(World& world, const std::vector<BodyPair>& pairs) {
+  for (const BodyPair& pair : pairs) {
+    const int tree_a = world.topology.tree_of_body[pair.a], tree_b = world.topology.tree_of_body[pair.b];
+    const auto at = world.body_pairs.size();
+    if (world.body_pair_runs.empty() || world.body_pair_runs.back().effect != pair.effect ||
+        world.body_pair_runs.back().tree_a != tree_a || world.body_pair_runs.back().tree_b != tree_b)
+      world.body_pair_runs.push_back({pair.effect, tree_a, tree_b, at, at});
+    world.body_pairs.push_back(pair);
+    ++world.body_pair_runs.back().end;
+  }
+}
+
+namespace {
+
+void find_contacts_of(World& world, const State& state, const PairRun& run, ContactKind kind) {
+  for (std::size_t i = run.begin; i < run.end; ++i) {
+    BodyPair& pair = world.body_pairs[i];
     if (!world.awake[pair.a] && !world.awake[pair.b]) continue;
     const double margin = pair_margin(world, state, pair.a, pair.b);
     const double apart = (state.X_WB[pair.a].p - state.X_WB[pair.b].p).norm();
@@ -70,8 +84,16 @@ void find_pair_contacts(World& world, const State& state, int effect, ContactKin
     }
     const double mu = std::min(A.surface.friction_body.at(state.time), B.surface.friction_body.at(state.time));
     const double e = std::max(A.surface.restitution_body.at(state.time), B.surface.restitution_body.at(state.time));
-    add_contact(world, state, *touch, pair.a, pair.b, effect, kind, mu, e);
+    add_contact(world, state, *touch, pair.a, pair.b, run.effect, kind, mu, e);
   }
+}
+
+}  // namespace
+
+void find_pair_contacts(World& world, const State& state, int effect, ContactKind kind) {
+  world.nearness.look(world, state);
+  for (const PairRun& run : world.body_pair_runs)
+    if (run.effect == effect && world.nearness.close(run.tree_a, run.tree_b)) find_contacts_of(world, state, run, kind);
 }
 
 }  // namespace engine

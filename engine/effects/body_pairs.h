@@ -9,6 +9,9 @@ namespace engine {
 std::vector<BodyPair> pairs_within_persons(const Model&, int effect);
 std::vector<BodyPair> pairs_between_bodies(const Model&, int effect);
 
+/// Appends them to those of the world.
+void add_pairs(World&, const std::vector<BodyPair>&);
+
 void find_pair_contacts(World&, const State&, int effect, ContactKind);
 
 }  // namespace engine

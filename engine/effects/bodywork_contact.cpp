@@ -167,11 +167,15 @@ bool frozen(const World& world, int body) {
 
 void find(World& world, const State& state, int self) {
   const int n = static_cast<int>(world.model.bodies.size());
+  world.nearness.look(world, state);
+  const std::vector<int>& tree = world.topology.tree_of_body;
+  auto close = [&](int a, int b) { return world.nearness.close(tree[a], tree[b]); };
   for (int a = 0; a < n; ++a) {
     if (!is_mesh(world.model.bodies[a])) continue;
     if (world.awake[a]) find_on_ground(world, state, a, self);
     for (int b = a + 1; b < n; ++b)
-      if (!frozen(world, a) && !frozen(world, b) && can_meet(world.model, a, b)) find_between(world, state, a, b, self);
+      if (close(a, b) && !frozen(world, a) && !frozen(world, b) && can_meet(world.model, a, b))
+        find_between(world, state, a, b, self);
   }
 }
 

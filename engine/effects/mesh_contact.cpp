@@ -44,8 +44,11 @@ void begin(World& world, const State&, int self) {
 
 void find(World& world, const State& state, int self) {
   ContactPoints touches;
+  world.nearness.look(world, state);
   for (MeshPair& pair : world.mesh_pairs) {
     if (pair.effect != self) continue;
+    const std::vector<int>& tree = world.topology.tree_of_body;
+    if (!world.nearness.close(tree[pair.body], tree[pair.mesh_body])) continue;
     if (!world.awake[pair.body] && !world.model.bodies[pair.body].fixed) continue;  // waits or sleeps: those effects watch
     const Body& round = world.model.bodies[pair.body];
     const Body& mesh = world.model.bodies[pair.mesh_body];

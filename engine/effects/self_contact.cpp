@@ -25,7 +25,7 @@ Finding look(const Model& model) {
 }
 
 void begin(World& world, const State&, int self) {
-  for (const BodyPair& pair : pairs_within_persons(world.model, self)) world.body_pairs.push_back(pair);
+  add_pairs(world, pairs_within_persons(world.model, self));
 }
 
 void find(World& world, const State& state, int self) {
