@@ -11,6 +11,8 @@
 
 #include "engine/plan.h"
 #include "engine/simulate.h"
+#include "scenes/loader/builder.h"
+#include "scenes/scene.h"
 #include "tests/benchmark/common_scenes.h"
 
 namespace {
@@ -72,7 +74,7 @@ double peer_rate(const Peer& peer, const std::string& scene) {
   return std::strtod(text.c_str(), nullptr);
 }
 
-void scenes(const std::vector<Peer>& peers) {
+void common_scenes(const std::vector<Peer>& peers) {
   std::printf("Common scenes, step 1 ms, one core\n%-8s %9s %9s %10s %10s %9s %8s", "scene", "steps/s", "drift m", "limit deg",
               "penetr. mm", "residual", "x end m");
   for (const Peer& peer : peers) std::printf(" %14s", ("x " + peer.name).c_str());
@@ -158,10 +160,13 @@ void plan() {
   waiting.bodies.pop_back();  // the car
   waiting.vehicles.clear();
   const Model contact = benchmark::common_scene("vehicle", 1e-3);
+  const Model flagship = scenes::load(scenes::home_folder() / "scenes/cases/sedan_pedestrian_40kmh.toml").model;
   auto cost = [](const Timed& t) { return 1e6 * t.wall_s / static_cast<double>(t.run.steps); };
   const double one = cost(timed(ball, 9)), idle = cost(timed(waiting, 9)), full = cost(timed(contact, 5));
-  std::printf("One ball %.3f us a step, a waiting person %.3f us, a struck person %.1f us: ratios %.0f and %.4f\n\n", one, idle,
-              full, full / one, idle / full);
+  const double whole = cost(timed(flagship, 5));
+  std::printf("One ball %.3f us a step, a waiting person %.3f us, a struck person %.1f us, the pedestrian case %.1f us\n", one,
+              idle, full, whole);
+  std::printf("The case costs %.0f times the ball; waiting costs %.4f of being struck\n\n", whole / one, idle / full);
 }
 
 }  // namespace
@@ -180,7 +185,7 @@ int main(int argc, char** argv) {
     }
   }
   auto wanted = [&](const char* part) { return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end(); };
-  if (wanted("scenes")) scenes(peers);
+  if (wanted("scenes")) common_scenes(peers);
   if (wanted("ensemble")) ensemble();
   if (wanted("persons")) persons();
   if (wanted("triangles")) triangles();
