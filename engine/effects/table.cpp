@@ -6,7 +6,7 @@
 namespace engine {
 
 std::span<const Effect* const> effect_table() {
-#define CRASHREEL_ADDRESS(effect) &effect,
+#define CRASHREEL_ADDRESS(effect) &(effect),
   static constexpr std::array kTable{CRASHREEL_EFFECTS(CRASHREEL_ADDRESS)};
 #undef CRASHREEL_ADDRESS
   return kTable;

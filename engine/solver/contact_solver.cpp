@@ -24,14 +24,12 @@ constexpr int kBoundSteps = 40;          // of the fixed point on the friction b
 constexpr int kMostSweeps = 2000;        // of all in one solve: what is not solved by then gets a shorter step instead
 constexpr double kNearBound = 1e-2;      // [m/s] change of a step after which Newton on the whole is tried
 constexpr int kNewtonSteps = 8;          // in a row
-constexpr double kProgress = 0.5;        // [-] of the residual: what a Newton step must reach to count
 constexpr double kTinyImpulse = 1e-14;   // [N s]
 constexpr double kRegularFirst =
     1e-3;  // [-] of a row's own response added in Newton: redundant contacts leave impulses undetermined
 constexpr double kRegularFalls = 0.1;  // [-] with every step that succeeds, to
 constexpr double kRegularLast = 1e-10;
 constexpr double kRegularJammed = 1e-8;  // where impulses are large and well determined
-constexpr double kShorter = 0.5;         // [-] of the change afterwards
 constexpr double kLimitArm = 0.3;        // [m] turns the speed of a joint limit into that of a limb's end, to compare residuals
 
 Vec3 solve_wheel(const Mat3& A, const Vec3& u, const Vec3& old, const Constraint& c) {
