@@ -9,7 +9,7 @@ namespace assets {
 namespace {
 
 constexpr double kAxle = 2.95, kHub = 0.48, kArch = 0.57;  // [m]
-constexpr double kFront = 5.66, kRear = -6.36, kHalf = 1.275;
+constexpr double kRear = -6.36, kHalf = 1.275;
 
 Coach shape() {
   Coach c;
