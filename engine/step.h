@@ -38,6 +38,7 @@ class Stepper {
   void prepare_resistance(World&, const State&, double h);
   bool exchange_over_step(World&, State&, double h, double& residual);
   bool friction_gave_way(World&) const;
+  void assemble_solver(World&, const std::vector<int>& members);
   void factor_for_impulses(World&, const State&, const std::vector<JointDamper>* dampers);
   void set_targets(World&, double h);
   void form_islands(World&);

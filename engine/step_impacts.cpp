@@ -59,14 +59,7 @@ bool Stepper::impact(World& world, State& state) {
 }
 
 void Stepper::exchange_impulses(World& world, State& state, const std::vector<int>& members, double& energy_change) {
-  world.response.clear();
-  for (const int i : members) {
-    const Constraint& c = world.constraints[i];
-    if (c.body_a >= 0) world.response.touch(world.topology, c.body_a);
-    if (c.body_b >= 0) world.response.touch(world.topology, c.body_b);
-  }
-  world.response.compute(world.topology, world.impulse);
-  world.solver.assemble(world.topology, world.response, world.constraints, members);
+  assemble_solver(world, members);
   SolveReport report = world.solver.solve(world.constraints, members, 1e-3 * world.model.settings.solver_tolerance);
   energy_change = world.solver.kinetic_energy_change(world.constraints, members);
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "engine/effects/effect.h"
+#include "engine/solver/one_contact.h"
 #include "engine/step.h"
 #include "engine/step_bounds.h"
 
@@ -61,6 +62,18 @@ bool Stepper::friction_gave_way(World& world) const {
   for (const Effect* effect : world.plan.active)
     if (effect->gave_way) any = effect->gave_way(world, end_) || any;
   return any;
+}
+
+/// How the constraints named answer to each other's impulses.
+void Stepper::assemble_solver(World& world, const std::vector<int>& members) {
+  world.response.clear();
+  for (const int i : members) {
+    const Constraint& c = world.constraints[i];
+    if (c.body_a >= 0) world.response.touch(world.topology, c.body_a);
+    if (c.body_b >= 0) world.response.touch(world.topology, c.body_b);
+  }
+  world.response.compute(world.topology, world.impulse);
+  world.solver.assemble(world.topology, world.response, world.constraints, members);
 }
 
 void Stepper::factor_for_impulses(World& world, const State& state, const std::vector<JointDamper>* dampers) {
@@ -187,14 +200,7 @@ double Stepper::solve_islands(World& world, State& state, double h) {
         c.impulse[0] = found->impulse_W[0];
       }
     }
-    world.response.clear();
-    for (const int i : island) {
-      const Constraint& c = world.constraints[i];
-      if (c.body_a >= 0) world.response.touch(world.topology, c.body_a);
-      if (c.body_b >= 0) world.response.touch(world.topology, c.body_b);
-    }
-    world.response.compute(world.topology, world.impulse);
-    world.solver.assemble(world.topology, world.response, world.constraints, island);
+    assemble_solver(world, island);
     const SolveReport report = world.solver.solve(world.constraints, island, world.model.settings.solver_tolerance);
     world.diagnostics.contact_sweeps += report.sweeps;
     world.diagnostics.newton_steps += report.newton_steps;

@@ -6,13 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/solver/one_contact.h"
+
 namespace engine {
 namespace {
-
-/// Impulses and speeds are nowhere near overflow: the plain root, several times faster than std::hypot.
-double length_of(double x, double y) {
-  return std::sqrt(x * x + y * y);
-}
 
 constexpr double kLeastResponse = 0.01;  // [-] of the free response of a contact's bodies
 constexpr int kFirstSweeps = 1;          // before Newton is tried; twice as many before it is tried again, and so on
@@ -30,151 +27,8 @@ constexpr double kRegularFirst =
 constexpr double kRegularFalls = 0.1;  // [-] with every step that succeeds, to
 constexpr double kRegularLast = 1e-10;
 constexpr double kRegularJammed = 1e-8;  // where impulses are large and well determined
-constexpr double kLimitArm = 0.3;        // [m] turns the speed of a joint limit into that of a limb's end, to compare residuals
-
-Vec3 solve_wheel(const Mat3& A, const Vec3& u, const Vec3& old, const Constraint& c) {
-  // normal first, then the ground plane: rolling direction bounded by brake and engine, both by the friction circle
-  const double normal = std::max(0.0, old[0] + (c.target - u[0] - c.softness * old[0]) / (A(0, 0) + c.softness));
-  const Vec3 u1 = u + A.col(0) * (normal - old[0]);
-  double x = 0, y = 0;
-  bool rolls = false;
-  auto hold = [&](double soft) {
-    const double a22 = A(2, 2) + soft, v = u1[2] + soft * old[2];
-    const double det = A(1, 1) * a22 - A(1, 2) * A(2, 1);
-    x = old[1] - (a22 * u1[1] - A(1, 2) * v) / det;
-    y = old[2] - (A(1, 1) * v - A(2, 1) * u1[1]) / det;
-    rolls = std::abs(x - c.rolling_drive) > c.rolling_bound;
-    if (!rolls) return;
-    x = c.rolling_drive + std::copysign(c.rolling_bound, x - c.rolling_drive);
-    y = old[2] - (v + A(2, 1) * (x - old[1])) / a22;
-  };
-  hold(c.grip_softness);
-  const double most = c.friction * normal;
-  // a locked wheel slides like a block: it has no slip angle
-  if (!rolls && c.grip_softness > 0 && length_of(x, y) > most) hold(0);
-  const double length = length_of(x, y);
-  if (length > most && rolls && std::abs(x) < most) {
-    // brake and engine have their share first: a rolling wheel keeps turning, what grip is left holds sideways
-    y = std::copysign(std::sqrt(most * most - x * x), y);
-  } else if (length > most) {
-    const double scale = most / length;
-    x *= scale;
-    y *= scale;
-  }
-  return {normal, x, y};
-}
-
-Eigen::Vector2d shortened(const Eigen::Vector2d& t, double most) {
-  const double length = t.norm();
-  return length <= most ? t : Eigen::Vector2d(t * (most / length));
-}
-
-/// `bound` [N s] of the friction, negative: Coulomb's own.
-double natural_residual(const Constraint& c, const Vec3& u, const Mat3& A, double bound) {
-  const double a = A(0, 0) + c.softness;
-  const double miss = u[0] + c.softness * c.impulse[0] - c.target;
-  switch (c.kind) {
-    case ConstraintKind::bilateral:
-      return std::abs(miss);
-    case ConstraintKind::limit:
-      return kLimitArm * std::abs(c.impulse[0] - std::max(0.0, c.impulse[0] - miss / a)) * a;
-    case ConstraintKind::wheel: {
-      // the soft normal answers to the suspension, the road plane to the tyre: each by its own response
-      const Vec3 change = solve_wheel(A, u, c.impulse, c) - c.impulse;
-      return std::max(std::abs(change[0]) * a, length_of(change[1] * A(1, 1), change[2] * (A(2, 2) + c.grip_softness)));
-    }
-    case ConstraintKind::contact:
-      break;
-  }
-  const double rho = 1 / A.diagonal().maxCoeff();
-  if (bound >= 0) {
-    const double normal = a * std::abs(c.impulse[0] - std::max(0.0, c.impulse[0] - miss / a));
-    return std::max(normal, (c.impulse.tail<2>() - shortened(c.impulse.tail<2>() - rho * u.tail<2>(), bound)).norm() / rho);
-  }
-  const double slip = length_of(u[1], u[2]);
-  const Vec3 moved = c.impulse - rho * Vec3(miss + c.friction * slip, u[1], u[2]);
-  return (c.impulse - project_to_cone(moved, c.friction)).norm() / rho;
-}
 
 }  // namespace
-
-Vec3 project_to_cone(const Vec3& impulse, double mu) {
-  const double tangential = length_of(impulse[1], impulse[2]);
-  if (tangential <= mu * impulse[0]) return impulse;
-  if (mu * tangential <= -impulse[0]) return Vec3::Zero();
-  const double normal = (impulse[0] + mu * tangential) / (1 + mu * mu);
-  const double scale = tangential > 0 ? mu * normal / tangential : 0;
-  return {normal, scale * impulse[1], scale * impulse[2]};
-}
-
-namespace {
-
-/// Tangential impulse of a contact that slips: (S + y) t = -q with y > 0 such that |t| = most(t), S positive definite. At y = 0
-/// (stick) the left side is larger, for large y the right, so a root lies between; 1/|t| - 1/most is nearly straight in y: Newton,
-/// kept inside the bracket. `most` returns the bound and its rate for a change of t.
-template <class Bound>
-Eigen::Vector2d slip_impulse(const Eigen::Matrix2d& S, const Eigen::Vector2d& q, double y, const Bound& most) {
-  double low = 0, high = std::numeric_limits<double>::infinity();
-  Eigen::Vector2d t = Eigen::Vector2d::Zero();
-  for (int k = 0; k < 60; ++k) {
-    const double s11 = S(0, 0) + y, s22 = S(1, 1) + y, det = s11 * s22 - S(0, 1) * S(0, 1);
-    t = {-(s22 * q[0] - S(0, 1) * q[1]) / det, -(s11 * q[1] - S(0, 1) * q[0]) / det};
-    const Eigen::Vector2d slope(-(s22 * t[0] - S(0, 1) * t[1]) / det, -(s11 * t[1] - S(0, 1) * t[0]) / det);
-    const auto [bound, bound_rate] = most(t, slope);
-    const double length = t.norm();
-    if (std::abs(length - bound) <= 1e-12 * length) break;
-    (length > bound ? low : high) = y;
-    double next = -1;
-    if (bound > 0 && length > 0) {
-      const double value = 1 / length - 1 / bound;
-      const double rate = -t.dot(slope) / (length * length * length) + bound_rate / (bound * bound);
-      if (rate > 0) next = y - value / rate;
-    }
-    if (!(next > low && next < high))
-      next = std::isfinite(high) ? std::sqrt(std::max(low, 1e-9 * high) * high) : 4 * std::max(y, S.trace());
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::isfinite(high) && high - low <= 1e-14 * high) break;
-    y = next;
-  }
-  return t;
-}
-
-}  // namespace
-
-Vec3 solve_one_contact(const Mat3& A, const Vec3& b, double target, double mu, const Vec3& guess) {
-  if (b[0] >= target) return Vec3::Zero();
-  const Vec3 stick = A.inverse() * Vec3(target - b[0], -b[1], -b[2]);
-  if (stick[0] >= 0 && length_of(stick[1], stick[2]) <= mu * stick[0]) return stick;
-  const double c = (target - b[0]) / A(0, 0);
-  if (mu <= 0) return {c, 0, 0};
-
-  // slip: u_t = -y L_t. The normal equation L_n = c - d.L_t put into the tangential ones leaves the two of slip_impulse
-  const Eigen::Vector2d A_nt(A(0, 1), A(0, 2));
-  const Eigen::Vector2d d = A_nt / A(0, 0);
-  const Eigen::Matrix2d S = A.bottomRightCorner<2, 2>() - d * A_nt.transpose();
-  const double last = guess.tail<2>().norm();
-  const double y = last > 0 ? (b + A * guess).tail<2>().norm() / last : S.trace();
-  const Eigen::Vector2d t = slip_impulse(S, b.tail<2>() + A_nt * c, y, [&](const auto& L_t, const auto& slope) {
-    return std::pair(mu * (c - d.dot(L_t)), -mu * d.dot(slope));
-  });
-  return project_to_cone({c - d.dot(t), t[0], t[1]}, mu);
-}
-
-Vec3 solve_bounded_contact(const Mat3& A, const Vec3& u, double target, double softness, double bound, const Vec3& old) {
-  Vec3 next = old;
-  next[0] = std::max(0.0, old[0] + (target - u[0] - softness * old[0]) / (A(0, 0) + softness));
-  const Eigen::Matrix2d S = A.bottomRightCorner<2, 2>();
-  const Eigen::Vector2d q = u.tail<2>() + A.block<2, 1>(1, 0) * (next[0] - old[0]) - S * old.tail<2>();
-  Eigen::Vector2d t = -S.inverse() * q;
-  if (t.norm() > bound) {
-    const double last = old.tail<2>().norm();
-    t = bound > 0 ? slip_impulse(S, q, last > 0 ? u.tail<2>().norm() / last : S.trace(),
-                                 [&](const auto&, const auto&) { return std::pair(bound, 0.0); })
-                  : Eigen::Vector2d::Zero();
-  }
-  next.tail<2>() = t;
-  return next;
-}
 
 void ContactSolver::reserve(std::size_t constraints, std::size_t bodies) {
   const std::size_t rows = 3 * constraints;

@@ -6,7 +6,7 @@
 // Block Gauss-Seidel, each contact solved exactly for given others: open, stick, or slip along the direction c that its own slip
 // then has (Newton on c, no trigonometry). It finds who is open, who sticks, who slips in a few sweeps, but closes in on the
 // impulses slowly where light limbs are pressed between heavy things. So it alternates with Newton on all conditions at once
-// (semi-smooth, after Alart and Curnier 1991): a full step is taken if it lowers the residual, else more sweeps follow.
+// (semi-smooth, after Alart and Curnier 1991), at full length: the best of some steps is kept, then more sweeps follow.
 #pragma once
 
 #include <vector>
@@ -78,16 +78,5 @@ class ContactSolver {
   std::vector<Vec3> L_start_;
   std::vector<Eigen::Matrix<double, 3, 6>> Y_;
 };
-
-/// Exact impulse of one contact with own response A (3x3), velocity b without it, normal target t and softness s (already in A).
-/// `guess` is the last impulse: its tangential part starts the search for the direction of slip.
-Vec3 solve_one_contact(const Mat3& A, const Vec3& b, double target, double mu, const Vec3& guess);
-
-/// The same with friction bounded by a given impulse [N s]: the normal first, then the tangents; `old` is the last impulse, u what
-/// it left.
-Vec3 solve_bounded_contact(const Mat3& A, const Vec3& u, double target, double softness, double bound, const Vec3& old);
-
-/// Nearest point of the cone |L_t| <= mu L_n.
-Vec3 project_to_cone(const Vec3& impulse, double mu);
 
 }  // namespace engine

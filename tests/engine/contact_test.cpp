@@ -4,6 +4,7 @@
 #include <random>
 
 #include "engine/solver/contact_solver.h"
+#include "engine/solver/one_contact.h"
 #include "tests/engine/experiment.h"
 
 namespace engine::test {
