@@ -145,6 +145,8 @@ double Stepper::advance(World& world, State& state, double h) {
     h /= std::max(1.0, swing / kMostParts);
   }
   if (next_step_ > 0) h = std::min(h, next_step_);
+  const double sliver = kSliver * world.model.settings.step, ahead = world.next_instant - state.time;
+  if (ahead > sliver && ahead < h - sliver) h = ahead;
   world.step = h;
   call(world, &Effect::before_step, state);
   choose_trees(world, state);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <any>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -136,6 +137,9 @@ struct Resistance {
   int effect = 0;
 };
 
+/// [-] of the step: instants nearer than this to the ends of a step are taken there.
+constexpr double kSliver = 1e-3;
+
 /// Conditions the buffers of a step have room for from the start: a step allocates nothing until there are more.
 constexpr std::size_t kRoom = 128;
 
@@ -171,8 +175,9 @@ struct World {
   std::vector<Vec6> impact_force, impact_change;  // per body, of an impulse between two
 
   // this step
-  double time = 0;  // [s] its start
-  double step = 0;  // [s] its length
+  double time = 0;                                                // [s] its start
+  double step = 0;                                                // [s] its length
+  double next_instant = std::numeric_limits<double>::infinity();  // [s] at which a step must end, if no more than one away
   std::vector<Constraint> constraints;
   std::vector<JointDamper> dampers;        // per joint
   std::vector<Resistance> resistances;     // per joint

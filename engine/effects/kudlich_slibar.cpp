@@ -1,8 +1,10 @@
 // Vehicle against vehicle or barrier by Kudlich-Slibar, where both ask for it: the bodies run into each other unhindered for the
 // time t_P from their first touch; then one impulse acts at the centroid of the overlap. If they still close at it another t_P
-// later, or touch again after having parted, a further one does.
+// later, or touch again after having parted, a further one does. Both instants are placed inside a step, so that a result does not
+// hang on where its steps end.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/effects/effects.h"
 #include "engine/effects/words.h"
@@ -14,6 +16,8 @@ namespace {
 
 constexpr double kSteep = 0.5;      // [-] cosine in plan below which a settled normal says little about left and right
 constexpr double kSecondary = 0.1;  // [m/s] bodies that lie against each other and close slower have no further impact
+constexpr double kPlaced = 1e-6;    // [s] to which a touch is placed: micrometres of way
+constexpr double kEarliest = 0.02;  // [s] a touch is looked for in the past at most, where the grid saw it late
 
 std::vector<ImpactPair> pairs_of(const Model& model) {
   std::vector<ImpactPair> out;
@@ -51,18 +55,79 @@ Finding look(const Model& model) {
           counted(asking, "mesh asks", "meshes ask") + " for it, it takes two that can meet; others meet by bodywork_contact", ""};
 }
 
-void begin(World& world, const State&, int) {
+const MeshShape& mesh_of(const World& world, int body) {
+  return std::get<MeshShape>(world.model.bodies[body].shape);
+}
+
+/// Pose of a body's mesh `ahead` [s] of the state, on at the velocity it has.
+Pose mesh_pose(const World& world, const State& state, int body, double ahead) {
+  const Twist& V = state.V_WB[body];
+  Pose X = state.X_WB[body];
+  X.p += ahead * V.v;
+  if (const double w = V.w.norm(); w > 0) X.q = Quat(Eigen::AngleAxisd(ahead * w, V.w / w)) * X.q;
+  return X * mesh_of(world, body).X_BM;
+}
+
+std::optional<MeshOverlap> overlap_at(World& world, const State& state, const ImpactPair& pair, double ahead) {
+  return overlap_of(*mesh_of(world, pair.a).mesh, mesh_pose(world, state, pair.a, ahead), *mesh_of(world, pair.b).mesh,
+                    mesh_pose(world, state, pair.b, ahead), world.overlap);
+}
+
+/// When [s] from now the meshes of a pair begin to share space, which they do after `until` in `region`.
+double touch_before(const World& world, const State& state, const ImpactPair& pair, double until, const Aabb& region) {
+  const auto touch = [&](double ahead) {
+    return share_space(*mesh_of(world, pair.a).mesh, mesh_pose(world, state, pair.a, ahead), *mesh_of(world, pair.b).mesh,
+                       mesh_pose(world, state, pair.b, ahead), region);
+  };
+  double high = until, stride = world.model.settings.step, low = until - stride;
+  while (low > -kEarliest && touch(low)) {
+    high = low;
+    stride *= 2;
+    low -= stride;
+  }
+  while (high - low > kPlaced) {
+    const double middle = 0.5 * (low + high);
+    (touch(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+/// A touch within the step to come.
+void look_ahead(World& world, const State& state, ImpactPair& pair) {
+  const double step = world.model.settings.step;
+  const Vec3 apart = state.X_WB[pair.a].p - state.X_WB[pair.b].p;
+  const double closing = (state.V_WB[pair.a].v - state.V_WB[pair.b].v).norm();
+  if (apart.norm() > world.reach[pair.a] + world.reach[pair.b] + closing * step) return;
+  const auto overlap = overlap_at(world, state, pair, step);
+  if (!overlap) return;
+  pair.touching = true;
+  pair.due = state.time + touch_before(world, state, pair, step, overlap->region) + pair.settings.penetration_time;
+}
+
+void mark_next(World& world) {
+  world.next_instant = std::numeric_limits<double>::infinity();
+  for (const ImpactPair& pair : world.impact_pairs)
+    if (pair.touching) world.next_instant = std::min(world.next_instant, pair.due);
+}
+
+void after_step(World& world, State& state, int) {
+  for (ImpactPair& pair : world.impact_pairs)
+    if (!pair.touching) look_ahead(world, state, pair);
+  mark_next(world);
+}
+
+void begin(World& world, const State& state, int) {
   world.impact_pairs = pairs_of(world.model);
   reserve(world.overlap);
   world.exchanges.reserve(kRoom);
   world.impact_force.resize(world.model.bodies.size());
   world.impact_change.resize(world.model.bodies.size());
-}
-
-std::optional<MeshOverlap> overlap_now(World& world, const State& state, const ImpactPair& pair) {
-  const auto& A = std::get<MeshShape>(world.model.bodies[pair.a].shape);
-  const auto& B = std::get<MeshShape>(world.model.bodies[pair.b].shape);
-  return overlap_of(*A.mesh, state.X_WB[pair.a] * A.X_BM, *B.mesh, state.X_WB[pair.b] * B.X_BM, world.overlap);
+  for (ImpactPair& pair : world.impact_pairs) {
+    pair.touching = overlap_at(world, state, pair, 0).has_value();  // then they have met as the run begins
+    pair.due = state.time + pair.settings.penetration_time;
+    if (!pair.touching) look_ahead(world, state, pair);
+  }
+  mark_next(world);
 }
 
 Vec3 velocity_at(const State& state, int body, const Vec3& point) {
@@ -158,18 +223,12 @@ void exchange(World& world, State& state, ImpactPair& pair, const MeshOverlap& o
 }
 
 void before_step(World& world, State& state, int self) {
+  const double now = state.time + 1.01 * kSliver * world.model.settings.step;
   for (ImpactPair& pair : world.impact_pairs) {
-    // between touch and exchange nothing needs looking at
-    if (pair.touching && state.time + 0.5 * world.step < pair.due) continue;
-    const double apart = (state.X_WB[pair.a].p - state.X_WB[pair.b].p).norm();
-    if (apart > world.reach[pair.a] + world.reach[pair.b]) {
-      pair.touching = false;
-      continue;
-    }
-    const auto overlap = overlap_now(world, state, pair);
-    if (overlap && !pair.touching) pair.due = state.time + pair.settings.penetration_time;
+    if (!pair.touching || now < pair.due) continue;
+    const auto overlap = overlap_at(world, state, pair, 0);
     pair.touching = overlap.has_value();
-    if (!overlap || state.time + 0.5 * world.step < pair.due) continue;
+    if (!overlap) continue;
     exchange(world, state, pair, *overlap, self);
     const double t_P = pair.settings.penetration_time;
     pair.due = state.time + (t_P > 0 ? t_P : ImpactSettings{}.penetration_time);
@@ -178,6 +237,7 @@ void before_step(World& world, State& state, int self) {
 
 }  // namespace
 
-const Effect kKudlichSlibarEffect{.name = "kudlich_slibar", .look = look, .begin = begin, .before_step = before_step};
+const Effect kKudlichSlibarEffect{
+    .name = "kudlich_slibar", .look = look, .begin = begin, .before_step = before_step, .after_step = after_step};
 
 }  // namespace engine

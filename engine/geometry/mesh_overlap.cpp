@@ -24,23 +24,34 @@ double shared(const Span& p, const Span& q, double lift = 0) {
   return std::max(0.0, std::min(p.high + lift, q.high) - std::max(p.low + lift, q.low));
 }
 
-void cast(const TriangleMesh& mesh, const Pose& X_WM, const Grid& grid, std::vector<Span>& spans) {
-  spans.assign(static_cast<std::size_t>(kSide) * kSide, Span{});
-  const Aabb box = world_bounds(mesh, X_WM);
-  const Pose X_MW = X_WM.inverse();
-  const Vec3 up = X_MW.q * Vec3::UnitZ();
-  const double height = box.upper.z() - box.lower.z() + 2e-3;
+/// A mesh seen along vertical lines.
+class Columns {
+ public:
+  Columns(const TriangleMesh& mesh, const Pose& X_WM)
+      : mesh_(mesh), box_(world_bounds(mesh, X_WM)), X_MW_(X_WM.inverse()), up_(X_MW_.q * Vec3::UnitZ()) {}
+
+  /// From the lowest to the highest surface over (x, y); empty where there is none.
+  Span at(double x, double y) const {
+    if (x < box_.lower.x() || x > box_.upper.x() || y < box_.lower.y() || y > box_.upper.y()) return {};
+    const double height = box_.upper.z() - box_.lower.z() + 2e-3;
+    const Vec3 foot(x, y, box_.lower.z() - 1e-3);
+    double s = 0, t = 0;
+    int triangle = -1;
+    if (!mesh_.raycast(X_MW_ * foot, up_, height, s, triangle)) return {};
+    if (!mesh_.raycast(X_MW_ * Vec3(foot + Vec3(0, 0, height)), -up_, height, t, triangle)) return {};
+    return {foot.z() + s, foot.z() + height - t};
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  Aabb box_;
+  Pose X_MW_;
+  Vec3 up_;
+};
+
+void cast(const Columns& columns, const Grid& grid, std::vector<Span>& spans) {
   for (int i = 0; i < kSide; ++i)
-    for (int k = 0; k < kSide; ++k) {
-      const double x = grid.x + (i - 0.5) * grid.dx, y = grid.y + (k - 0.5) * grid.dy;
-      if (x < box.lower.x() || x > box.upper.x() || y < box.lower.y() || y > box.upper.y()) continue;
-      const Vec3 foot(x, y, box.lower.z() - 1e-3);
-      double s = 0, t = 0;
-      int triangle = -1;
-      if (!mesh.raycast(X_MW * foot, up, height, s, triangle)) continue;
-      if (!mesh.raycast(X_MW * Vec3(foot + Vec3(0, 0, height)), -up, height, t, triangle)) continue;
-      spans[cell(i, k)] = {foot.z() + s, foot.z() + height - t};
-    }
+    for (int k = 0; k < kSide; ++k) spans[cell(i, k)] = columns.at(grid.x + (i - 0.5) * grid.dx, grid.y + (k - 0.5) * grid.dy);
 }
 
 /// Shared volume with a's columns shifted by whole cells, or lifted.
@@ -74,7 +85,7 @@ bool tighten(const OverlapScratch& s, Grid& grid) {
 }  // namespace
 
 void reserve(OverlapScratch& scratch) {
-  for (auto* spans : {&scratch.a, &scratch.b}) spans->reserve(static_cast<std::size_t>(kSide) * kSide);
+  for (auto* spans : {&scratch.a, &scratch.b}) spans->resize(static_cast<std::size_t>(kSide) * kSide);
 }
 
 Aabb world_bounds(const TriangleMesh& mesh, const Pose& X_WM) {
@@ -89,9 +100,11 @@ std::optional<MeshOverlap> overlap_of(const TriangleMesh& a, const Pose& X_WA, c
   const Vec3 low = box_a.lower.cwiseMax(box_b.lower), high = box_a.upper.cwiseMin(box_b.upper);
   if ((low.array() >= high.array()).any()) return std::nullopt;
   Grid grid = over(low.x(), high.x(), low.y(), high.y());
+  const Columns columns_a(a, X_WA), columns_b(b, X_WB);
+  reserve(s);
   for (int pass = 0; pass < 2; ++pass) {
-    cast(a, X_WA, grid, s.a);
-    cast(b, X_WB, grid, s.b);
+    cast(columns_a, grid, s.a);
+    cast(columns_b, grid, s.b);
     if (pass == 0 && !tighten(s, grid)) return std::nullopt;
   }
   MeshOverlap out;
@@ -107,12 +120,26 @@ std::optional<MeshOverlap> overlap_of(const TriangleMesh& a, const Pose& X_WA, c
     }
   if (out.volume <= 0) return std::nullopt;
   out.centroid = moment / out.volume;
+  out.region.lower = Vec3(grid.x, grid.y, low.z());
+  out.region.upper = Vec3(grid.x + kCells * grid.dx, grid.y + kCells * grid.dy, high.z());
   const Vec3 growth((volume(s, grid, 1, 0) - volume(s, grid, -1, 0)) / (2 * grid.dx),
                     (volume(s, grid, 0, 1) - volume(s, grid, 0, -1)) / (2 * grid.dy), 0);
   // one body wholly inside the other in plan: no side to speak of, the line of centres is what is left
   const Vec3 apart = Vec3(0.5 * (box_a.lower + box_a.upper - box_b.lower - box_b.upper)).cwiseProduct(Vec3(1, 1, 0));
   out.normal_W = growth.norm() > 1e-9 ? Vec3(-growth.normalized()) : (apart.norm() > 0 ? apart.normalized() : Vec3::UnitX());
   return out;
+}
+
+bool share_space(const TriangleMesh& a, const Pose& X_WA, const TriangleMesh& b, const Pose& X_WB, const Aabb& region) {
+  const Columns columns_a(a, X_WA), columns_b(b, X_WB);
+  const Grid grid = over(region.lower.x(), region.upper.x(), region.lower.y(), region.upper.y());
+  for (int i = 0; i < kSide; ++i)
+    for (int k = 0; k < kSide; ++k) {
+      const double x = grid.x + (i - 0.5) * grid.dx, y = grid.y + (k - 0.5) * grid.dy;
+      const Span span = columns_a.at(x, y);
+      if (span.high > span.low && shared(span, columns_b.at(x, y)) >= kThinnest) return true;
+    }
+  return false;
 }
 
 }  // namespace engine

@@ -18,6 +18,7 @@ struct MeshOverlap {
   double volume = 0;              // [m^3]
   Vec3 centroid = Vec3::Zero();   // [m] world
   Vec3 normal_W = Vec3::UnitX();  // unit, horizontal, from b to a
+  Aabb region;                    // in plan, around what is shared
 };
 
 /// Kept by the caller: no allocation after the first call.
@@ -36,5 +37,8 @@ Aabb world_bounds(const TriangleMesh&, const Pose& X_WM);
 /// Nothing if the meshes share less than a grid cell (1/64 of the region their boxes share, then of the shared region itself).
 std::optional<MeshOverlap> overlap_of(const TriangleMesh& a, const Pose& X_WA, const TriangleMesh& b, const Pose& X_WB,
                                       OverlapScratch&);
+
+/// Do the meshes share anything along the lines of a grid over `region`? A grid that stays where it is tells when they begin to.
+bool share_space(const TriangleMesh& a, const Pose& X_WA, const TriangleMesh& b, const Pose& X_WB, const Aabb& region);
 
 }  // namespace engine

@@ -100,7 +100,8 @@ void measure_vehicle(const Model& model, const Recording& recording, int v, std:
   const double delta_v = exchange.impulse.norm() / model.bodies[vehicle.body].mass;
   if (delta_v <= 0) return;
   out.push_back({"delta_v_mps", vehicle.name, delta_v});
-  const Vec3 push = exchange.q_WB.conjugate() * exchange.impulse;
+  Vec3 push = exchange.q_WB.conjugate() * exchange.impulse;
+  if (std::abs(push.y()) < 1e-6 * push.norm()) push.y() = 0;  // square from behind is 180 deg, not now and then -180
   if (const double energy = deformation_energy(model, recording, vehicle.body); energy > 0)
     out.push_back({"ees_mps", vehicle.name, std::sqrt(2 * energy / model.bodies[vehicle.body].mass)});
   out.push_back({"pdof_deg", vehicle.name, std::atan2(push.y(), -push.x()) * 180 / std::numbers::pi});

@@ -70,9 +70,11 @@ void add_reference_car(Model& model, double x, double speed) {
   body.name = "car" + std::to_string(model.vehicles.size());
   body.V_WB.v.x() = speed;
   const double front = (38.1 + 38) * kInch, rear = -(106 - 38.1 + 43) * kInch, half = 35 * kInch;
-  // the bodywork that meets in a rear-end collision: bumpers and all between, level with the centre of mass
+  // what meets in a rear-end collision: the bumpers, which stand 16 to 20 in above the road (49 CFR part 581), below the centre of
+  // mass
   std::vector<Vec3> corners;
-  for (int i = 0; i < 8; ++i) corners.push_back({i & 1 ? front : rear, i & 2 ? half : -half, i & 4 ? 0.25 : -0.25});
+  for (int i = 0; i < 8; ++i)
+    corners.push_back({i & 1 ? front : rear, i & 2 ? half : -half, (i & 4 ? 20 - 21.5 : 16 - 21.5) * kInch});
   const std::vector<Triangle> faces{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   body.shape = MeshShape{std::make_shared<TriangleMesh>(corners, faces), {}};
@@ -121,11 +123,22 @@ TEST(ReferenceHistory, FullBrakingFromThirtyMilesAnHour) {
   for (const auto& [t, feet] : rows) EXPECT_NEAR(run.at(t).bodies[0].X_WB.p.x() / kFoot, feet, 0.01 * feet) << "t = " << t;
 }
 
-TEST(ReferenceHistory, InLineCollisionAtThirtyMilesAnHour) {
-  Model model = on_ground(1.0);
+/// One car brakes and runs into its equal, which stands.
+Model in_line_collision() {
+  Model model = on_ground(1.1);
   add_reference_car(model, 0, 30 * kMph);
   add_reference_car(model, 40 * kFoot, 0);
   model.vehicles[0].sequence = {braking(0.5, 0.30 * 1495.95 * 9.81)};
+  return model;
+}
+
+/// [deg] nose down.
+double pitch(const Snapshot& s, std::size_t body) {
+  return -std::asin((s.bodies[body].X_WB.q * Vec3::UnitX()).z()) / kDegree;
+}
+
+TEST(ReferenceHistory, InLineCollisionAtThirtyMilesAnHour) {
+  Model model = in_line_collision();
   // the history's own exchange: between 0.6 and 0.7 s its positions and speeds meet at 0.616 s, with the front 0.80 m inside
   ImpactSettings settled;
   settled.body_a = 0;
@@ -133,22 +146,26 @@ TEST(ReferenceHistory, InLineCollisionAtThirtyMilesAnHour) {
   settled.penetration_time = 0.06;
   model.impacts.push_back(settled);
   const Recording run = simulate(model);
-  EXPECT_NEAR(run.at(0.7).bodies[1].V_WB.v.x() / kMph, 16.02, 0.01 * 16.02);
-  EXPECT_NEAR(run.at(1.0).bodies[1].V_WB.v.x() / kMph, 16.02, 0.01 * 16.02);
+  // seen: 16.00 mph; half of the per cent that is asked for
+  EXPECT_NEAR(run.at(0.7).bodies[1].V_WB.v.x() / kMph, 16.02, 0.005 * 16.02);
+  EXPECT_NEAR(run.at(1.0).bodies[1].V_WB.v.x() / kMph, 16.02, 0.005 * 16.02);
+  EXPECT_NEAR(run.at(0.7).bodies[0].V_WB.v.x() / kMph, 12.80, 0.01 * 12.80);
   EXPECT_NEAR(run.at(0.7).bodies[1].X_WB.p.x() / kFoot, 42, 0.01 * 42);
   EXPECT_NEAR(run.at(1.0).bodies[1].X_WB.p.x() / kFoot, 49.05, 0.01 * 49.05);
   EXPECT_NEAR(run.at(0.7).bodies[0].X_WB.p.x() / kFoot, 28.62, 0.01 * 28.62);
+  EXPECT_NEAR(run.at(1.0).bodies[0].X_WB.p.x() / kFoot, 33.82, 0.01 * 33.82);
+  // the impulse acts below the centres of mass and pitches both cars, which costs half a per cent of it; how soon they swing back
+  // hangs on the dampers, of which nothing is published
+  EXPECT_NEAR(pitch(run.at(0.7), 0), 1.80, 0.15);
+  EXPECT_NEAR(pitch(run.at(0.7), 1), -1.07, 0.15);
 }
 
-TEST(ReferenceHistory, InLineCollisionWithTheUsualPenetrationTimeToo) {
+TEST(ReferenceHistory, InLineCollisionWithAllSettingsAtTheirDefaults) {
   // 0.03 s after the first touch, half of what the history took: the bullet has braked less by then, 0.3 g * 0.03 s * 0.55 = 0.11
-  // mph of the target's speed more. With 0.060 s as above it is within 0.5 %, with 0.03 s a little over one per cent
-  Model model = on_ground(1.0);
-  add_reference_car(model, 0, 30 * kMph);
-  add_reference_car(model, 40 * kFoot, 0);
-  model.vehicles[0].sequence = {braking(0.5, 0.30 * 1495.95 * 9.81)};
-  const Recording run = simulate(model);
-  EXPECT_NEAR(run.at(0.7).bodies[1].V_WB.v.x() / kMph, 16.02, 0.012 * 16.02);
+  // mph more. Seen: 16.11 mph
+  const Recording run = simulate(in_line_collision());
+  EXPECT_NEAR(run.at(0.7).bodies[1].V_WB.v.x() / kMph, 16.02, 0.01 * 16.02);
+  EXPECT_NEAR(run.at(1.0).bodies[1].V_WB.v.x() / kMph, 16.02, 0.01 * 16.02);
 }
 
 /// All wheels on one tyre model.
