@@ -9,7 +9,7 @@ namespace {
 const Key kPatchKeys[] = {
     {"from", Type::vector2, Dimension::length, kRequired, "World x, y of a corner."},
     {"to", Type::vector2, Dimension::length, kRequired, "World x, y of the opposite corner."},
-    {"friction", Type::schedule, Dimension::none, kRequired, "Coulomb coefficient: 0.8 dry, 0.5 wet, 0.15 ice.", kNotNegative},
+    {"friction", Type::schedule, Dimension::none, kRequired, "Coulomb coefficient: 0.8 dry, 0.5 wet, 0.1 ice.", kNotNegative},
 };
 const Section kPatchSection{"ground.patch", "[[ground.patch]]",
                             "A rectangle with a friction of its own; later ones lie over earlier ones.", kPatchKeys};

@@ -66,6 +66,12 @@ TEST(SceneErrorTexts, NegativeMass) {
               ElementsAre("case.toml:3:8: body.ball.mass is \"-3 kg\", must be greater than 0 kg"));
 }
 
+TEST(SceneErrorTexts, NegativeDrag) {
+  EXPECT_THAT(folder().errors("[air]\ndrag = -1.2\nvehicle_drag = [0.3, -0.8, 1]\n" + kBall),
+              ElementsAre("case.toml:2:8: air.drag is -1.2, must be at least 0",
+                          "case.toml:3:22: air.vehicle_drag[1] is -0.8, must be at least 0"));
+}
+
 TEST(SceneErrorTexts, ImpossibleInertia) {
   EXPECT_THAT(
       folder().errors(kBall + "inertia = \"1 2 5 kg m^2\"\n"),
