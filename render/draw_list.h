@@ -53,7 +53,8 @@ struct LineItem {
   Float4 colour{1, 1, 1, 1};  // sRGB, straight alpha
   float width = 2;
   bool outline = true;
-  bool hidden_behind = false;  // depth-tested: traces pass behind a car
+  bool hidden_behind = false;   // depth-tested: traces pass behind a car
+  std::vector<Float3> normals;  // of the ground under each point, that it may lie on it with all its width; empty: it faces the eye
 };
 
 /// An arrow with a head of pixel size, from a to b.

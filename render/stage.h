@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/geometry/hyper_ellipsoid.h"
+#include "engine/geometry/triangle_mesh.h"
 #include "engine/math/types.h"
 
 namespace render {
@@ -121,6 +122,7 @@ struct RoadLook {
   bool zebra = false;  // pedestrian crossing across the road at x = zebra_x
   double zebra_x = 0;
   std::shared_ptr<const Mesh> terrain;
+  std::shared_ptr<const engine::TriangleMesh> terrain_surface;  // the same, for what lies on it
   std::shared_ptr<const GroundPicture> picture;
   double picture_x = 0, picture_y = 0;  // [m] of its lower left corner
   double picture_width = 0;             // [m] of its lower edge

@@ -1,4 +1,4 @@
-// Sky and ground, the ground's shade, marks on the ground.
+// Sky and ground, the ground's shade.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,9 @@ class BackgroundPass {
   void draw(Studio&, const DrawList&, const FrameSetup&, const DepthPyramid&, const shade::FrameData&, const shade::Maps&);
 
  private:
-  void draw_strips(Studio&, const DrawList&);
-
   std::vector<std::uint8_t> canvas_, bare_;       // RGBA, lowest row first
   std::optional<FrameBlock> kept_, last_;         // whose background lies in bare_, and whose was drawn last
   std::shared_ptr<const GroundPicture> picture_;  // that lay on it
-  Buffer strip_vertices_;
-  VertexArray strip_array_;
 };
 
 }  // namespace render::gl

@@ -1,5 +1,6 @@
 #include "render/gl/overlay_pass.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -66,6 +67,23 @@ bool OverlayPass::project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb
   return true;
 }
 
+/// Depth is linear over the picture of a plane: its slopes from two points beside the one at hand.
+void OverlayPass::lie_on(const Float3& at, const Float3& normal, Pixel& pixel) const {
+  const Eigen::Vector3f n(normal[0], normal[1], normal[2]);
+  const Eigen::Vector3f u = n.unitOrthogonal(), v = n.cross(u);
+  const auto beside = [&](const Eigen::Vector3f& d) {
+    constexpr float kAside = 0.1f;  // [m]
+    return Float3{at[0] + kAside * d.x(), at[1] + kAside * d.y(), at[2] + kAside * d.z()};
+  };
+  Pixel here{}, p{}, q{};
+  if (!project(at, beside(u), here, p) || !project(at, beside(v), here, q)) return;
+  const float px = p.x - here.x, py = p.y - here.y, pz = p.z - here.z, qx = q.x - here.x, qy = q.y - here.y, qz = q.z - here.z;
+  const float area = px * qy - qx * py;
+  if (std::abs(area) < 1e-3f * (px * px + py * py + qx * qx + qy * qy)) return;  // seen from its edge
+  pixel.slope_x = (pz * qy - qz * py) / area;
+  pixel.slope_y = (qz * px - pz * qx) / area;
+}
+
 void OverlayPass::capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour, Ends ends) {
   float dx = b.x - a.x, dy = b.y - a.y;
   const float length = std::hypot(dx, dy);
@@ -83,18 +101,11 @@ void OverlayPass::capsule(const Pixel& a, const Pixel& b, float half_a, float ha
     const float at = along_sign < 0 ? along : length + along;
     // a taper goes on beyond its ends, so that its width is linear over the piece
     if (square && length > 1e-4f) half = half_a + (half_b - half_a) * at / length;
-    const float values[kFloats] = {p.x + dx * along - dy * across,
-                                   p.y + dy * along + dx * across,
-                                   std::clamp(p.z, 0.f, 1.f),
-                                   colour[0],
-                                   colour[1],
-                                   colour[2],
-                                   colour[3],
-                                   across,
-                                   at,
-                                   half,
-                                   length,
-                                   square ? 1.0f : 0.0f};
+    const float off_x = dx * along - dy * across, off_y = dy * along + dx * across;
+    const float values[kFloats] = {p.x + off_x, p.y + off_y, std::clamp(p.z + p.slope_x * off_x + p.slope_y * off_y, 0.f, 1.f),
+                                   colour[0],   colour[1],   colour[2],
+                                   colour[3],   across,      at,
+                                   half,        length,      square ? 1.0f : 0.0f};
     vertices_.insert(vertices_.end(), values, values + kFloats);
   };
   vertex(a, half_a, -1, -1);
@@ -109,7 +120,12 @@ void OverlayPass::polyline(const LineItem& line, float extra, const Float4& colo
   const float half = 0.5f * line.width * scale_ + extra * scale_;
   for (std::size_t i = 1; i < line.points.size(); ++i) {
     Pixel a{}, b{};
-    if (project(line.points[i - 1], line.points[i], a, b)) capsule(a, b, half, half, colour);
+    if (!project(line.points[i - 1], line.points[i], a, b)) continue;
+    if (line.normals.size() == line.points.size()) {
+      lie_on(line.points[i - 1], line.normals[i - 1], a);
+      lie_on(line.points[i], line.normals[i], b);
+    }
+    capsule(a, b, half, half, colour);
   }
 }
 

@@ -22,9 +22,11 @@ class OverlayPass {
   struct Pixel {
     float x, y, z;
     bool visible;
+    float slope_x = 0, slope_y = 0;  // of the depth over the picture, where a line lies on a surface
   };
   void begin(const DrawList&, int width, int height);
   bool project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb) const;
+  void lie_on(const Float3& at, const Float3& normal, Pixel&) const;
   enum class Ends { round, square };
   void capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour, Ends = Ends::round);
   void polyline(const LineItem&, float extra, const Float4& colour);

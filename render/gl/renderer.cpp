@@ -12,6 +12,7 @@
 #include "render/gl/overlay_pass.h"
 #include "render/gl/pieces.h"
 #include "render/gl/shadow_pass.h"
+#include "render/gl/strip_pass.h"
 #include "render/gl/studio.h"
 #include "render/text/labels.h"
 
@@ -40,6 +41,7 @@ struct Renderer::Impl {
   MaterialTable materials;
   ShadowPass shadow;
   BackgroundPass background;
+  StripPass strips;
   LightPass light;
   gl::OverlayPass overlays;
   FrameCost cost{};
@@ -87,9 +89,13 @@ void Renderer::draw(const DrawList& list, Image& out) {
   const shade::FrameData data = frame_data(frame.block);
   const shade::Maps maps = r.shadow.maps(r.studio.cost, list.road);
   r.background.draw(r.studio, list, frame, r.shadow.bounds(), data, maps);
+  if (!list.road.terrain) r.strips.draw(r.studio, list, StripPass::Over::ground);
   lap(watch, Pass::background);
-  const bool depth = std::any_of(list.lines.begin(), list.lines.end(), [](const LineItem& l) { return l.hidden_behind; });
+  const bool on_terrain = list.road.terrain && !list.strips.empty();
+  const bool depth =
+      on_terrain || std::any_of(list.lines.begin(), list.lines.end(), [](const LineItem& l) { return l.hidden_behind; });
   if (depth) {
+    glBindFramebuffer(GL_FRAMEBUFFER, *targets.picture);
     glDepthMask(GL_TRUE);
     glClear(GL_DEPTH_BUFFER_BIT);
   }
@@ -102,6 +108,7 @@ void Renderer::draw(const DrawList& list, Image& out) {
     r.light.draw(r.studio, {data, maps, r.materials.rows(), list.road.terrain != nullptr}, band, depth);
     lap(watch, Pass::light);
   }
+  if (on_terrain) r.strips.draw(r.studio, list, StripPass::Over::things);
   r.overlays.draw(list, targets.width, targets.height);
   lap(watch, Pass::lines);
   r.read(out);

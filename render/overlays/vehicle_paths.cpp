@@ -1,5 +1,6 @@
 // The way of each vehicle's centre of mass up to now, laid on the ground it drove over.
 #include "render/matrix.h"
+#include "render/overlays/on_ground.h"
 #include "render/overlays/overlay.h"
 
 namespace render {
@@ -15,7 +16,7 @@ Vec3 foot_of(const engine::Snapshot& s, int vehicle, int body) {
   int count = 0;
   for (const engine::WheelRecord& w : s.wheels)
     if (w.vehicle == vehicle) height += w.contact.z(), ++count;
-  if (count > 0) p.z() = height / count + kLift;
+  if (count > 0) p.z() = height / count;
   return p;
 }
 
@@ -32,9 +33,9 @@ void add(const Frame& frame, DrawList& list) {
       const Vec3 at = foot_of(s, vehicle, body);
       if ((at - last).norm() < kSpacing) continue;
       last = at;
-      line.points.push_back(to_float(at));
+      lay_on_ground(frame.stage.road, at, kLift, line);
     }
-    line.points.push_back(to_float(foot_of(frame.now, vehicle, body)));
+    lay_on_ground(frame.stage.road, foot_of(frame.now, vehicle, body), kLift, line);
     if (line.points.size() > 1) list.lines.push_back(std::move(line));
   }
 }

@@ -1,5 +1,6 @@
-// Where each wheel rolled, slid or not: a thin line through its contacts while it carried load.
+// Where each wheel rolled: a thin line through its contacts while it carried load. Where it slid its mark tells.
 #include "render/matrix.h"
+#include "render/overlays/on_ground.h"
 #include "render/overlays/overlay.h"
 
 namespace render {
@@ -18,19 +19,19 @@ void add(const Frame& frame, DrawList& list) {
     auto close = [&] {
       if (line.points.size() > 1) list.lines.push_back(line);
       line.points.clear();
+      line.normals.clear();
       last = Vec3::Constant(1e9);
     };
     for (const engine::Snapshot& s : frame.recording.snapshots) {
       if (s.time > frame.now.time || w >= s.wheels.size()) break;
       const engine::WheelRecord& wheel = s.wheels[w];
-      if (wheel.load <= 0 && s.time > 0) {  // in the air; the first instant has no loads yet
+      if ((wheel.load <= 0 && s.time > 0) || wheel.slip >= kMarkingSlip) {  // in the air (the first instant has no loads yet)
         close();
         continue;
       }
-      const Vec3 at = wheel.contact + kLift * Vec3::UnitZ();
-      if ((at - last).norm() < kSpacing) continue;
-      last = at;
-      line.points.push_back(to_float(at));
+      if ((wheel.contact - last).norm() < kSpacing) continue;
+      last = wheel.contact;
+      lay_on_ground(frame.stage.road, wheel.contact, kLift, line);
     }
     close();
   }
