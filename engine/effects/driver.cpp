@@ -87,6 +87,17 @@ void steer_along_path(World& world, const State& state, int v) {
   steer = std::clamp(std::clamp(wanted, steer - step, steer + step), -vehicle.path.largest, vehicle.path.largest);
 }
 
+/// Share of its vehicle's load that a wheel carried in the last step; before the first one, at rest.
+double carried_share(const World& world, const WheelState& of) {
+  double all = 0, all_at_rest = 0;
+  for (const WheelState& wheel : world.wheels) {
+    if (wheel.vehicle != of.vehicle) continue;
+    all += wheel.impulse[0];
+    all_at_rest += wheel.static_load;
+  }
+  return all > 0 ? of.impulse[0] / all : (all_at_rest > 0 ? of.static_load / all_at_rest : 0);
+}
+
 void begin(World& world, const State&, int) {
   world.path_steer.assign(world.model.vehicles.size(), 0);
 }
@@ -98,15 +109,15 @@ void before_step(World& world, State& state, int) {
     const bool follows = vehicle.path.points.size() > 1;
     wheel.steer = follows ? world.path_steer[wheel.vehicle] : vehicle.steer.at(state.time);
     if (!vehicle.wheels[wheel.wheel].steered) wheel.steer = 0;
-    wheel.brake = brake_of(vehicle, wheel.wheel, state.time);
+    wheel.brake = brake_of(vehicle, wheel.wheel, state.time, carried_share(world, wheel));
     wheel.drive = drive_of(vehicle, wheel.wheel, state.time);
   }
 }
 
 }  // namespace
 
-double brake_of(const Vehicle& vehicle, int wheel, double t) {
-  const double own = vehicle.wheels[wheel].brake_share;
+double brake_of(const Vehicle& vehicle, int wheel, double t, double carried) {
+  const double own = vehicle.brake_balance == BrakeBalance::loads ? carried : vehicle.wheels[wheel].brake_share;
   double force = std::clamp(vehicle.brake.at(t), 0.0, 1.0) * vehicle.brake_force * own;
   for (const DriverPhase& phase : vehicle.sequence)
     if (!phase.drives) force += phase.level_at(t) * phase.force * (phase.share.empty() ? own : phase.share[wheel]);

@@ -46,7 +46,8 @@ Vec3 felt_gravity(const Model& model, const Topology& topology, int tree) {
   for (const Vehicle& vehicle : model.vehicles) {
     if (topology.tree_of_body[vehicle.body] != tree) continue;
     if (heading.isZero()) heading = (model.bodies[vehicle.body].X_WB.q * Vec3::UnitX()).cwiseProduct(Vec3(1, 1, 0));
-    for (int w = 0; w < static_cast<int>(vehicle.wheels.size()); ++w) brakes += brake_of(vehicle, w, 0);
+    const int wheels = static_cast<int>(vehicle.wheels.size());
+    for (int w = 0; w < wheels; ++w) brakes += brake_of(vehicle, w, 0, 1.0 / wheels);
   }
   if (heading.norm() < 1e-6) return g;
   heading.normalize();

@@ -13,6 +13,10 @@ namespace engine {
 /// How a tyre's lateral force follows from its slip angle (engine/laws/tyre.h).
 enum class TyreModel { linear, tm_easy };
 
+/// How the brake force is shared out: by fixed shares, as brakes without any regulation do, or by what each wheel carries at the
+/// moment, so that all reach their limit together.
+enum class BrakeBalance { shares, loads };
+
 /// One wheel: a contact point under a suspension spring, with a friction circle.
 struct Wheel {
   std::string name;
@@ -25,7 +29,7 @@ struct Wheel {
   double friction = 0.8;  // [-] tyre on dry road; the ground's own friction limits it too (smaller value)
   TyreModel tyre = TyreModel::linear;
   double saturation_angle = 0.1745;  // [rad] linear tyre: slip angle at which the friction circle is reached
-  double brake_share = 0.25;         // [-] share of the brake force this wheel can take; shares sum to 1
+  double brake_share = 0.25;         // [-] of the vehicle's brake force, with BrakeBalance::shares; they sum to 1
   bool steered = false;
   bool driven = false;
 };
@@ -37,7 +41,7 @@ struct DriverPhase {
   double until = std::numeric_limits<double>::infinity();  // [s]
   double force = 0;           // [N] of the whole vehicle at full level; of a drive negative for reversing
   bool drives = false;        // else brakes
-  std::vector<double> share;  // [-] per wheel; empty: brakes by the wheels' brake_share, drives evenly by the driven wheels
+  std::vector<double> share;  // [-] per wheel; empty: brakes by the brake balance, drives evenly by the driven wheels
 
   double level_at(double t) const {
     if (t < first_force || t >= until) return 0;
@@ -58,8 +62,9 @@ struct Vehicle {
   std::string name;
   int body = -1;
   std::vector<Wheel> wheels;
-  Schedule brake = 0.0;        // [-] pedal, 0..1; 1 asks each wheel for its share of `brake_force`
-  double brake_force = 20e3;   // [N] at full pedal; the friction circle limits what of it acts
+  Schedule brake = 0.0;       // [-] pedal, 0..1; 1 asks each wheel for its share of `brake_force`
+  double brake_force = 20e3;  // [N] at full pedal; the friction circle limits what of it acts
+  BrakeBalance brake_balance = BrakeBalance::shares;
   Schedule drive_force = 0.0;  // [N] shared by driven wheels
   Schedule steer = 0.0;        // [rad] wheel angle, left positive
   std::vector<DriverPhase> sequence;

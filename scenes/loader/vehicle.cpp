@@ -25,7 +25,10 @@ const Key kWheelKeys[] = {
      "Lateral force: linear in the slip angle up to the friction circle, or TM-Easy.", kAny, "linear|tm_easy"},
     {"saturation_angle", Type::number, Dimension::angle, "'10 deg'",
      "Linear tyre: the slip angle at which it reaches the friction circle.", between(0.001, 1.2)},
-    {"brake_share", Type::number, Dimension::none, "0.25", "Share of the brake force; the shares sum to 1.", kShare},
+    {"brake_share", Type::number, Dimension::none, "",
+     "Share of the brake force; the shares sum to 1. Left out at all wheels: by what each carries at the moment, so that all reach "
+     "their limit together.",
+     kShare},
     {"steered", Type::boolean, Dimension::none, "false", "Turns with steer."},
     {"driven", Type::boolean, Dimension::none, "false", "Takes its part of drive_force."},
     {"mesh", Type::path, Dimension::none, "", "Its own mesh, like twin tyres, in place of the vehicle's wheel_mesh."},
@@ -51,7 +54,7 @@ const Key kDriverKeys[] = {
     {"level", Type::number, Dimension::acceleration, "'0.7 g'",
      "That the full force would give this mass; the tyres may give less. Negative acceleration reverses."},
     {"wheels", Type::numbers, Dimension::none, "",
-     "Share of the force at each wheel in the order of the file; left out: brake_share, or evenly at the driven wheels."},
+     "Share of the force at each wheel in the order of the file; left out: as brake_share says, or evenly at the driven wheels."},
 };
 const Section kDriverSection{"vehicle.driver", "[[vehicle.driver]]",
                              "One act of the driver. Acts may overlap: their forces add up.", kDriverKeys};
@@ -135,6 +138,7 @@ void need(Reader& r, std::string_view key, std::string_view example) {
 
 void read_wheels(Reader& r, const engine::Vec3& cg, engine::Vehicle& vehicle) {
   double shares = 0;
+  std::size_t given = 0;
   for (Reader& w : r.tables("wheel")) {
     engine::Wheel wheel;
     wheel.name = w.text("name");
@@ -147,13 +151,16 @@ void read_wheels(Reader& r, const engine::Vec3& cg, engine::Vehicle& vehicle) {
     wheel.friction = w.number("friction");
     wheel.tyre = static_cast<engine::TyreModel>(w.choice("tyre"));
     wheel.saturation_angle = w.number("saturation_angle");
-    wheel.brake_share = w.number("brake_share");
+    if (w.has("brake_share")) wheel.brake_share = w.number("brake_share"), ++given;
     wheel.steered = w.boolean("steered");
     wheel.driven = w.boolean("driven");
-    shares += wheel.brake_share;
+    shares += w.has("brake_share") ? wheel.brake_share : 0;
     vehicle.wheels.push_back(std::move(wheel));
   }
-  if (!vehicle.wheels.empty() && std::abs(shares - 1) > 1e-6)
+  if (given == 0) vehicle.brake_balance = engine::BrakeBalance::loads;
+  if (given > 0 && given < vehicle.wheels.size())
+    r.fail_here("has a brake_share at some of its wheels; give it at all, or at none");
+  else if (given > 0 && std::abs(shares - 1) > 1e-6)
     r.fail_here(fmt::format("has brake shares that sum to {:.6g}, must sum to 1", shares));
 }
 

@@ -110,10 +110,21 @@ Snapshot last_of(const Recording& run) {
   return run.snapshots.back();
 }
 
-TEST(ReferenceHistory, FullBrakingFromThirtyMilesAnHour) {
+/// Full braking: far beyond what the tyres hold, by fixed shares; and just what they hold, by the loads.
+struct FullBraking {
+  BrakeBalance balance;
+  double level;  // [g]
+};
+class ReferenceBraking : public testing::TestWithParam<FullBraking> {};
+INSTANTIATE_TEST_SUITE_P(Balances, ReferenceBraking,
+                         testing::Values(FullBraking{BrakeBalance::shares, 2}, FullBraking{BrakeBalance::loads, 2},
+                                         FullBraking{BrakeBalance::loads, 0.76}));
+
+TEST_P(ReferenceBraking, FullFromThirtyMilesAnHour) {
   Model model = on_ground(2.7);
   add_reference_car(model, 0, 30 * kMph);
-  model.vehicles[0].sequence = {braking(1.0, 1495.95 * 9.81 * 2)};  // full: far beyond what the tyres hold
+  model.vehicles[0].brake_balance = GetParam().balance;
+  model.vehicles[0].sequence = {braking(1.0, GetParam().level * 1495.95 * 9.81)};
   const Recording run = simulate(model);
   // t [s], x [ft]: computed by a commercial program, public validation data
   const std::vector<std::array<double, 2>> rows{
@@ -210,6 +221,20 @@ TEST(Braking, PartialLevelLagAndBuildUpAreThoseAsked) {
   // the force ends within a step; pitching moves the centre of mass against the wheels, at rest again by a few mm/s
   EXPECT_NEAR(25 - last_of(run).bodies[0].V_WB.v.x(), lost, 0.4 * kGravity * 1e-3 + 2e-3);
   EXPECT_NEAR(25 - run.at(0.3).bodies[0].V_WB.v.x(), 0, 1e-9);
+}
+
+TEST(Braking, ByTheLoadsReachesTheLimitOfAllWheelsTogetherWhateverTheCar) {
+  for (const double friction : {0.3, 0.76, 1.0}) {
+    Model model = on_ground(1.5);
+    add_reference_car(model, 0, 25);
+    for (Wheel& wheel : model.vehicles[0].wheels) wheel.friction = friction;
+    model.vehicles[0].brake_balance = BrakeBalance::loads;
+    model.vehicles[0].sequence = {braking(0, friction * 1495.95 * kGravity)};
+    const Recording run = simulate(model);
+    const double lost = run.at(0.5).bodies[0].V_WB.v.x() - run.at(1.5).bodies[0].V_WB.v.x();
+    // while it pitches the wheels carry a little less or more than the weight, as above: twice that at a coefficient of one
+    EXPECT_NEAR(lost, friction * kGravity, 1e-2 * friction * kGravity);
+  }
 }
 
 TEST(Braking, MovesLoadToTheFrontAxle) {

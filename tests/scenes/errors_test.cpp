@@ -72,6 +72,19 @@ TEST(SceneErrorTexts, NegativeDrag) {
                           "case.toml:3:22: air.vehicle_drag[1] is -0.8, must be at least 0"));
 }
 
+TEST(SceneErrorTexts, BrakeSharesOfSomeWheelsOnly) {
+  const std::string head =
+      "[[vehicle]]\nname = \"v\"\nmesh = \"assets/vehicles/sedan_collision.obj\"\nmass = \"1 t\"\ncg = \"0 0 0.5 m\"\n"
+      "inertia = \"500 1500 1500 kg m^2\"\n";
+  const std::string front = "[[vehicle.wheel]]\nname = \"front\"\nat = \"1 0 0.3 m\"\n";
+  const std::string rear = "[[vehicle.wheel]]\nname = \"rear\"\nat = \"-1 0 0.3 m\"\n";
+  EXPECT_THAT(folder().errors(head + front + rear), ElementsAre());
+  EXPECT_THAT(folder().errors(head + front + "brake_share = 0.6\n" + rear),
+              ElementsAre("case.toml:1:1: vehicle.v has a brake_share at some of its wheels; give it at all, or at none"));
+  EXPECT_THAT(folder().errors(head + front + "brake_share = 0.6\n" + rear + "brake_share = 0.6\n"),
+              ElementsAre("case.toml:1:1: vehicle.v has brake shares that sum to 1.2, must sum to 1"));
+}
+
 TEST(SceneErrorTexts, ImpossibleInertia) {
   EXPECT_THAT(
       folder().errors(kBall + "inertia = \"1 2 5 kg m^2\"\n"),
