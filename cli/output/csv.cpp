@@ -19,7 +19,7 @@ std::string field(const std::string& text) {
 }
 
 /// How far a body has come, and how its speed changes: of the interval that ends at a row.
-struct Progress {
+struct Course {
   double speed = 0;         // [m/s]
   double distance = 0;      // [m] along its path
   double acceleration = 0;  // [m/s^2] rate of the speed: a brake's is negative, an impact's its mean over the interval
@@ -48,7 +48,7 @@ void write_trajectory(const engine::Recording& recording, WholeFile& file) {
       "time_s,body,x_m,y_m,z_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,wx_radps,wy_radps,wz_radps,speed_mps,distance_m,acceleration_"
       "mps2\n");
   fmt::memory_buffer rows;
-  std::vector<Progress> bodies(recording.body_names.size());
+  std::vector<Course> bodies(recording.body_names.size());
   for (const engine::Snapshot& snapshot : recording.snapshots) {
     rows.clear();
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {

@@ -15,19 +15,19 @@
 namespace render {
 namespace {
 
-using Colour = std::array<double, 3>;
+using Triple = std::array<double, 3>;
 using Planes = std::array<Plane, 3>;
 
 /// Reference white of the standard light D65, sRGB's own: what (1, 1, 1) becomes.
-constexpr Colour kWhite{0.950428545, 1.0, 1.088900371};
+constexpr Triple kWhite{0.950428545, 1.0, 1.088900371};
 
-Colour xyz_of(const Colour& rgb) {
+Triple xyz_of(const Triple& rgb) {
   return {0.4123907993 * rgb[0] + 0.3575843394 * rgb[1] + 0.1804807884 * rgb[2],
           0.2126390059 * rgb[0] + 0.7151686788 * rgb[1] + 0.0721923154 * rgb[2],
           0.0193308187 * rgb[0] + 0.1191947798 * rgb[1] + 0.9505321522 * rgb[2]};
 }
 
-Colour rgb_of(const Colour& xyz) {
+Triple rgb_of(const Triple& xyz) {
   return {3.2409699419 * xyz[0] - 1.5373831776 * xyz[1] - 0.4986107603 * xyz[2],
           -0.9692436363 * xyz[0] + 1.8759675015 * xyz[1] + 0.0415550574 * xyz[2],
           0.0556300797 * xyz[0] - 0.2039769589 * xyz[1] + 1.0569715142 * xyz[2]};
@@ -43,7 +43,7 @@ Planes opponent_planes(const Image& image) {
   Planes out{Plane(image.width, image.height), Plane(image.width, image.height), Plane(image.width, image.height)};
   for (std::size_t i = 0; i < out[0].values.size(); ++i) {
     const std::uint8_t* p = &image.rgba[4 * i];
-    const Colour xyz = xyz_of({linear[p[0]], linear[p[1]], linear[p[2]]});
+    const Triple xyz = xyz_of({linear[p[0]], linear[p[1]], linear[p[2]]});
     const double x = xyz[0] / kWhite[0], y = xyz[1] / kWhite[1], z = xyz[2] / kWhite[2];
     out[0].values[i] = static_cast<float>(116 * y - 16);
     out[1].values[i] = static_cast<float>(500 * (x - y));
@@ -53,18 +53,18 @@ Planes opponent_planes(const Image& image) {
 }
 
 /// L*, and a*, b* damped by L*: colours look paler in the dark (Hunt).
-Colour hunt_lab(const Colour& linear_rgb) {
+Triple hunt_lab(const Triple& linear_rgb) {
   const auto f = [](double t) {
     constexpr double kDelta = 6.0 / 29;
     return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0 / 29;
   };
-  const Colour xyz = xyz_of(linear_rgb);
+  const Triple xyz = xyz_of(linear_rgb);
   const double fx = f(xyz[0] / kWhite[0]), fy = f(xyz[1] / kWhite[1]), fz = f(xyz[2] / kWhite[2]);
   const double lightness = 116 * fy - 16;
   return {lightness, 0.01 * lightness * 500 * (fx - fy), 0.01 * lightness * 200 * (fy - fz)};
 }
 
-double hyab(const Colour& a, const Colour& b) {
+double hyab(const Triple& a, const Triple& b) {
   return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]);
 }
 
@@ -101,11 +101,11 @@ void blur_as_seen(Planes& planes, double pixels_per_degree) {
   }
 }
 
-Colour seen_colour(const Planes& planes, std::size_t i) {
+Triple seen_colour(const Planes& planes, std::size_t i) {
   const double y = (static_cast<double>(planes[0].values[i]) + 16) / 116;
   const double x = static_cast<double>(planes[1].values[i]) / 500 + y;
   const double z = y - static_cast<double>(planes[2].values[i]) / 200;
-  Colour rgb = rgb_of({x * kWhite[0], y * kWhite[1], z * kWhite[2]});
+  Triple rgb = rgb_of({x * kWhite[0], y * kWhite[1], z * kWhite[2]});
   for (double& c : rgb) c = std::clamp(c, 0.0, 1.0);
   return hunt_lab(rgb);
 }

@@ -1,0 +1,1 @@
+// Nothing: a target that lends its precompiled headers needs a source.
