@@ -194,6 +194,8 @@ Surface suv() {
   cut(
       s, Seen::from_side, rectangle(-20, 0, 20, 0.50),
       [](const V3& p, const V3& n) { return std::abs(n.y) > 0.3 && std::abs(p.y) > 0.5; }, "trim");
+  cut(
+      s, Seen::from_front, rectangle(-2, 0, 2, 0.485), [](const V3& p, const V3& n) { return p.x > 1.5 && n.x > 0; }, "trim");
   for (const double y : {0.56, -0.56}) s.box({-0.72, y, 1.645}, {0.72, 0.018, 0.022}, "chrome");  // roof rails
   return s;
 }
