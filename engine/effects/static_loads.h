@@ -1,4 +1,5 @@
-// Loads of the wheels of vehicles at rest, couplings included; on a slope too, held by their brakes or rolling.
+// Loads of the wheels of vehicles at rest, couplings included; on a slope too, of gravity or of a terrain, held by their brakes or
+// rolling.
 #pragma once
 
 #include <vector>

@@ -364,6 +364,24 @@ TEST_P(EitherTyre, ParkedOnASlopeItDoesNotCreepForAMinute) {
   }
 }
 
+TEST_P(EitherTyre, ParkedOnSlopingTrianglesItDoesNotMoveForAMinute) {
+  for (const Vec3& axis : {Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0.6, 0.8, 0)}) {
+    Model model = one_car(60, 0, GetParam());
+    const Quat turn(Eigen::AngleAxisd(15 * kDegree, axis));
+    std::vector<Vec3> corners;
+    for (const double x : {-30.0, 30.0})
+      for (const double y : {-30.0, 30.0}) corners.push_back(turn * Vec3(x, y, 0));
+    model.ground.plane = false;
+    model.ground.terrain = std::make_shared<TriangleMesh>(corners, std::vector<Triangle>{{0, 2, 3}, {0, 3, 1}});
+    model.bodies[0].X_WB = Pose{Vec3::Zero(), turn} * model.bodies[0].X_WB;
+    model.settings.record_interval = 0.5;
+    model.vehicles[0].sequence = {braking(-1, 1e5)};
+    const Recording run = simulate(model);
+    for (const double t : {0.5, 5.0, 60.0})
+      EXPECT_LT((run.at(t).bodies[0].X_WB.p - run.snapshots.front().bodies[0].X_WB.p).norm(), 1e-3) << "after " << t << " s";
+  }
+}
+
 TEST(Patch, OfIceIsFeltWhereItLies) {
   Model model = on_ground(3);
   add_reference_car(model, 0, 15);
