@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
 namespace engine {
 namespace {
@@ -65,11 +67,24 @@ void Recorder::watch_events(const World& world, const Constraint& c, double time
   }
 }
 
+/// A part pressed in past its middle is about to slip through: its law no longer knows from which side it came.
+void Recorder::watch_compression(const World& world, const Constraint& c, double time, double duration) {
+  const double depth = -c.gap;
+  if (duration <= 0 || c.impulse[0] < 0.5 * c.stiffness * depth * duration) return;  // slack: it springs back
+  compression_ = std::max(compression_, depth);
+  double thinner = std::numeric_limits<double>::infinity();
+  for (const int b : {c.record_a, c.record_b})
+    if (const auto* shape = b >= 0 ? std::get_if<HyperEllipsoid>(&world.model.bodies[b].shape) : nullptr)
+      thinner = std::min(thinner, shape->semi_axes.minCoeff());
+  if (depth > std::max(thinner, too_deep_.depth)) too_deep_ = {time, depth, c.record_a, c.record_b};
+}
+
 void Recorder::tally(const World& world, double time, double duration) {
   for (const Constraint& c : world.constraints) {
     if (c.kind != ConstraintKind::contact) continue;
     watch_events(world, c, time);
     if (c.impulse[0] <= 0 && c.gap > 0) continue;
+    if (is_compliant(c)) watch_compression(world, c, time, duration);
     auto at = std::lower_bound(tallies_.begin(), tallies_.end(), c.key, [](const Tally& t, std::uint64_t k) { return t.key < k; });
     if (at == tallies_.end() || at->key != c.key) at = tallies_.insert(at, Tally{c.key, {}, 0, Vec3::Zero()});
     ContactRecord& r = at->record;
@@ -195,6 +210,14 @@ void Recorder::finish(const World& world, const State& state, Recording& recordi
                    [](const Event& a, const Event& b) { return a.time < b.time; });
   recording.diagnostics = world.diagnostics;
   recording.diagnostics.max_energy_rise = energy_rise_;
+  recording.diagnostics.max_compression = compression_;
+  if (too_deep_.depth > 0) {
+    auto name = [&](int body) { return body >= 0 ? world.model.bodies[body].name : std::string("the ground"); };
+    const auto in_units = [](double value, double unit) { return std::to_string(std::lround(value / unit)); };
+    recording.diagnostics.warnings.push_back(name(too_deep_.body_a) + " was pressed " + in_units(too_deep_.depth, 1e-3) +
+                                             " mm into " + name(too_deep_.body_b) + " at " + in_units(too_deep_.time, 1e-3) +
+                                             " ms, more than half its thickness: too soft for this blow; give them more stiffness");
+  }
   // the depth of a compliant contact is a deformation, not an error
   if (world.model.settings.contact_law == ContactLaw::compliant) return;
   for (const ContactRecord& c : recording.snapshots.back().contacts)

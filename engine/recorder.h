@@ -36,6 +36,7 @@ class Recorder {
   };
   void watch_rest(const World&, const State&, double since);
   void watch_events(const World&, const Constraint&, double time);
+  void watch_compression(const World&, const Constraint&, double time, double duration);
 
   std::vector<Tally> tallies_;       // sorted by key
   std::vector<double> still_since_;  // [s] per tree, negative: moving
@@ -51,6 +52,11 @@ class Recorder {
   double initial_energy_ = 0;
   double last_energy_ = 0;
   double energy_rise_ = 0;  // [J] largest between two snapshots
+  double compression_ = 0;  // [m] deepest of a compliant contact
+  struct TooDeep {
+    double time = 0, depth = 0;
+    int body_a = -1, body_b = -1;
+  } too_deep_;
 };
 
 }  // namespace engine

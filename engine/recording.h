@@ -102,6 +102,7 @@ struct Diagnostics {
   double max_joint_angle_error = 0;  // [rad] beyond constraint or limit
   double max_penetration = 0;        // [m]
   double rest_penetration = 0;       // [m] at the last snapshot
+  double max_compression = 0;        // [m] compliant law: deepest contact, of both surfaces together
   double max_solver_residual = 0;    // [m/s]
   double max_energy_rise = 0;        // [J] largest rise of the mechanical energy between two snapshots that no source explains
   long contact_sweeps = 0;

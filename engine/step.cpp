@@ -246,7 +246,6 @@ double Stepper::attempt(World& world, State& state, double h) {
   const bool cut = taken < h;
   if (taken != world.step) assemble_constraints(world, state, taken);
   const bool may_halve = taken > world.model.settings.step / kMostParts;
-  prepare_resistance(world, state, taken);
   CompliantContacts::Crossing crossing;
   bool crossed = false;
   if (compliant_) {
@@ -264,6 +263,7 @@ double Stepper::attempt(World& world, State& state, double h) {
   if (compliant_ && world.model.settings.locate_events) crossed = locate_contact_event(world, state, taken, crossing);
   if (taken != world.step) assemble_constraints(world, state, taken);
 
+  prepare_resistance(world, state, taken);  // only now is the step's length known
   double residual = 0;
   const bool impulses = exchange_over_step(world, state, taken, residual);
   const double gap = close_joints(world);

@@ -137,6 +137,24 @@ void Stepper::form_islands(World& world) {
   }
 }
 
+namespace {
+
+/// A stop that gives way: torque k depth + c rate, never a pull, damped critically for the two bodies were they free. Returns the
+/// share of the step that its impulse displaces over.
+double set_damped_spring(Constraint& c, double h) {
+  const double k = c.stiffness, inertia = 1 / c.free_response;
+  const double damping = c.gap < 0 ? 2 * std::sqrt(k * inertia) : 0;  // nothing brakes before it is reached
+  const bool followed = h * h * k < 0.5 * inertia;
+  // at the mean of both ends, L = -h (k (gap + h (u_before + u_after) / 4) + damping (u_before + u_after) / 2); a step too long
+  // for that: at its end, which is stable however stiff, L = -h (k (gap + h u_after) + damping u_after)
+  const double slope = followed ? h * k / 4 + damping / 2 : h * k + damping;
+  c.softness = 1 / (h * slope);
+  c.target = -k * c.gap / slope - (followed ? c.u_before[0] : 0);
+  return followed ? 0.5 : 1;
+}
+
+}  // namespace
+
 void Stepper::set_targets(World& world, double h) {
   const double v_impact = impact_speed(world);
   weight_.assign(world.constraints.size(), 0.5);
@@ -154,6 +172,10 @@ void Stepper::set_targets(World& world, double h) {
     for (const int i : islands_[k]) {
       Constraint& c = world.constraints[i];
       if (c.kind == ConstraintKind::wheel || c.kind == ConstraintKind::bilateral) continue;  // their effect set it
+      if (c.kind == ConstraintKind::limit && is_compliant(c)) {
+        weight_[i] = set_damped_spring(c, h);
+        continue;
+      }
       if (is_compliant(c)) {
         const double smoothing = std::max(1e-3, h * world.model.settings.gravity.norm());
         const double S = c.gap >= 0 ? c.stiffness
@@ -281,12 +303,14 @@ void Stepper::keep_impulses(const World& world, State& state) const {
 void Stepper::book(World& world) {
   for (std::size_t i = 0; i < world.constraints.size(); ++i) {
     const Constraint& c = world.constraints[i];
-    const Vec3 mean = 0.5 * (c.u_smooth + c.u_after) - weight_[i] * (c.u_smooth - c.u_before);
+    // what it displaces the smooth forces' potential gains or loses; the work of compliant contacts in the stages is booked there
+    const double displaced = compliant_ && c.kind == ConstraintKind::limit ? 0 : weight_[i];
+    const Vec3 mean = 0.5 * (c.u_smooth + c.u_after) - displaced * (c.u_smooth - c.u_before);
     double work = 0;
     for (int r = 0; r < c.rows; ++r) work += c.impulse[r] * mean[r];
     world.dissipated[c.effect] -= work;
     if (is_contact(c) && !is_compliant(c)) world.diagnostics.max_penetration = std::max(world.diagnostics.max_penetration, -c.gap);
-    if (c.kind == ConstraintKind::limit)
+    if (c.kind == ConstraintKind::limit && !is_compliant(c))
       world.diagnostics.max_joint_angle_error = std::max(world.diagnostics.max_joint_angle_error, -c.gap);
   }
 }

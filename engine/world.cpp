@@ -135,6 +135,18 @@ void add_contact(World& world, const State& state, const SurfaceContact& touch, 
   world.constraints.push_back(c);
 }
 
+void share_stiffness(World& world, std::size_t first) {
+  constexpr double kLeast = 1e-6;  // [m] what hardly touches has hardly a share
+  std::vector<Constraint>& all = world.constraints;
+  if (world.model.settings.contact_law != ContactLaw::compliant || all.size() < first + 2) return;
+  for (std::size_t i = first; i < all.size(); ++i) {
+    double sum = 0;
+    for (std::size_t j = first; j < all.size(); ++j)
+      sum += std::max(-all[j].gap, kLeast) * std::max(0.0, all[i].frame.col(0).dot(all[j].frame.col(0)));
+    all[i].stiffness *= std::max(-all[i].gap, kLeast) / sum;
+  }
+}
+
 Vec6 velocity_of(const State& state, int body) {
   Vec6 V = Vec6::Zero();
   if (body >= 0) V << state.V_WB[body].v, state.V_WB[body].w;

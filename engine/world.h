@@ -209,6 +209,11 @@ double pair_margin(const World&, const State&, int a, int b);
 void add_contact(World&, const State&, const SurfaceContact&, int a, int b, int effect, ContactKind, double friction,
                  double restitution);
 
+/// Compliant law: the points appended from `first` on, all of one surface on another, share its stiffness S by depth, so that a
+/// face that stands on four corners, or a limb on many small triangles, yields as one that touches at one point: S_i = S d_i /
+/// sum_j d_j max(0, n_i.n_j). Points that face different ways do not share.
+void share_stiffness(World&, std::size_t first);
+
 /// Velocity (6) of a body; zero for the world.
 Vec6 velocity_of(const State&, int body);
 

@@ -98,6 +98,7 @@ Json diagnostics_json(const engine::Diagnostics& d) {
   return {{"max_joint_gap_m", d.max_joint_gap},
           {"max_joint_angle_error_rad", d.max_joint_angle_error},
           {"max_penetration_m", d.max_penetration},
+          {"max_compression_m", d.max_compression},
           {"rest_penetration_m", d.rest_penetration},
           {"max_solver_residual", d.max_solver_residual},
           {"max_energy_rise_J", d.max_energy_rise},
@@ -180,6 +181,7 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
                              last.residual));
   line("largest joint gap", fmt::format("{:.3g} m", d.max_joint_gap));
   line("penetration", fmt::format("{:.3g} m at most, {:.3g} m at the end", d.max_penetration, d.rest_penetration));
+  if (d.max_compression > 0) line("compression", fmt::format("{:.3g} m at most", d.max_compression));
   line("solver residual", fmt::format("{:.3g} m/s at most", d.max_solver_residual));
   line("simulated", fmt::format("{:.4g} s in {:.3g} s, {} steps, {:.3g} times real time", recording.end_time(), recording.wall_s,
                                 recording.steps, per_second(recording.end_time(), recording.wall_s)));

@@ -34,10 +34,12 @@ void find(World& world, const State& state, int self) {
     contacts_with_plane(*shape, state.X_WB[b], Vec3::UnitZ(), ground.height, margin, touches);
     const double t = state.time;
     const double e = std::max(body.surface.restitution_ground.at(t), ground.surface.restitution_ground.at(t));
+    const std::size_t first = world.constraints.size();
     for (const SurfaceContact& touch : touches) {
       const double mu = std::min(body.surface.friction_ground.at(t), ground.friction_at(touch.p_b, t));
       add_contact(world, state, touch, b, -1, self, ContactKind::ground, mu, e);
     }
+    share_stiffness(world, first);
   }
 }
 

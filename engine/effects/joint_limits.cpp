@@ -1,4 +1,6 @@
-// Ends of the range of motion: one unilateral row per articulation angle near its end, restitution 0.
+// Ends of the range of motion: one unilateral row per articulation angle near its end, restitution 0. With Default-Auto a stop is
+// rigid. With the compliant law it is a damped spring: a rigid one would stop a head within a single step, and its acceleration,
+// dv/dt, would be whatever the step makes it.
 #include <algorithm>
 #include <cmath>
 
@@ -29,8 +31,8 @@ Finding look(const Model& model) {
           "ends out of reach of a step; one passed by more than 0.4 deg has the step taken again in halves"};
 }
 
-void add_limit(World& world, const Joint& joint, int joint_index, int angle, bool upper, double gap, const Vec3& gradient_W,
-               int self) {
+void add_limit(World& world, const State& state, const Joint& joint, int joint_index, int angle, bool upper, double gap,
+               const Vec3& gradient_W, int self) {
   Constraint c;
   c.kind = ConstraintKind::limit;
   c.rows = 1;
@@ -43,6 +45,14 @@ void add_limit(World& world, const Joint& joint, int joint_index, int angle, boo
   c.J_a.row(0).tail<3>() = sign * gradient_W.transpose();
   c.J_b.row(0).tail<3>() = -sign * gradient_W.transpose();
   c.gap = gap;
+  if (world.model.settings.contact_law == ContactLaw::compliant && joint.stop_stiffness > 0) {
+    c.stiffness = joint.stop_stiffness;
+    for (const int b : {c.body_a, c.body_b}) {
+      if (b < 0) continue;
+      const Vec3 axis_B = state.X_WB[b].q.conjugate() * gradient_W;
+      c.free_response += axis_B.dot(world.model.bodies[b].inertia_B.inverse() * axis_B);
+    }
+  }
   c.key = (static_cast<std::uint64_t>(self) << 56) | (static_cast<std::uint64_t>(joint_index) << 8) |
           static_cast<std::uint64_t>(2 * angle + upper);
   c.effect = self;
@@ -61,8 +71,8 @@ void find(World& world, const State& state, int self) {
       const ArticulationAngle& range = joint.angles[i];
       const double near = kNear + kPerRate * world.step * std::abs(now.gradient_W.col(i).dot(w_PC));
       const double above = now.angle[i] - range.lower, below = range.upper - now.angle[i];
-      if (above < near) add_limit(world, joint, j, i, false, above, now.gradient_W.col(i), self);
-      if (below < near) add_limit(world, joint, j, i, true, below, now.gradient_W.col(i), self);
+      if (above < near) add_limit(world, state, joint, j, i, false, above, now.gradient_W.col(i), self);
+      if (below < near) add_limit(world, state, joint, j, i, true, below, now.gradient_W.col(i), self);
     }
   }
 }

@@ -62,8 +62,10 @@ void find(World& world, const State& state, int self) {
     pair.clearance = {world.mesh_scratch.apart, X_MA};
     const double mu = std::min(round.surface.friction_body.at(state.time), mesh.surface.friction_body.at(state.time));
     const double e = std::max(round.surface.restitution_body.at(state.time), mesh.surface.restitution_body.at(state.time));
+    const std::size_t first = world.constraints.size();
     for (const SurfaceContact& touch : touches)
       add_contact(world, state, touch, pair.body, pair.mesh_body, self, ContactKind::vehicle, mu, e);
+    share_stiffness(world, first);
   }
 }
 

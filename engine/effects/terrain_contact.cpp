@@ -39,10 +39,12 @@ void find(World& world, const State& state, int self) {
     const Ground& ground = world.model.ground;
     const double t = state.time;
     const double e = std::max(body.surface.restitution_ground.at(t), ground.surface.restitution_ground.at(t));
+    const std::size_t first = world.constraints.size();
     for (const SurfaceContact& touch : touches) {
       const double mu = std::min(body.surface.friction_ground.at(t), ground.friction_at(touch.p_b, t));
       add_contact(world, state, touch, pair.body, -1, self, ContactKind::terrain, mu, e);
     }
+    share_stiffness(world, first);
   }
 }
 

@@ -10,6 +10,9 @@ namespace engine {
 /// From this exponent on a side counts as flat. Below it the one deepest point is stable.
 constexpr double kFlatExponent = 4;
 
+/// [m] A deepest point this little below the corners is one of them, and jumps: left out.
+constexpr double kNoDeeper = 5e-6;
+
 /// Directions (body axes, unit) whose support points surround the deepest one on the side that faces `direction` (unit, body
 /// axes): direction leaned a little towards the four diagonals of the two other body axes. On a face that lies flat the points
 /// stand at 0.8 of the half widths and within some micrometres of the face.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/geometry/face_corners.h"
 
@@ -16,9 +17,10 @@ namespace {
 
 constexpr double kLookAhead = 0.15;  // [m] how far beyond the margin a free neighbourhood is told
 
-constexpr double kBorder = 1e-6;    // [-] barycentric tolerance: on the border counts as inside
-constexpr double kCluster = 0.985;  // [-] cosine of 10 degrees
-constexpr int kKeep = 4;            // contacts of one body with one mesh
+constexpr double kBorder = 1e-6;       // [-] barycentric tolerance: on the border counts as inside
+constexpr double kCluster = 0.985;     // [-] cosine of 10 degrees
+constexpr int kKeep = 4;               // contacts of one body with one mesh; one more where a flat side's deepest point counts
+constexpr std::uint32_t kDeepest = 5;  // rank of a face's deepest point after its corners 1 to 4, as on a plane; 0: edge or vertex
 
 struct Scene {
   const HyperEllipsoid& shape;
@@ -41,15 +43,16 @@ void touch_face(Scene& s, int triangle) {
   const Vec3& n = s.mesh.face_normals()[triangle];
   const double offset = n.dot(s.mesh.vertices()[s.mesh.triangles()[triangle][0]]);
   const Vec3 down_A = s.X_MA.q.conjugate() * -n;
-  auto add = [&](const Vec3& direction_A) {
+  auto add = [&](const Vec3& direction_A, std::uint32_t rank) {
     const Vec3 p = s.X_MA * support_point(s.shape, direction_A);
     const double gap = n.dot(p) - offset;
     if (gap >= s.margin || !inside(s.mesh, triangle, p - gap * n)) return;
-    s.out.push_back({p, p - gap * n, n, gap, 0});
+    s.out.push_back({p, p - gap * n, n, gap, rank});
   };
-  add(down_A);
+  add(down_A, kDeepest);
   if (s.shape.exponent < kFlatExponent) return;
-  for (const Vec3& direction : corner_directions(s.shape, down_A)) add(direction);
+  std::uint32_t rank = 1;
+  for (const Vec3& direction : corner_directions(s.shape, down_A)) add(direction, rank++);
 }
 
 /// The contact at a mesh point p (on an edge or a vertex) with normal against the gauge gradient there.
@@ -123,25 +126,45 @@ bool felt(EdgeKind kind) {
 }
 
 std::uint32_t key_of(const SurfaceContact& c, const Pose& X_MA, double exponent) {
-  // main direction of the normal and, of a body with corners, the octant of the point on it: steady while the body slides from
-  // triangle to triangle, and while a round one rolls
+  // main direction of the normal and, of a body with corners, which of a face's points it is, or else the octant of the point:
+  // steady while the body slides from triangle to triangle, and while a round one rolls
   const Vec3 p_A = exponent < kFlatExponent ? Vec3(Vec3::Zero()) : Vec3(X_MA.inverse() * c.p_a);
   int axis = 0;
   c.normal.cwiseAbs().maxCoeff(&axis);
-  const int octant = (p_A.x() > 0) + 2 * (p_A.y() > 0) + 4 * (p_A.z() > 0);
+  const bool of_face = exponent >= kFlatExponent && c.key > 0;
+  const int octant = of_face ? static_cast<int>(c.key) : (p_A.x() > 0) + 2 * (p_A.y() > 0) + 4 * (p_A.z() > 0);
   return static_cast<std::uint32_t>(octant + 8 * (2 * axis + (c.normal[axis] > 0)));
 }
 
-/// Deepest first; then, within a bundle of like normals, only points well apart; at most kKeep.
-void keep_the_telling(std::vector<SurfaceContact>& found, double apart, ContactPoints& out) {
+/// The deepest point of a flat side jumps; where it is no deeper than the corners of the same face they do without it, whichever
+/// triangles they lie on.
+void drop_idle_deepest(std::vector<SurfaceContact>& found) {
+  constexpr double kIdle = std::numeric_limits<double>::infinity();
+  for (SurfaceContact& d : found) {
+    const bool idle =
+        d.key == kDeepest && std::any_of(found.begin(), found.end(), [&](const SurfaceContact& c) {
+          return c.key > 0 && c.key < kDeepest && (c.normal - d.normal).squaredNorm() < 1e-20 && c.gap <= d.gap + kNoDeeper;
+        });
+    if (idle) d.gap = kIdle;
+  }
+  std::erase_if(found, [](const SurfaceContact& c) { return c.gap == kIdle; });
+}
+
+/// Two of the points that stand for one flat side of a body on one plane: all of them are kept there, however near.
+bool corners_of_one_face(const SurfaceContact& a, const SurfaceContact& b) {
+  return a.key > 0 && b.key > 0 && a.key != b.key && (a.normal - b.normal).squaredNorm() < 1e-20;
+}
+
+/// Deepest first; then, within a bundle of like normals, only points well apart; at most `most`.
+void keep_the_telling(std::vector<SurfaceContact>& found, double apart, int most, ContactPoints& out) {
   std::sort(found.begin(), found.end(), [](const SurfaceContact& a, const SurfaceContact& b) {
     if (a.gap != b.gap) return a.gap < b.gap;
     return std::lexicographical_compare(a.p_b.data(), a.p_b.data() + 3, b.p_b.data(), b.p_b.data() + 3);
   });
   for (const SurfaceContact& c : found) {
-    if (out.size() == kKeep) return;
+    if (out.size() == most) return;
     const bool said = std::any_of(out.begin(), out.end(), [&](const SurfaceContact& k) {
-      return k.normal.dot(c.normal) > kCluster && (k.p_a - c.p_a).norm() < apart;
+      return k.normal.dot(c.normal) > kCluster && (k.p_a - c.p_a).norm() < apart && !corners_of_one_face(k, c);
     });
     if (!said) out.push_back(c);
   }
@@ -205,7 +228,15 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
   scratch.vertices.erase(std::unique(scratch.vertices.begin(), scratch.vertices.end()), scratch.vertices.end());
   for (const int v : scratch.vertices) touch_vertex(scene, v, scratch.triangles);
 
-  keep_the_telling(scratch.candidates, 0.25 * shape.semi_axes.minCoeff(), out);
+  const bool flat = shape.exponent >= kFlatExponent;
+  if (flat) drop_idle_deepest(scratch.candidates);
+  keep_the_telling(scratch.candidates, 0.25 * shape.semi_axes.minCoeff(), flat ? kKeep + 1 : kKeep, out);
+  // in the order of a plane, so that a sheet of triangles is solved as one
+  if (flat)
+    std::sort(out.begin(), out.end(), [](const SurfaceContact& a, const SurfaceContact& b) {
+      if (a.key != b.key) return a.key < b.key;
+      return std::lexicographical_compare(a.p_b.data(), a.p_b.data() + 3, b.p_b.data(), b.p_b.data() + 3);
+    });
   std::uint32_t used = 0;
   for (SurfaceContact& c : out) {
     c.key = key_of(c, X_MA, shape.exponent) + 64 * used++;

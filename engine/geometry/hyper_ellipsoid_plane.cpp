@@ -26,7 +26,6 @@ std::array<Vec3, 4> corner_directions(const HyperEllipsoid& shape, const Vec3& d
 
 void contacts_with_plane(const HyperEllipsoid& shape, const Pose& X_WA, const Vec3& normal, double offset, double margin,
                          ContactPoints& out) {
-  constexpr double kNoDeeper = 5e-6;  // [m] a deepest point this little below the corners is one of them, and jumps: left out
   out.clear();
   const Vec3 down_A = X_WA.q.conjugate() * -normal;
   auto touch_along = [&](const Vec3& direction_A, std::uint32_t key) {

@@ -28,7 +28,9 @@ struct SurfaceProperties {
   Schedule friction_ground = 0.6;     // [-]
   Schedule restitution_body = 0.0;    // [-] 0..1, ratio of separating to closing normal speed
   Schedule restitution_ground = 0.0;  // [-]
-  Schedule stiffness = 50e3;          // [N/m] S of eq. (68), compliant law only
+  // [N/m] S of eq. (68), compliant law only. Person and bodywork in series then yield 200 kN/m: a leg struck at 40 km/h goes in by
+  // 4 cm, less than half its thickness, a head of 4.6 kg that meets the bonnet at 40 km/h by 5 cm.
+  Schedule stiffness = 400e3;
 };
 
 /// A triangle mesh carried by a body; X_BM places the mesh frame in the body frame (origin: centre of mass).

@@ -39,6 +39,7 @@ struct Joint {
   Pose X_PF;                                // joint frame in the parent (in the world for parent -1)
   Pose X_CF;                                // joint frame in the child
   std::array<ArticulationAngle, 3> angles;  // x, y, z as above; a revolute joint uses y only
+  double stop_stiffness = 0;                // [N m/rad] at the ends of the ranges, compliant law only; 0: rigid stops
   PassiveTorque passive = PassiveTorque::none;
   double passive_share = 1;  // [-] of an adult's torque
   int flexes_about = 1;      // +1: a turn about +y is flexion (knee), -1: about -y (hip, ankle)

@@ -101,7 +101,13 @@ void CompliantContacts::add_forces(const World& world, const std::vector<Pose>& 
     const Touch* touch = keep_phases_ ? known(c.key) : nullptr;
     const ContactPhase phase = touch ? touch->phase : phase_now(c, u[0]);
     if (phase == ContactPhase::open) continue;
-    const double normal = compliant_normal_force(c.stiffness, c.hysteresis, -c.gap, u[0], phase, smoothing_);
+    double smoothing = smoothing_;
+    if (phase == ContactPhase::resting && model_.settings.scheme != Scheme::adaptive) {
+      // the resting law is a damper of S depth / 2 smoothing: no harder than fixed steps can follow on a light part under load
+      const double load = c.stiffness * std::max(0.0, -c.gap) * (1 - c.hysteresis);
+      smoothing = std::max(smoothing_, 0.5 * load * free_response(world, stage_, c, c.frame.col(0)) * h_ / kStable);
+    }
+    const double normal = compliant_normal_force(c.stiffness, c.hysteresis, -c.gap, u[0], phase, smoothing);
     Vec3 f(normal, 0, 0);
     const double slip = std::sqrt(u[1] * u[1] + u[2] * u[2]);
     if (c.friction > 0 && slip > 0 && normal > 0) {

@@ -27,9 +27,9 @@ struct Constraint {
   double restitution = 0;         // [-]
   double softness = 0;            // [1/kg] added to the normal's own response: 1 / (dt (k dt + c))
   double target = 0;              // [m/s] what u_0 + softness * impulse must reach
-  double stiffness = 0;           // [N/m] compliant contact, both surfaces in series; 0: Default-Auto
+  double stiffness = 0;           // [N/m] compliant contact, both surfaces in series; [N m/rad] compliant stop; 0: rigid
   double hysteresis = 0;          // [-] compliant contact: share of the energy that comes back
-  double free_response = 0;       // [1/kg] contact: of its two bodies were they free of joints
+  double free_response = 0;       // [1/kg] compliant contact or stop: of its two bodies were they free of joints
   double rolling_bound = 0;       // [N s] wheel: most that brake can give along t1
   double rolling_drive = 0;       // [N s] wheel: what the engine gives along t1
   double grip_softness = 0;       // [1/kg] wheel: added to the lateral's own response: a tyre needs slip to give a force
@@ -50,7 +50,7 @@ inline bool is_contact(const Constraint& c) {
   return c.kind == ConstraintKind::contact;
 }
 
-/// A contact whose depth is a deformation, not an error.
+/// A contact or limit whose depth is a deformation, not an error.
 inline bool is_compliant(const Constraint& c) {
   return c.stiffness > 0;
 }

@@ -84,6 +84,7 @@ engine::Joint engine_joint(const Figure& figure, const FigureJoint& joint, const
   out.kind = joint.angles.size() == 1 ? engine::JointKind::revolute : engine::JointKind::ragdoll;
   out.passive = joint.passive;
   out.passive_share = joint.passive_share;
+  out.stop_stiffness = joint.stop_stiffness;
   out.flexes_about = joint.angles[0].axis.y() < 0 ? -1 : 1;
   const Quat q_mid = articulation(joint, middle(joint));
   out.X_PF = {joint.at - figure.segments[static_cast<std::size_t>(joint.parent)].centre, q_mid};

@@ -78,7 +78,7 @@ render::MaterialKind read_material_kind(Reader&, std::string_view key);
        Type::schedule,                                                                                                         \
        Dimension::stiffness,                                                                                                   \
        "",                                                                                                                     \
-       "S of the compliant contact law; two surfaces act in series. Left out: 50 kN/m.",                                       \
+       "S of the compliant contact law; two surfaces act in series. Left out: 400 kN/m.",                                      \
        kPositive},                                                                                                             \
       {"friction_body", Type::schedule, Dimension::none, "", "Coulomb coefficient against every other object.", kNotNegative}, \
       {"friction_ground", Type::schedule, Dimension::none, "", "Coulomb coefficient against the ground.", kNotNegative},       \

@@ -54,6 +54,8 @@ const Key kJointKeys[] = {
     {"damping", Type::number, Dimension::angular_damping, "0", "Resistance per angular speed.", kNotNegative},
     {"friction_torque", Type::number, Dimension::torque, "0", "Constant resistance.", kNotNegative},
     {"stiffness", Type::number, Dimension::angular_stiffness, "0", "Spring towards the standing pose.", kNotNegative},
+    {"stop_stiffness", Type::number, Dimension::angular_stiffness, "'300 N m/rad'",
+     "Of the stops at the ends of the ranges, compliant contact law only; 0: rigid, as they are with Default-Auto.", kNotNegative},
     {"passive", Type::choice, Dimension::none, "'none'", "Elastic torque of a leg's joint at rest (Riener and Edrich 1999).", kAny,
      "none|hip|knee|ankle"},
     {"passive_share", Type::number, Dimension::none, "1", "Share of an adult's passive torque.", kNotNegative},
@@ -149,6 +151,7 @@ void read_joint_of_figure(Reader& r, const Scaling& scale, Figure& figure) {
   j.damping = r.number("damping");
   j.friction_torque = r.number("friction_torque");
   j.stiffness = r.number("stiffness");
+  j.stop_stiffness = r.number("stop_stiffness");
   j.passive = static_cast<engine::PassiveTorque>(r.choice("passive"));
   j.passive_share = r.number("passive_share");
   const engine::Vec3 at = r.vector("at").cwiseProduct(engine::Vec3{scale.across, scale.across, scale.along});

@@ -37,6 +37,7 @@ struct FigureJoint {
   double damping = 0;                   // [N m s/rad]
   double friction_torque = 0;           // [N m]
   double stiffness = 0;                 // [N m/rad]
+  double stop_stiffness = 0;            // [N m/rad]
   engine::PassiveTorque passive = engine::PassiveTorque::none;
   double passive_share = 1;  // [-] of an adult's
 };

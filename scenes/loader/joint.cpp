@@ -34,6 +34,8 @@ const Key kKeys[] = {
     {"second_axis", Type::vector3, Dimension::none, "",
      "World direction of the joint frame's x, at right angles to axis: the child's arm of a cardan cross."},
     CRASHREEL_ANGLE_KEYS,
+    {"stop_stiffness", Type::number, Dimension::angular_stiffness, "0",
+     "Of the stops at the ends of the ranges, compliant contact law only; 0: rigid, as they are with Default-Auto.", kNotNegative},
     {"x", Type::table, Dimension::none, "", "The first swing angle.", kAny, {}, &kAngleSection},
     {"y", Type::table, Dimension::none, "", "The second swing angle; the angle of a revolute.", kAny, {}, &kAngleSection},
     {"z", Type::table, Dimension::none, "", "The twist.", kAny, {}, &kAngleSection},
@@ -99,6 +101,7 @@ void read_joint(Builder& builder, Reader r) {
   const engine::Pose X_WF{r.vector_if("at").value_or(child.X_WB.p), read_frame(r)};
   joint.X_CF = child.X_WB.inverse() * X_WF;
   joint.X_PF = joint.parent < 0 ? X_WF : builder.scene.model.bodies[static_cast<std::size_t>(joint.parent)].X_WB.inverse() * X_WF;
+  joint.stop_stiffness = r.number("stop_stiffness");
   joint.angles.fill(read_angle(r, {}));
   const std::array<std::string_view, 3> kNames{"x", "y", "z"};
   for (std::size_t i = 0; i < 3; ++i) {

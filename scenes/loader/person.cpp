@@ -28,6 +28,8 @@ const Key kJointKeys[] = {
     {"damping", Type::number, Dimension::angular_damping, "", "Resistance per angular speed.", kNotNegative},
     {"friction_torque", Type::number, Dimension::torque, "", "Constant resistance against turning.", kNotNegative},
     {"stiffness", Type::number, Dimension::angular_stiffness, "", "Resistive spring towards standing.", kNotNegative},
+    {"stop_stiffness", Type::number, Dimension::angular_stiffness, "",
+     "Of the stops at the ends of the ranges, compliant contact law only; 0: rigid, as they are with Default-Auto.", kNotNegative},
     {"passive_share", Type::number, Dimension::none, "",
      "Share of an adult's passive elastic torque in hip, knee or ankle; 0: none.", kNotNegative},
     {"ranges", Type::table, Dimension::none, "", "Ranges of motion.", kAny, {}, &kRangesSection},
@@ -122,6 +124,7 @@ void change_joints(Reader& r, Figure& figure) {
     if (change.has("damping")) at->damping = change.number("damping");
     if (change.has("friction_torque")) at->friction_torque = change.number("friction_torque");
     if (change.has("stiffness")) at->stiffness = change.number("stiffness");
+    if (change.has("stop_stiffness")) at->stop_stiffness = change.number("stop_stiffness");
     if (change.has("passive_share")) at->passive_share = change.number("passive_share");
     if (auto ranges = change.table("ranges")) change_ranges(*ranges, *at);
   }

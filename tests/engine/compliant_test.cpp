@@ -82,6 +82,43 @@ TEST(CompliantBall, ComesToRestUnderItsWeight) {
   }
 }
 
+TEST(CompliantBox, SinksByItsWeightOverItsStiffnessHoweverManyPointsItStandsOn) {
+  // a box (n = 30) stands on the four corners of its face, which share S; on a sheet too, where each corner has its triangle
+  const double S = 50e3, m = 20;
+  std::vector<Vec3> corners{{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}};
+  for (const bool on_sheet : {false, true})
+    for (const Scheme scheme : {Scheme::stepping, Scheme::rk4}) {
+      Model model = on_ground(4);
+      model.settings.contact_law = ContactLaw::compliant;
+      model.settings.scheme = scheme;
+      model.bodies = {solid({{0.3, 0.2, 0.1}, 30}, m, {0.01, 0.02, 0.1})};
+      model.bodies[0].surface.stiffness = S;
+      model.ground.surface.stiffness = 1e13;
+      if (on_sheet) {
+        model.ground.plane = false;
+        model.ground.terrain = std::make_shared<TriangleMesh>(corners, std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
+      }
+      const BodyState end = simulate(model).snapshots.back().bodies[0];
+      // the resting law of e = 0 stands between S and S/2; the corners of the face lie 0.2 mm above its middle
+      EXPECT_GT(0.1 - end.X_WB.p.z(), 0.98 * m * kGravity / S) << on_sheet;
+      EXPECT_LT(0.1 - end.X_WB.p.z(), 2.02 * m * kGravity / S + 3e-4) << on_sheet;
+      EXPECT_LT(end.V_WB.v.norm(), 5e-3);
+    }
+}
+
+TEST(CompliantBody, PressedInPastItsMiddleIsWarnedOf) {
+  Model model = dropped(0.5, Scheme::stepping, 1e-3);
+  model.bodies[0].surface.stiffness = 500;  // m g / S alone is 2 cm, v sqrt(m / S) 0.2 m
+  const Diagnostics soft = simulate(model).diagnostics;
+  ASSERT_EQ(soft.warnings.size(), 1u);
+  EXPECT_NE(soft.warnings[0].find("stiffness"), std::string::npos);
+  EXPECT_GT(soft.max_compression, 0.1);
+  model.bodies[0].surface.stiffness = 50e3;
+  const Diagnostics firm = simulate(model).diagnostics;
+  EXPECT_TRUE(firm.warnings.empty());
+  EXPECT_NEAR(firm.max_compression, std::sqrt(2 * kGravity / 50e3), 0.05 * std::sqrt(2 * kGravity / 50e3));
+}
+
 /// A body thrown, turning, that bounces twice: where it is at the end.
 Vec3 thrown(Scheme scheme, bool located, double step, long& stages) {
   Model model = on_ground(1.2, step);

@@ -144,12 +144,15 @@ TEST_P(Exponent, SheetOfTrianglesActsLikeAPlane) {
     contacts_with_plane(shape, X, Vec3::UnitZ(), 0, 0.001, plane);
     contacts_with_mesh(shape, X, mesh, {}, 0.001, scratch, found);
     ASSERT_FALSE(found.empty());
-    double deepest = 1;
+    double deepest = 1, on_plane = 1;
     for (const SurfaceContact& c : found) {
       EXPECT_LT((c.normal - Vec3::UnitZ()).norm(), 1e-12);
       deepest = std::min(deepest, c.gap);
     }
-    EXPECT_NEAR(deepest, -0.003, 1e-9);
+    // of flat sides a plane leaves out the deepest point where its corners are as deep to some micrometres
+    for (const SurfaceContact& c : plane) on_plane = std::min(on_plane, c.gap);
+    EXPECT_NEAR(on_plane, -0.003, shape.exponent < 4 ? 1e-12 : 5e-6);
+    EXPECT_NEAR(deepest, on_plane, 1e-9);
   }
 }
 

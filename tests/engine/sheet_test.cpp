@@ -1,5 +1,4 @@
-// A part that slides over a flat sheet of a thousand triangles moves as over a plane: edges between them are not felt. (A box, n =
-// 30, stands on the corners of its face; there the plane leaves out points of some micrometres' depth, and so much may differ.)
+// A part that slides over a flat sheet of a thousand triangles moves as over a plane: edges between them are not felt.
 #include <gtest/gtest.h>
 
 #include "tests/engine/experiment.h"
@@ -78,6 +77,10 @@ INSTANTIATE_TEST_SUITE_P(
         Slide{"ball", {{0.1, 0.1, 0.1}, 2}, {{6, 0.4, 0}, {0, 0, 0}}, kAuto, Scheme::stepping},
         Slide{"torso on its back", {{0.245, 0.165, 0.115}, 3}, {{5, 0.3, 0}, {0, 0, 1}}, kAuto, Scheme::stepping},
         Slide{"foot", {{0.13, 0.046, 0.035}, 3}, {{6, 0.2, 0}, {0, 0, 1}}, kAuto, Scheme::stepping},
+        Slide{"box on its face", {{0.3, 0.2, 0.1}, 30}, {{6, 0.3, 0}, {0, 0, 0.5}}, kAuto, Scheme::stepping},
+        Slide{"box that turns, rk4", {{0.12, 0.17, 0.06}, 30}, {{6, 0.4, 0}, {0, 0, 6}}, kAuto, Scheme::rk4},
+        Slide{"box of exponent 6", {{0.3, 0.2, 0.1}, 6}, {{6, 0.3, 0}, {0, 0, 1}}, kAuto, Scheme::stepping},
+        Slide{"box, compliant", {{0.3, 0.2, 0.1}, 30}, {{6, 0.3, 0}, {0, 0, 0.5}}, ContactLaw::compliant, Scheme::rk4},
         Slide{"head, compliant", {{0.0975, 0.0775, 0.12}, 2.2}, {{6, 0.3, 0}, {0, 0, 2}}, ContactLaw::compliant, Scheme::rk4}));
 
 }  // namespace
