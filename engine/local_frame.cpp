@@ -1,5 +1,6 @@
 #include "engine/local_frame.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace engine {
@@ -14,15 +15,15 @@ Vec3 rounded(const Vec3& p) {
 }  // namespace
 
 LocalFrame::LocalFrame(const Model& model) {
-  for (const Body& body : model.bodies) {
-    if (body.fixed) continue;
-    origin_ = {body.X_WB.p.x(), body.X_WB.p.y(), 0};
-    return;
-  }
+  const auto moves = [](const Body& body) { return !body.fixed; };
+  const auto first = std::find_if(model.bodies.begin(), model.bodies.end(), moves);
+  if (first == model.bodies.end()) return;
+  origin_ = {first->X_WB.p.x(), first->X_WB.p.y(), 0};
+  several_ = std::any_of(first + 1, model.bodies.end(), moves);
 }
 
 Model LocalFrame::inwards(Model model) const {
-  auto shift = [&](Vec3& p) { p = rounded(p - origin_); };
+  auto shift = [&](Vec3& p) { p = several_ ? rounded(p - origin_) : Vec3(p - origin_); };
   for (Body& body : model.bodies) shift(body.X_WB.p);
   for (Joint& joint : model.joints)
     if (joint.parent < 0) shift(joint.X_PF.p);

@@ -64,8 +64,13 @@ struct Scene {
   std::map<std::string, double> closed_form;  // expected measures the scene carries, SI, by metric key
 };
 
+struct ImportedMesh;
+/// Mesh files as they were brought in, by path. Whoever loads variants of a scene keeps one, and every file is read once; what is
+/// written to a mesh file after that is not seen.
+using MeshShelf = std::map<std::string, std::shared_ptr<const ImportedMesh>>;
+
 /// Reads, checks and completes a scene. Overrides are applied before checking. Throws SceneErrors with everything found.
-Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides = {}, MeshShelf* shelf = nullptr);
 
 /// JSON Schema (draft 2020-12) of the scene format, from the table the loader reads.
 std::string json_schema();

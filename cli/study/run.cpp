@@ -17,13 +17,14 @@ struct Batch {
   std::vector<Trial> trials;
   bool timed = true;
   std::string program = program_hash();
+  std::shared_ptr<scenes::MeshShelf> meshes = std::make_shared<scenes::MeshShelf>();
 
   void add(const scenes::Scene& scene, const Setting& setting, double cost) {
     std::vector<std::string> overrides = scene.overrides;
     for (const std::string& text : runs_with(setting)) overrides.push_back(text);
-    const scenes::Scene loaded = scenes::load(scene.path, overrides);
+    const scenes::Scene loaded = scenes::load(scene.path, overrides, meshes.get());
     for (int member = 0; member <= setting.members; ++member) {
-      Trial trial{scene.path, overrides, member, cost, timed, ""};
+      Trial trial{scene.path, overrides, member, cost, timed, "", meshes};
       trial.fingerprint = fingerprint_of(trial, loaded, program);
       trials.push_back(std::move(trial));
     }

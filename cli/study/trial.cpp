@@ -47,7 +47,7 @@ std::string fingerprint_of(const Trial& trial, const scenes::Scene& scene, const
 }
 
 Outcome run(const Trial& trial) {
-  scenes::Scene scene = scenes::load(trial.scene, trial.overrides);
+  scenes::Scene scene = scenes::load(trial.scene, trial.overrides, trial.meshes.get());
   perturb(scene.model, trial.member);
   const engine::Plan plan = engine::compile(scene.model);
   InstructionCounter counter;

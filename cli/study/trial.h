@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,11 @@ namespace cli::study {
 struct Trial {
   std::filesystem::path scene;
   std::vector<std::string> overrides;
-  int member = 0;           // of the ensemble; 0: as it is
-  double cost = 1;          // expected, in any unit: long trials go first
-  bool timed = true;        // repeated until its time is known
-  std::string fingerprint;  // of scene, overrides, member and program
+  int member = 0;                                       // of the ensemble; 0: as it is
+  double cost = 1;                                      // expected, in any unit: long trials go first
+  bool timed = true;                                    // repeated until its time is known
+  std::string fingerprint;                              // of scene, overrides, member and program
+  std::shared_ptr<scenes::MeshShelf> meshes = nullptr;  // of all trials of a study
 };
 
 struct Outcome {

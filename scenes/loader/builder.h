@@ -12,13 +12,12 @@
 
 namespace scenes {
 
-struct ImportedMesh;
-
 struct Builder {
   Scene scene;
   Errors errors;
-  std::filesystem::path folder;                                       // of the scene file
-  std::map<std::string, std::shared_ptr<const ImportedMesh>> meshes;  // by path: ten cars load one mesh
+  std::filesystem::path folder;  // of the scene file
+  MeshShelf meshes;              // by path: ten cars load one mesh
+  MeshShelf* shelf = nullptr;    // of mesh files that other loads have brought in
 
   std::string assets;  // hashes of the library files and meshes read, in order
 

@@ -136,12 +136,13 @@ std::vector<std::string> library_names(const Builder& builder, const std::string
   return out;
 }
 
-Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides, MeshShelf* shelf) {
   Value root = parse_file(file);
   for (const std::string& text : overrides) apply_override(root, text);
 
   Builder builder;
   builder.folder = file.parent_path();
+  builder.shelf = shelf;
   Reader r(root, scene_section(), "", builder.errors);
   builder.scene.title = r.text("title");
   builder.scene.path = file;

@@ -175,6 +175,26 @@ int open_edges(const engine::TriangleMesh& mesh) {
   return open;
 }
 
+namespace {
+
+/// Null, with a problem told, where the file cannot be imported.
+std::shared_ptr<const ImportedMesh> bring_in(const std::filesystem::path& file, const std::string& extension,
+                                             std::string& problem) {
+  CageResult result = import_in_cage(file, file.parent_path());
+  problem = result.problem;
+  if (!problem.empty()) return nullptr;
+  turn_upright(result.parts, extension);
+  auto out = std::make_shared<ImportedMesh>();
+  out->not_finite = drop_not_finite(result.parts);
+  out->warnings = audit(result.parts, file.filename().string());
+  out->look = look_of(result.parts);
+  out->solid = solid_of(result.parts);
+  out->sha256 = result.sha256;
+  return out;
+}
+
+}  // namespace
+
 std::shared_ptr<const ImportedMesh> import_mesh(Builder& builder, Reader& r, std::string_view key) {
   const std::string name = r.text(key);
   if (name.empty()) return nullptr;
@@ -192,21 +212,20 @@ std::shared_ptr<const ImportedMesh> import_mesh(Builder& builder, Reader& r, std
   }
   auto& cached = builder.meshes[file.string()];
   if (cached) return cached;
-  CageResult result = import_in_cage(file, file.parent_path());
-  if (!result.problem.empty()) {
-    r.fail(key, fmt::format("could not be imported: {}", result.problem));
+  std::shared_ptr<const ImportedMesh> imported;
+  if (builder.shelf) imported = (*builder.shelf)[file.string()];
+  std::string problem;
+  if (!imported) imported = bring_in(file, extension, problem);
+  if (!imported) {
+    r.fail(key, fmt::format("could not be imported: {}", problem));
     return nullptr;
   }
-  builder.assets += result.sha256;
-  turn_upright(result.parts, extension);
-  const int dropped = drop_not_finite(result.parts);
-  if (dropped > 0)
+  if (builder.shelf) (*builder.shelf)[file.string()] = imported;
+  builder.assets += imported->sha256;
+  if (imported->not_finite > 0)
     r.warn(key, fmt::format("has {} triangles with coordinates that are not finite or farther than 1000 km; they are left out",
-                            dropped));
-  for (const std::string& warning : audit(result.parts, file.filename().string())) r.errors().warn(r.place(key), warning);
-  auto imported = std::make_shared<ImportedMesh>();
-  imported->look = look_of(result.parts);
-  imported->solid = solid_of(result.parts);
+                            imported->not_finite));
+  for (const std::string& warning : imported->warnings) r.errors().warn(r.place(key), warning);
   if (imported->solid->triangles().empty()) {
     r.fail(key, "has no triangle with an area; there is nothing to touch");
     return nullptr;

@@ -39,7 +39,9 @@ CageResult import_in_cage(const std::filesystem::path& file, const std::filesyst
 struct ImportedMesh {
   std::shared_ptr<const engine::TriangleMesh> solid;  // welded, for contact
   std::shared_ptr<const render::Mesh> look;           // with normals and materials
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;                  // what the audit found odd
+  int not_finite = 0;                                 // triangles left out
+  std::string sha256;                                 // of the file and those it refers to
 };
 
 /// The mesh file named by the reader's key, found in the scene's folder or the assets, loaded once per load. Null after an error,
