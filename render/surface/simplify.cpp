@@ -159,7 +159,7 @@ class Collapse {
       bool dies = false;
       for (std::uint32_t& k : v) {
         dies |= corner_[k] == onto;
-        if (corner_[k] == from) k = onto;
+        if (corner_[k] == from) k = nearest_normal(onto, normal(k));
       }
       if (dies) {
         ++shared;
@@ -167,11 +167,17 @@ class Collapse {
       }
       const Eigen::Vector3d after = area(v);
       if (after.dot(before) <= kTurn * after.norm() * before.norm()) return false;
+      if (!looks_out(v, after) && looks_out(triangles_[t].vertices, before)) return false;
     }
     const std::vector<Corner> a = neighbours(from), b = neighbours(onto);
     std::vector<Corner> both;
     std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
     return shared > 0 && both.size() == shared;
+  }
+
+  // no corner's normal points into the surface: it would be shaded dark
+  bool looks_out(const std::array<std::uint32_t, 3>& v, const Eigen::Vector3d& area) const {
+    return std::all_of(v.begin(), v.end(), [&](std::uint32_t k) { return normal(k).dot(area) >= 0; });
   }
 
   void fall(Corner from, Corner onto) {
