@@ -136,16 +136,29 @@ std::uint32_t key_of(const SurfaceContact& c, const Pose& X_MA, double exponent)
   return static_cast<std::uint32_t>(octant + 8 * (2 * axis + (c.normal[axis] > 0)));
 }
 
-/// The deepest point of a flat side jumps; where it is no deeper than the corners of the same face they do without it, whichever
-/// triangles they lie on.
-void drop_idle_deepest(std::vector<SurfaceContact>& found) {
+/// Where all four corners of a flat side are above triangles of one plane, on whichever of them, they stand for the whole side. Its
+/// deepest point, which jumps, is left out if it is no deeper, and so are edges and vertices that do not stand out of the plane:
+/// borders, where triangles were missing or double. Over the border of a sheet a corner is missing, and all of them count.
+void let_four_corners_speak(std::vector<SurfaceContact>& found) {
+  constexpr double kFlush = 1e-6;  // [m]
+  constexpr std::uint32_t kAll = 0b11110;
   constexpr double kIdle = std::numeric_limits<double>::infinity();
-  for (SurfaceContact& d : found) {
-    const bool idle =
-        d.key == kDeepest && std::any_of(found.begin(), found.end(), [&](const SurfaceContact& c) {
-          return c.key > 0 && c.key < kDeepest && (c.normal - d.normal).squaredNorm() < 1e-20 && c.gap <= d.gap + kNoDeeper;
-        });
-    if (idle) d.gap = kIdle;
+  for (const SurfaceContact& deepest : found) {
+    if (deepest.key != kDeepest) continue;
+    const auto on_its_plane = [&](const SurfaceContact& c) { return (c.normal - deepest.normal).squaredNorm() < 1e-20; };
+    std::uint32_t corners = 0;  // bit r: the corner of rank r is there
+    double lowest = kIdle;
+    for (const SurfaceContact& c : found) {
+      if (c.key == 0 || c.key == kDeepest || !on_its_plane(c)) continue;
+      corners |= 1u << c.key;
+      lowest = std::min(lowest, c.gap);
+    }
+    if (corners != kAll) continue;
+    for (SurfaceContact& c : found) {
+      const bool idle_deepest = c.key == kDeepest && on_its_plane(c) && c.gap >= lowest - kNoDeeper;
+      const bool flush = c.key == 0 && c.normal.dot(deepest.normal) > kCluster && deepest.normal.dot(c.p_b - deepest.p_b) < kFlush;
+      if (idle_deepest || flush) c.gap = kIdle;
+    }
   }
   std::erase_if(found, [](const SurfaceContact& c) { return c.gap == kIdle; });
 }
@@ -229,7 +242,7 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
   for (const int v : scratch.vertices) touch_vertex(scene, v, scratch.triangles);
 
   const bool flat = shape.exponent >= kFlatExponent;
-  if (flat) drop_idle_deepest(scratch.candidates);
+  if (flat) let_four_corners_speak(scratch.candidates);
   keep_the_telling(scratch.candidates, 0.25 * shape.semi_axes.minCoeff(), flat ? kKeep + 1 : kKeep, out);
   // in the order of a plane, so that a sheet of triangles is solved as one
   if (flat)
