@@ -82,9 +82,10 @@ void ask_second_scheme(const Study& study, Judgement& judgement, const std::vect
   const double apart = std::abs(c.limit - second->limit);
   judgement.schemes_agree = apart <= c.band.back() + second->band;
   if (!judgement.schemes_agree) {
-    // they tend to different answers: nothing may be narrower than what lies between them
+    // they tend to different answers: no band may be narrower than what lies between them, nor leave the other out
     c.trust = Trust::range;
-    for (double& band : c.band) band = std::max(band, apart + second->band);
+    for (std::size_t i = 0; i < levels.size(); ++i)
+      c.band[i] = std::max({c.band[i], apart + second->band, std::abs(levels[i].value - second->limit) + second->band});
   } else if (c.trust == Trust::range && second->band < c.band.back()) {
     judgement.error_kind = "second_scheme";
     c.limit = second->limit;

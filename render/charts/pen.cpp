@@ -43,9 +43,10 @@ Extent extent_of(PangoLayout* layout) {
   return {static_cast<double>(width) / PANGO_SCALE, static_cast<double>(height) / PANGO_SCALE};
 }
 
-constexpr double kInks[][3] = {{0.00, 0.00, 0.00}, {0.75, 0.22, 0.10}, {0.10, 0.35, 0.65}, {0.35, 0.35, 0.35},
-                               {0.10, 0.45, 0.25}, {0.50, 0.20, 0.55}, {0.60, 0.45, 0.10}, {0.25, 0.50, 0.55}};
-constexpr int kStyles = 8;
+constexpr int kStyles = 12;  // told apart by shape and dash where ink does not
+constexpr double kInks[kStyles][3] = {{0.00, 0.00, 0.00}, {0.75, 0.22, 0.10}, {0.10, 0.35, 0.65}, {0.35, 0.35, 0.35},
+                                      {0.10, 0.45, 0.25}, {0.50, 0.20, 0.55}, {0.60, 0.45, 0.10}, {0.25, 0.50, 0.55},
+                                      {0.55, 0.05, 0.25}, {0.20, 0.25, 0.50}, {0.40, 0.55, 0.15}, {0.15, 0.15, 0.15}};
 
 }  // namespace
 
@@ -94,8 +95,9 @@ void Pen::frame(const Box& b, double width) const {
 }
 
 void Pen::dash(int style) const {
-  constexpr double kDashes[][4] = {{0},          {6, 2.5, 6, 2.5}, {1.5, 2, 1.5, 2}, {7, 2, 1.5, 2},
-                                   {3, 2, 3, 2}, {10, 3, 10, 3},   {1, 3, 1, 3},     {5, 1, 1, 1}};
+  constexpr double kDashes[kStyles][4] = {
+      {0},          {6, 2.5, 6, 2.5}, {1.5, 2, 1.5, 2}, {7, 2, 1.5, 2}, {3, 2, 3, 2}, {10, 3, 10, 3},
+      {1, 3, 1, 3}, {5, 1, 1, 1},     {9, 1.5, 9, 1.5}, {4, 4, 1, 4},   {2, 1, 2, 1}, {12, 2, 3, 2}};
   cairo_set_dash(c_, kDashes[style % kStyles], style % kStyles == 0 ? 0 : 4, 0);
 }
 
@@ -115,11 +117,21 @@ void Pen::marker(int style, double x, double y, double size) const {
       cairo_line_to(c_, x + 1.1 * r, y + 0.8 * r);
       cairo_line_to(c_, x - 1.1 * r, y + 0.8 * r);
       break;
-    default:
+    case 3:
       cairo_move_to(c_, x, y - 1.3 * r);
       cairo_line_to(c_, x + 1.3 * r, y);
       cairo_line_to(c_, x, y + 1.3 * r);
       cairo_line_to(c_, x - 1.3 * r, y);
+      break;
+    case 4:
+      cairo_move_to(c_, x, y + 1.2 * r);
+      cairo_line_to(c_, x + 1.1 * r, y - 0.8 * r);
+      cairo_line_to(c_, x - 1.1 * r, y - 0.8 * r);
+      break;
+    default:  // a cross
+      for (const auto& [right, down] :
+           {std::pair{-1, -3}, {1, -3}, {1, -1}, {3, -1}, {3, 1}, {1, 1}, {1, 3}, {-1, 3}, {-1, 1}, {-3, 1}, {-3, -1}, {-1, -1}})
+        cairo_line_to(c_, x + 0.42 * r * right, y + 0.42 * r * down);
   }
   cairo_close_path(c_);
   cairo_save(c_);
