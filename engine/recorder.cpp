@@ -67,7 +67,7 @@ void Recorder::watch_events(const World& world, const Constraint& c, double time
   }
 }
 
-/// A part pressed in past its middle is about to slip through: its law no longer knows from which side it came.
+/// A part pressed in by all its thickness has slipped through: its law no longer knows from which side it came.
 void Recorder::watch_compression(const World& world, const Constraint& c, double time, double duration) {
   const double depth = -c.gap;
   if (duration <= 0 || c.impulse[0] < 0.5 * c.stiffness * depth * duration) return;  // slack: it springs back
@@ -75,7 +75,7 @@ void Recorder::watch_compression(const World& world, const Constraint& c, double
   double thinner = std::numeric_limits<double>::infinity();
   for (const int b : {c.record_a, c.record_b})
     if (const auto* shape = b >= 0 ? std::get_if<HyperEllipsoid>(&world.model.bodies[b].shape) : nullptr)
-      thinner = std::min(thinner, shape->semi_axes.minCoeff());
+      thinner = std::min(thinner, 2 * shape->semi_axes.minCoeff());
   if (depth > std::max(thinner, too_deep_.depth)) too_deep_ = {time, depth, c.record_a, c.record_b};
 }
 
@@ -216,7 +216,7 @@ void Recorder::finish(const World& world, const State& state, Recording& recordi
     const auto in_units = [](double value, double unit) { return std::to_string(std::lround(value / unit)); };
     recording.diagnostics.warnings.push_back(name(too_deep_.body_a) + " was pressed " + in_units(too_deep_.depth, 1e-3) +
                                              " mm into " + name(too_deep_.body_b) + " at " + in_units(too_deep_.time, 1e-3) +
-                                             " ms, more than half its thickness: too soft for this blow; give them more stiffness");
+                                             " ms, more than its thickness: too soft for this blow; give them more stiffness");
   }
   // the depth of a compliant contact is a deformation, not an error
   if (world.model.settings.contact_law == ContactLaw::compliant) return;

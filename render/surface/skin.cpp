@@ -12,7 +12,7 @@
 namespace render {
 namespace {
 
-constexpr double kCell = 0.014;   // [m] of the grid: about five thousand cells on a person, a neck 8 cells across
+constexpr double kCells = 160;    // over the height of a person: 11 mm, about eight thousand on the surface, a neck 10 across
 constexpr double kReach = 0.045;  // [m] a segment this much farther than the nearest one has no say
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -27,12 +27,12 @@ class Grid {
   explicit Grid(const SkinField& field) {
     Vec3 upper;
     field.bounds(origin_, upper);
-    for (int i = 0; i < 3; ++i) n_[i] = static_cast<int>(std::ceil((upper[i] - origin_[i]) / kCell)) + 2;
+    cell_ = (upper.z() - origin_.z()) / kCells;
+    for (int i = 0; i < 3; ++i) n_[i] = static_cast<int>(std::ceil((upper[i] - origin_[i]) / cell_)) + 2;
     values_.resize(static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]));
-    std::vector<double> distances;
-    for (int k = 0; k < n_[2]; ++k)
-      for (int j = 0; j < n_[1]; ++j)
-        for (int i = 0; i < n_[0]; ++i) values_[index({i, j, k})] = field.at(place({i, j, k}), distances);
+    for (int k = 0; k < n_[2]; k += kBlock)
+      for (int j = 0; j < n_[1]; j += kBlock)
+        for (int i = 0; i < n_[0]; i += kBlock) fill(field, {i, j, k});
   }
   using Node = std::array<int, 3>;
   std::size_t index(const Node& a) const {
@@ -40,20 +40,79 @@ class Grid {
                static_cast<std::size_t>(n_[0]) +
            static_cast<std::size_t>(a[0]);
   }
-  Vec3 place(const Node& a) const { return origin_ + kCell * Vec3(a[0], a[1], a[2]); }
+  Vec3 place(const Node& a) const { return origin_ + cell_ * Vec3(a[0], a[1], a[2]); }
   double value(const Node& a) const { return values_[index(a)]; }
   int size(int axis) const { return n_[static_cast<std::size_t>(axis)]; }
 
  private:
+  static constexpr int kBlock = 6;
+
+  /// The nodes of a block; where it is clear of the surface, all as far outside.
+  void fill(const SkinField& field, const Node& from) {
+    const double half = 0.5 * (kBlock - 1);
+    const bool clear = field.clearance(place(from) + half * cell_ * Vec3::Ones()) > half * std::sqrt(3.0) * cell_;
+    std::vector<double> distances;
+    for (int k = from[2]; k < std::min(from[2] + kBlock, n_[2]); ++k)
+      for (int j = from[1]; j < std::min(from[1] + kBlock, n_[1]); ++j)
+        for (int i = from[0]; i < std::min(from[0] + kBlock, n_[0]); ++i)
+          values_[index({i, j, k})] = clear ? 1.0 : field.at(place({i, j, k}), distances);
+  }
+
   Vec3 origin_;
+  double cell_ = 0;  // [m]
   std::array<int, 3> n_{};
   std::vector<double> values_;
 };
 
-/// Mean of the places where the surface cuts the edges of the cell at a, if it does.
-bool cell_vertex(const Grid& grid, const Grid::Node& a, Vec3& out) {
-  Vec3 sum = Vec3::Zero();
-  int cuts = 0;
+/// The sheets of the surface that pass through one cell: two where a hand nearly touches itself. A vertex stands for each, or the
+/// sheets would hang together by it.
+struct Sheets {
+  int count = 0;
+  std::array<int, 12> of_edge{};  // edge of the cell: 4 axis + side; -1 where the surface does not cut it
+  std::array<Vec3, 4> place{};    // [m] mean of the cuts
+  std::array<std::uint32_t, 4> vertex{};
+};
+
+std::size_t edge_of_cell(int axis, int first, int second) {  // `first` along the axis after it, `second` along the one after that
+  return static_cast<std::size_t>(4 * axis + first + 2 * second);
+}
+
+/// Cut edges of a face hang together; where all four are cut, those round each corner that lies inside: what two cells share they
+/// see alike.
+void join_across_face(const Grid& grid, const Grid::Node& a, int normal, int at, std::array<int, 12>& leader) {
+  const int u = (normal + 1) % 3, v = (normal + 2) % 3;
+  auto root = [&](std::size_t e) {
+    while (leader[e] != static_cast<int>(e)) e = static_cast<std::size_t>(leader[e]);
+    return e;
+  };
+  auto along_u = [&](int w) { return edge_of_cell(u, w, at); };  // the axes after u: v, normal
+  auto along_v = [&](int w) { return edge_of_cell(v, at, w); };  // the axes after v: normal, u
+  auto inside = [&](int on_u, int on_v) {
+    Grid::Node p = a;
+    p[static_cast<std::size_t>(normal)] += at;
+    p[static_cast<std::size_t>(u)] += on_u;
+    p[static_cast<std::size_t>(v)] += on_v;
+    return grid.value(p) < 0;
+  };
+  const std::array<std::size_t, 4> edges{along_u(0), along_u(1), along_v(0), along_v(1)};
+  const auto cut = std::count_if(edges.begin(), edges.end(), [&](std::size_t e) { return leader[e] >= 0; });
+  if (cut == 2) {
+    std::optional<std::size_t> first;
+    for (const std::size_t e : edges) {
+      if (leader[e] < 0) continue;
+      if (first) leader[root(e)] = static_cast<int>(root(*first));
+      first = e;
+    }
+  } else if (cut == 4) {
+    for (const int on_u : {0, 1})
+      for (const int on_v : {0, 1})
+        if (inside(on_u, on_v)) leader[root(along_u(on_v))] = static_cast<int>(root(along_v(on_u)));
+  }
+}
+
+Sheets sheets_of(const Grid& grid, const Grid::Node& a) {
+  std::array<int, 12> leader{};
+  std::array<Vec3, 12> place{};
   for (int axis = 0; axis < 3; ++axis)
     for (int side = 0; side < 4; ++side) {
       Grid::Node p = a, q;
@@ -62,26 +121,46 @@ bool cell_vertex(const Grid& grid, const Grid::Node& a, Vec3& out) {
       q = p;
       ++q[static_cast<std::size_t>(axis)];
       const double u = grid.value(p), v = grid.value(q);
-      if ((u < 0) == (v < 0)) continue;
-      sum += grid.place(p) + u / (u - v) * (grid.place(q) - grid.place(p));
-      ++cuts;
+      const std::size_t e = edge_of_cell(axis, side & 1, side >> 1);
+      const bool cut = (u < 0) != (v < 0);
+      leader[e] = cut ? static_cast<int>(e) : -1;
+      if (cut) place[e] = grid.place(p) + u / (u - v) * (grid.place(q) - grid.place(p));
     }
-  if (cuts > 0) out = sum / cuts;
-  return cuts > 0;
+  for (int normal = 0; normal < 3; ++normal)
+    for (const int at : {0, 1}) join_across_face(grid, a, normal, at, leader);
+  Sheets out;
+  std::array<int, 4> cuts{};
+  for (std::size_t e = 0; e < 12; ++e) {
+    out.of_edge[e] = -1;
+    if (leader[e] == static_cast<int>(e)) out.of_edge[e] = out.count++;
+  }
+  for (std::size_t e = 0; e < 12; ++e) {
+    if (leader[e] < 0) continue;
+    std::size_t top = e;
+    while (leader[top] != static_cast<int>(top)) top = static_cast<std::size_t>(leader[top]);
+    out.of_edge[e] = out.of_edge[top];
+    const std::size_t sheet = static_cast<std::size_t>(out.of_edge[e]);
+    out.place[sheet] = cuts[sheet]++ == 0 ? place[e] : Vec3(out.place[sheet] + place[e]);
+  }
+  for (std::size_t k = 0; k < static_cast<std::size_t>(out.count); ++k) out.place[k] /= cuts[k];
+  return out;
 }
 
 Net surface_net(const SkinField& field) {
   const Grid grid(field);
   Net net;
-  std::map<std::size_t, std::uint32_t> known;
-  auto vertex = [&](const Grid::Node& cell) {
-    const auto [at, fresh] = known.emplace(grid.index(cell), static_cast<std::uint32_t>(net.vertices.size()));
+  std::map<std::size_t, Sheets> known;
+  auto vertex = [&](const Grid::Node& cell, std::size_t edge) {
+    const auto [at, fresh] = known.try_emplace(grid.index(cell));
+    Sheets& sheets = at->second;
     if (fresh) {
-      Vec3 p = Vec3::Zero();
-      cell_vertex(grid, cell, p);
-      net.vertices.push_back(field.onto_surface(p));
+      sheets = sheets_of(grid, cell);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(sheets.count); ++i) {
+        sheets.vertex[i] = static_cast<std::uint32_t>(net.vertices.size());
+        net.vertices.push_back(field.onto_surface(sheets.place[i]));
+      }
     }
-    return at->second;
+    return sheets.vertex[static_cast<std::size_t>(sheets.of_edge[edge])];
   };
   for (int k = 1; k + 1 < grid.size(2); ++k)
     for (int j = 1; j + 1 < grid.size(1); ++j)
@@ -98,7 +177,7 @@ Net surface_net(const SkinField& field) {
             Grid::Node cell = p;
             cell[static_cast<std::size_t>((axis + 1) % 3)] += kAround[c][0];
             cell[static_cast<std::size_t>((axis + 2) % 3)] += kAround[c][1];
-            corner[c] = vertex(cell);
+            corner[c] = vertex(cell, edge_of_cell(axis, -kAround[c][0], -kAround[c][1]));
           }
           if (!from_inside) std::swap(corner[1], corner[3]);
           net.triangles.push_back({corner[0], corner[1], corner[2]});
@@ -135,19 +214,12 @@ class Wardrobe {
       double& d = out[static_cast<std::size_t>(of_segment_[i])];
       d = std::min(d, each[i]);
     }
-    if (head_) out.back() = each[*head_] - hair(field_.poses()[*head_].inverse() * x);
+    if (head_) out.back() = each[*head_] - beyond_hairline(field_.poses()[*head_].inverse() * x, head_axes_);
     return out;
   }
   const std::vector<Material>& materials() const { return materials_; }
 
  private:
-  /// [m] grows from the hairline into the hair, which is high over the face and low at the neck. x in the head's axes: x forward, z
-  /// up.
-  double hair(const Vec3& x) const {
-    constexpr double kHairline = 0.08, kRise = 0.62;  // [-] of the head's height over its middle; from back to front
-    return x.z() - head_axes_.z() * (kHairline + kRise * x.x() / head_axes_.x());
-  }
-
   const SkinField& field_;
   std::vector<Material> materials_;
   std::vector<int> of_segment_;
@@ -200,15 +272,22 @@ std::vector<std::vector<Triangle>> dressed(Net& net, const Wardrobe& wardrobe, c
   return out;
 }
 
-/// The nearest segment and those that hang on it, by how near they are.
+/// Is `ancestor` the segment itself, what it hangs on, or what that hangs on? So far a short neck between torso and head shares.
+bool hangs_on(const SkinField& field, std::size_t segment, std::size_t ancestor) {
+  int at = static_cast<int>(segment);
+  for (int up = 0; up < 3 && at >= 0; ++up, at = field.parent(static_cast<std::size_t>(at)))
+    if (at == static_cast<int>(ancestor)) return true;
+  return false;
+}
+
+/// The nearest segment and those it hangs on or that hang on it, by how near they are.
 std::array<Skin::Weight, Skin::kWeights> weights_at(const SkinField& field, const Vec3& x) {
   std::vector<double> distances;
   field.at(x, distances);
   const std::size_t nearest = static_cast<std::size_t>(std::min_element(distances.begin(), distances.end()) - distances.begin());
   std::vector<Skin::Weight> all;
   for (std::size_t i = 0; i < distances.size(); ++i) {
-    const bool neighbour =
-        i == nearest || field.parent(i) == static_cast<int>(nearest) || field.parent(nearest) == static_cast<int>(i);
+    const bool neighbour = hangs_on(field, i, nearest) || hangs_on(field, nearest, i);
     const double near = 1 - (distances[i] - distances[nearest]) / kReach;
     if (neighbour && near > 0) all.push_back({static_cast<int>(i), static_cast<float>(near * near * (3 - 2 * near))});
   }

@@ -12,24 +12,10 @@ constexpr double kLeg = 0.30;           // [rad]
 constexpr double kFillet = 0.7;         // [-] of the thinner segment's girth
 constexpr double kWidestFillet = 0.05;  // [m]
 constexpr double kBall = 0.93;          // [-] of the thinner segment's girth
-constexpr double kFar = 0.15;           // [m] beyond this the ball around a segment stands for it
+constexpr double kShoulderBall = 0.60;  // [-] where an arm begins
 
 double girth(const engine::HyperEllipsoid& e) {
   return std::min(e.semi_axes.x(), e.semi_axes.y());
-}
-
-/// Along the ray from the centre; exact on the surface and for balls.
-double radial_distance(const engine::HyperEllipsoid& e, const Vec3& x) {
-  const double r = x.norm(), reach = e.semi_axes.maxCoeff() * std::sqrt(3.0);
-  if (r > reach + kFar) return r - reach;
-  if (r < 1e-9) return -e.semi_axes.minCoeff();
-  return r - r / engine::gauge(e, x);
-}
-
-/// Minimum with a fillet of width k (I. Quilez, polynomial form).
-double smooth_minimum(double a, double b, double k) {
-  const double h = std::max(k - std::abs(a - b), 0.0) / k;
-  return std::min(a, b) - 0.25 * h * h * k;
 }
 
 }  // namespace
@@ -50,19 +36,29 @@ SkinField::SkinField(const PersonActor& person) : person_(person), X_MS_(person.
       Pose& X = X_MS_[i];
       X.q = X_MS_[p].q;
       // a limb that hangs from the upper half of its parent is an arm
-      if (std::abs(s.joint_P.y()) > kLateral && joint_S.z() > 0)
+      const bool limb = std::abs(s.joint_P.y()) > kLateral && joint_S.z() > 0;
+      if (limb)
         X.q = X.q * engine::Quat(Eigen::AngleAxisd(std::copysign(s.joint_P.z() > 0 ? kArm : kLeg, s.joint_P.y()), Vec3::UnitX()));
       X.p = joint_M - X.q * joint_S;
       const double thin = std::min(girth(s.shape), girth(parent.shape));
-      joints_.push_back({p, i, joint_M, kBall * thin, std::min(kFillet * thin, kWidestFillet)});
+      joints_.push_back(
+          {p, i, joint_M, (limb && s.joint_P.z() > 0 ? kShoulderBall : kBall) * thin, std::min(kFillet * thin, kWidestFillet)});
     }
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const Pose X_SM = X_MS_[i].inverse();
+    const bool mirrored = segments[i].name.find("right_") != std::string::npos;
+    looks_.push_back({anatomy_of(segments[i].name), mirrored, X_SM.q.toRotationMatrix(), X_SM.p});
+  }
 }
 
 double SkinField::at(const Vec3& x, std::vector<double>& distances) const {
   distances.resize(X_MS_.size());
   double least = 1e9;
   for (std::size_t i = 0; i < X_MS_.size(); ++i) {
-    distances[i] = radial_distance(person_.segments[i].shape, X_MS_[i].inverse() * x);
+    const engine::HyperEllipsoid& shape = person_.segments[i].shape;
+    const Look& look = looks_[i];
+    const Vec3 x_S = look.R_SM * x + look.p_SM;
+    distances[i] = look.anatomy ? anatomical_distance(*look.anatomy, shape, look.mirrored, x_S) : radial_distance(shape, x_S);
     least = std::min(least, distances[i]);
   }
   for (const Joint& j : joints_) {
@@ -70,6 +66,14 @@ double SkinField::at(const Vec3& x, std::vector<double>& distances) const {
     least = std::min(least, smooth_minimum(both, (x - j.centre).norm() - j.radius, j.blend));
   }
   return least;
+}
+
+double SkinField::clearance(const Vec3& x) const {
+  constexpr double kBeyond = 0.09;  // [m] beyond the box of a part: what anatomy and fillets put on
+  double least = 1e9;
+  for (std::size_t i = 0; i < looks_.size(); ++i)
+    least = std::min(least, box_distance(person_.segments[i].shape, looks_[i].R_SM * x + looks_[i].p_SM));
+  return least - kBeyond;
 }
 
 Vec3 SkinField::gradient(const Vec3& x) const {

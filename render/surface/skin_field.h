@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render/stage.h"
+#include "render/surface/anatomy.h"
 
 namespace render {
 
@@ -14,6 +15,8 @@ class SkinField {
   /// [m], zero on the surface, grows along rays from the segments' centres; `distances` gets that to each segment alone.
   double at(const Vec3&, std::vector<double>& distances) const;
   Vec3 gradient(const Vec3&) const;
+  /// [m] within which of x there is certainly no surface; negative: nothing is known.
+  double clearance(const Vec3&) const;
   Vec3 normal(const Vec3&) const;
   /// The point of the surface near x.
   Vec3 onto_surface(Vec3 x) const;
@@ -31,7 +34,15 @@ class SkinField {
     double blend;   // [m] width of the fillet
   };
 
+  struct Look {
+    const Anatomy* anatomy;
+    bool mirrored;
+    engine::Mat3 R_SM;
+    Vec3 p_SM;
+  };
+
   const PersonActor& person_;
+  std::vector<Look> looks_;
   std::vector<Pose> X_MS_;
   std::vector<Joint> joints_;
 };

@@ -9,7 +9,7 @@
 namespace render {
 namespace {
 
-/// Trunk, an upper arm at its side, a forearm below: upright, as figures are written.
+/// Trunk, a limb at its side, another below: upright, as figures are written; by names that have no anatomy of their own.
 PersonActor figure() {
   PersonActor p;
   p.look = PersonLook::skin;
@@ -24,8 +24,8 @@ PersonActor figure() {
     p.segments.push_back(s);
   };
   segment("trunk", -1, Vec3::Zero(), {0.11, 0.16, 0.25}, {0, 0, 1.25}, 0.5f);
-  segment("upper_arm", 0, {0, 0.18, 0.17}, {0.05, 0.05, 0.155}, {0, 0.2, 1.3}, 0.5f);
-  segment("forearm", 1, {0, 0, -0.13}, {0.04, 0.04, 0.2}, {0, 0.2, 0.99}, 0.9f);
+  segment("limb", 0, {0, 0.18, 0.17}, {0.05, 0.05, 0.155}, {0, 0.2, 1.3}, 0.5f);
+  segment("far_limb", 1, {0, 0, -0.13}, {0.04, 0.04, 0.2}, {0, 0.2, 0.99}, 0.9f);
   return p;
 }
 
