@@ -188,6 +188,34 @@ TEST(Rk4, IsOfFourthOrderWithJointSpringsAndDampers) {
   EXPECT_NEAR(std::log2(coarse / fine), 4, 0.3);
 }
 
+TEST(CompliantJoint, HasTheFrictionOfTheStepThatWasTaken) {
+  // two parts on a joint with dry friction fall on a corner: events end steps anywhere inside, and friction must act over what is
+  // left
+  for (const Scheme scheme : {Scheme::rk4, Scheme::adaptive}) {
+    Model model = on_ground(0.5);
+    model.settings.contact_law = ContactLaw::compliant;
+    model.settings.scheme = scheme;
+    model.bodies = {solid({{0.15, 0.05, 0.05}, 2.5}, 3, {0, 0, 0.4}), solid({{0.15, 0.04, 0.04}, 2.5}, 1, {0.28, 0, 0.4})};
+    model.bodies[1].name = "far";
+    for (Body& body : model.bodies) body.V_WB.v = {2, 0, -3};
+    model.joints = {joint_at(model, JointKind::ragdoll, 0, 1, {0.14, 0, 0.4})};
+    model.bodies[0].V_WB.w = {0, 4, 1};
+    model.bodies[1].V_WB.w = {0, 4, 1};
+    model.bodies[1].V_WB.v += Vec3(0, 4, 1).cross(Vec3(0.28, 0, 0));
+    for (ArticulationAngle& a : model.joints[0].angles) a.friction_torque = 1;
+    const Recording run = simulate(model);
+    double kinetic = run.snapshots.front().energies.kinetic, residual = 0, taken = 0;
+    for (const Snapshot& s : run.snapshots) residual = std::max(residual, std::abs(s.energies.residual));
+    for (std::size_t e = 0; e < run.costs.size(); ++e)
+      if (run.costs[e].effect == "joint_resistance") taken = run.snapshots.back().energies.dissipated[e];
+    RecordProperty("residual", std::to_string(residual / kinetic));
+    RecordProperty("taken", std::to_string(taken));
+    EXPECT_LT(residual, 0.02 * kinetic);
+    EXPECT_GT(taken, 0);
+    EXPECT_LT(taken, 0.5 * kinetic);
+  }
+}
+
 TEST(HeadInjury, IsMeasuredWithTheCompliantLaw) {
   // a head-like ball against a wall-less world cannot be struck: the series itself is tested, sample by sample against dv/dt
   Model model = dropped(0.5, Scheme::rk4, 1e-4);
