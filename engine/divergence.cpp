@@ -29,9 +29,13 @@ double energy_of(const World& world, const State& state) {
 }  // namespace
 
 int lost_body(const State& state) {
+  // what has no square is none either, and is noticed before a product makes it so
+  constexpr double kSquarable = 1e100;
+  const auto is_number = [](const Vec3& v) { return v.cwiseAbs().maxCoeff() < kSquarable; };
   for (std::size_t b = 0; b < state.X_WB.size(); ++b) {
-    const bool found = state.X_WB[b].p.allFinite() && state.X_WB[b].q.coeffs().allFinite() && state.V_WB[b].v.allFinite() &&
-                       state.V_WB[b].w.allFinite();
+    const bool found = state.X_WB[b].p.allFinite() && state.V_WB[b].v.allFinite() && state.V_WB[b].w.allFinite() &&
+                       is_number(state.X_WB[b].p) && is_number(state.V_WB[b].v) && is_number(state.V_WB[b].w) &&
+                       std::abs(state.X_WB[b].q.squaredNorm() - 1) < 1e-3;
     if (!found) return static_cast<int>(b);
   }
   return -1;

@@ -10,7 +10,8 @@ namespace engine {
 
 inline constexpr const char* kNotANumber = "its motion is no longer a number; a smaller step or other properties may help";
 
-/// The first body with a place, attitude or velocity that is not a finite number; -1: none.
+/// The first body with a place or velocity that is not a finite number or not one that can be squared, or with an attitude that is
+/// no rotation; -1: none.
 int lost_body(const State&);
 
 /// Failure of `body` in the step that ends at `time`: the effect is the one whose constraint pushed it hardest; where none

@@ -90,5 +90,21 @@ TEST(Divergence, OfEnergyOutOfNowhereIsNoticed) {
   EXPECT_FALSE(watch.look(world, state).has_value());
 }
 
+TEST(LostBody, HasNumbersThatCannotBeReckonedWith) {
+  const auto lost = [](auto change) {
+    State state;
+    state.X_WB.resize(2);
+    state.V_WB.resize(2);
+    change(state.X_WB[1], state.V_WB[1]);
+    return lost_body(state);
+  };
+  EXPECT_EQ(lost([](Pose&, Twist&) {}), -1);
+  EXPECT_EQ(lost([](Pose& X, Twist&) { X.p.y() = std::nan(""); }), 1);
+  EXPECT_EQ(lost([](Pose& X, Twist&) { X.q.coeffs().setZero(); }), 1);
+  EXPECT_EQ(lost([](Pose& X, Twist&) { X.q.x() = std::nan(""); }), 1);
+  EXPECT_EQ(lost([](Pose&, Twist& V) { V.v.z() = 1e200; }), 1);
+  EXPECT_EQ(lost([](Pose&, Twist& V) { V.w.x() = -INFINITY; }), 1);
+}
+
 }  // namespace
 }  // namespace engine
