@@ -38,7 +38,7 @@ void add_ellipsoid(DrawList& list, const engine::HyperEllipsoid& shape, const Po
 }
 
 void add_person(DrawList& list, const PersonActor& person, const engine::Snapshot& now) {
-  if (person.look == PersonLook::skin && person.skin) {
+  if (person.look == PersonLook::skin) {
     list.skins.push_back(bent_skin(person, now));
     return;
   }
@@ -127,8 +127,8 @@ SkinItem bent_skin(const PersonActor& person, const engine::Snapshot& now) {
   std::vector<Pose> X_WS;
   for (const PersonActor::Segment& s : person.segments) X_WS.push_back(now.bodies[static_cast<std::size_t>(s.body)].X_WB);
   SkinItem item;
-  item.topology = person.skin->mesh;
-  bend_skin(*person.skin, X_WS, item.positions, item.normals);
+  item.topology = person.skin()->mesh;
+  bend_skin(*person.skin(), X_WS, item.positions, item.normals);
   return item;
 }
 

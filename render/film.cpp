@@ -221,6 +221,8 @@ FilmCost make_film(const Stage& stage, const engine::Recording& recording, const
   refuse_existing(job, moments);
   const int frames = static_cast<int>(moments.size());
   if (frames == 0) throw RenderError("there is no frame to draw: check --from, --to and --frames against the length of the film");
+  for (const PersonActor& person : stage.persons)
+    if (person.look == PersonLook::skin) person.skin();
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const int workers = std::min(job.workers > 0 ? job.workers : cores, frames);
   const int slots = 2 * workers;

@@ -94,10 +94,14 @@ struct PersonActor {
   std::string name;
   PersonLook look = PersonLook::segments;
   std::vector<Segment> segments;
-  std::shared_ptr<const Skin> skin;  // of look `skin`; null draws the segments
+
+  /// For look `skin`: built when a picture first shows it, as it costs more than a short run, and shared by the actor's copies.
+  /// Call it before work is split among processes.
+  const std::shared_ptr<const Skin>& skin() const;
+  std::shared_ptr<std::shared_ptr<const Skin>> built_skin = std::make_shared<std::shared_ptr<const Skin>>();
 };
 
-/// One closed surface over the segments that bends at the joints: built once, for look `skin`.
+/// One closed surface over the segments that bends at the joints.
 std::shared_ptr<const Skin> build_skin(const PersonActor&);
 
 /// A picture that lies on the ground, an aerial photograph or a drawing to scale. Square texels.

@@ -46,7 +46,7 @@ void add(const Frame& frame, DrawList& list) {
   for (const PersonActor& person : frame.stage.persons) {
     if (person.segments.empty()) continue;
     const std::vector<const engine::Snapshot*> when = instants(frame, person.segments.front().body);
-    if (person.look == PersonLook::skin && person.skin) {
+    if (person.look == PersonLook::skin) {
       for (const engine::Snapshot* s : when) {
         list.skins.push_back(bent_skin(person, *s));
         for (const Material& m : list.skins.back().topology->materials) list.skins.back().materials.push_back(pale(m));

@@ -308,6 +308,11 @@ void push(std::vector<float>& to, const Vec3& v) {
 
 }  // namespace
 
+const std::shared_ptr<const Skin>& PersonActor::skin() const {
+  if (!*built_skin) *built_skin = build_skin(*this);
+  return *built_skin;
+}
+
 std::shared_ptr<const Skin> build_skin(const PersonActor& person) {
   const SkinField field(person);
   const Wardrobe wardrobe(person, field);

@@ -202,7 +202,6 @@ void add_actor(Builder& builder, const std::string& name, int look, int first_bo
     segment.parent = j.parent;
     segment.joint_P = j.at - figure.segments[static_cast<std::size_t>(j.parent)].centre;
   }
-  if (actor.look == render::PersonLook::skin) actor.skin = render::build_skin(actor);
   builder.scene.stage.persons.push_back(std::move(actor));
 }
 

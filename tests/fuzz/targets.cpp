@@ -158,10 +158,6 @@ void mesh(std::string_view bytes) {
 }  // namespace fuzz
 
 #ifdef CRASHREEL_FUZZ_TARGET
-// the skin over a figure reads nothing foreign, and costs a hundred times what reading a scene does
-std::shared_ptr<const render::Skin> render::build_skin(const PersonActor&) {
-  return nullptr;
-}
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::CRASHREEL_FUZZ_TARGET({reinterpret_cast<const char*>(data), size});
   return 0;

@@ -42,7 +42,7 @@ class SkinOf : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(SkinOf, IsOneClosedSurface) {
   const Scene scene = person("figure = \"" + std::string(GetParam()) + "\"\n");
-  const auto skin = scene.stage.persons.at(0).skin;
+  const auto skin = scene.stage.persons.at(0).skin();
   ASSERT_TRUE(skin);
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   const auto& indices = skin->mesh->indices;
@@ -68,17 +68,17 @@ TEST_P(SkinOf, LiesOnItsPartsButForFilletsAndHands) {
   const Scene scene = person("figure = \"" + std::string(GetParam()) + "\"\nappearance = \"skin\"\n");
   const render::PersonActor& p = scene.stage.persons.at(0);
   std::vector<float> positions, normals;
-  bend_skin(*p.skin, poses(p), positions, normals);
+  bend_skin(*p.skin(), poses(p), positions, normals);
   double tall = 0;
   for (const auto& s : p.segments) tall = std::max(tall, s.X_WB.p.z() + s.shape.semi_axes.z());
   const double finger = 0.022 / 1.75 * tall;  // [m]
   double worst = 0;
   int all = 0, beyond = 0;
-  for (std::size_t v = 0; v < p.skin->weights.size(); ++v) {
+  for (std::size_t v = 0; v < p.skin()->weights.size(); ++v) {
     // from the nearest of the parts it follows; of forearm and hand one part stands for both
     double distance = 1;
     bool hand = false;
-    for (const render::Skin::Weight& w : p.skin->weights[v]) {
+    for (const render::Skin::Weight& w : p.skin()->weights[v]) {
       if (w.share == 0) continue;
       const auto& s = p.segments[static_cast<std::size_t>(w.segment)];
       hand = hand || s.name.ends_with("forearm") || s.name.ends_with("lower_arm");
@@ -108,8 +108,8 @@ struct Strain {
 
 Strain strain_of(const render::PersonActor& p) {
   std::vector<float> positions, normals;
-  bend_skin(*p.skin, poses(p), positions, normals);
-  const auto& indices = p.skin->mesh->indices;
+  bend_skin(*p.skin(), poses(p), positions, normals);
+  const auto& indices = p.skin()->mesh->indices;
   double area = 0, folded = 0, volume = 0, before = 0;
   for (std::size_t t = 0; t < indices.size(); t += 3) {
     auto corner = [&](const std::vector<float>& from, std::size_t k) { return vertex(from, indices[t + k]); };
@@ -119,7 +119,7 @@ Strain strain_of(const render::PersonActor& p) {
     area += n.norm();
     if (n.dot(outward) < 0) folded += n.norm();
     volume += a.dot(b.cross(c));
-    const auto& built = p.skin->mesh->positions;
+    const auto& built = p.skin()->mesh->positions;
     before += corner(built, 0).dot(corner(built, 1).cross(corner(built, 2)));
   }
   return {folded / area, volume / before};
@@ -129,10 +129,10 @@ Strain strain_of(const render::PersonActor& p) {
 class Bent {
  public:
   explicit Bent(const std::string& figure)
-      : figure_("figure = \"" + figure + "\"\n"), skin_(person(figure_).stage.persons.at(0).skin) {}
+      : figure_("figure = \"" + figure + "\"\n"), skin_(person(figure_).stage.persons.at(0).skin()) {}
   Strain in(const std::string& pose) const {
     render::PersonActor p = person(figure_ + "appearance = \"segments\"\n" + pose).stage.persons.at(0);
-    p.skin = skin_;
+    *p.built_skin = skin_;
     return strain_of(p);
   }
 
