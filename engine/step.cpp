@@ -41,6 +41,7 @@ Stepper::Stepper(World& world)
   if (settings.scheme == Scheme::adaptive) depth_tolerance_ = std::max(10 * settings.adaptive_tolerance, 2 * kSlop);
   if (settings.contact_law != ContactLaw::compliant || settings.scheme == Scheme::stepping) return;
   compliant_.emplace(world.model, [&world](const State& state, double within, std::vector<Constraint>& found) {
+    if (lost_body(state) >= 0) return;  // a stage gone astray: the end of its step will tell
     world.constraints.swap(found);
     const double step = world.step;
     world.step = within;
