@@ -36,13 +36,6 @@ struct SnapshotWish {
   bool quiet = false;
 };
 
-void write_whole(const fs::path& path, const std::string& text) {
-  WholeFile file(path);
-  file.write(text);
-  file.close();
-  file.publish();
-}
-
 /// A report replaces an earlier one, and nothing else. Until it is whole, report.json says that it is not: a check that was stopped
 /// is no pass.
 void prepare_report(const fs::path& folder) {

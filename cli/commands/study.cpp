@@ -32,13 +32,6 @@ struct StudyWish {
   bool overwrite = false;
 };
 
-void write_whole(const std::filesystem::path& file, const std::string& text) {
-  WholeFile whole(file);
-  whole.write(text);
-  whole.close();
-  whole.publish();
-}
-
 /// The five files of one kind of study, and what is said of them.
 struct Report {
   std::string name;  // "study"

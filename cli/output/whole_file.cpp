@@ -62,4 +62,11 @@ void WholeFile::fail(const char* doing) const {
   throw MachineError(fmt::format("{} {}: {}", doing, file_.string(), std::strerror(errno)));
 }
 
+void write_whole(const std::filesystem::path& path, const std::string& text) {
+  WholeFile file(path);
+  file.write(text);
+  file.close();
+  file.publish();
+}
+
 }  // namespace cli

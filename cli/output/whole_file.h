@@ -35,4 +35,7 @@ class WholeFile {
   bool published_ = false;
 };
 
+/// A file of this text and nothing else, whole or not at all.
+void write_whole(const std::filesystem::path&, const std::string& text);
+
 }  // namespace cli
