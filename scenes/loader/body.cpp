@@ -13,7 +13,7 @@ namespace {
 const Key kKeys[] = {
     {"name", Type::text, Dimension::none, kRequired, "Name in every output."},
     {"mass", Type::number, Dimension::mass, "", "Mass; needed unless the body is fixed.", kPositive},
-    {"axes", Type::vector3, Dimension::length, "", "Semi-axes a, b, c of a hyper-ellipsoid, eq. (60).", kPositive},
+    {"axes", Type::vector3, Dimension::length, "", "Semi-axes a, b, c of a hyper-ellipsoid, eq. (60).", kExtent},
     {"exponent",
      Type::number,
      Dimension::none,

@@ -15,7 +15,7 @@ const Key kSegmentKeys[] = {
     {"name", Type::text, Dimension::none, kRequired, "Name of the part; with sides it becomes left_NAME and right_NAME."},
     {"sides", Type::boolean, Dimension::none, "false", "Given for the left side; the right one is its mirror image."},
     {"centre", Type::vector3, Dimension::length, kRequired, "Centre when standing, x forward, y left, z above the soles."},
-    {"axes", Type::vector3, Dimension::length, kRequired, "Semi-axes.", kPositive},
+    {"axes", Type::vector3, Dimension::length, kRequired, "Semi-axes.", kExtent},
     {"exponent", Type::number, Dimension::none, "2", "Exponent n.", between(2, 100), {}, nullptr, "a hyper-ellipsoid needs n >= 2"},
     {"mass_male", Type::numbers, Dimension::none, "",
      "[b0, b1, b2]: mass in kg = b0 + b1 mass/kg + b2 stature/cm; all parts are then scaled to the person's mass."},

@@ -48,7 +48,7 @@ const Key kShotKeys[] = {
     {"from", Type::number, Dimension::time, "'0 s'", "Simulated time at its start.", kNotNegative},
     {"to", Type::number, Dimension::time, "", "Simulated time at its end; left out: the end of the run.", kNotNegative},
     {"speed", Type::number, Dimension::none, "1", "0.25 is four times slow motion, 0 freezes for hold.", kNotNegative},
-    {"hold", Type::number, Dimension::time, "'0 s'", "How long a frozen picture stays.", kNotNegative},
+    {"hold", Type::number, Dimension::time, "'0 s'", "How long a frozen picture stays.", between(0, kLongestHold)},
     {"layout", Type::choice, Dimension::none, "'single'",
      "One camera; two side by side; two above each other; or the second small in a corner of the first. One clock for both.", kAny,
      "single|split|stacked|inset"},
@@ -59,7 +59,7 @@ const Key kShotKeys[] = {
 const Key kCardKeys[] = {
     {"title", Type::text, Dimension::none, kRequired, "Its heading."},
     {"lines", Type::texts, Dimension::none, "[]", "What stands below: assumptions, sources, results."},
-    {"hold", Type::number, Dimension::time, "'3 s'", "How long it stays.", kPositive},
+    {"hold", Type::number, Dimension::time, "'3 s'", "How long it stays.", Range{0, kLongestHold, true}},
     {"place", Type::choice, Dimension::none, "'start'", "Before the first shot or after the last.", kAny, "start|end"},
 };
 

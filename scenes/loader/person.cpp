@@ -11,7 +11,7 @@ namespace scenes {
 namespace {
 
 const Key kSegmentKeys[] = {
-    {"axes", Type::vector3, Dimension::length, "", "Semi-axes.", kPositive},
+    {"axes", Type::vector3, Dimension::length, "", "Semi-axes.", kExtent},
     {"exponent", Type::number, Dimension::none, "", "Exponent n.", between(2, 100), {}, nullptr, "a hyper-ellipsoid needs n >= 2"},
     {"mass", Type::number, Dimension::mass, "", "Mass; the other parts keep theirs.", kPositive},
     {"inertia", Type::inertia, Dimension::inertia, "", "About the part's centre, in its axes."},

@@ -48,6 +48,10 @@ constexpr Range at_least(double lower) {
 constexpr Range between(double lower, double upper) {
   return {lower, upper};
 }
+/// [m] Semi-axes: thinner or longer things take no part in an accident, and their moments of inertia could not be reckoned with.
+constexpr Range kExtent = between(1e-4, 1e3);
+/// [s] How long a picture may stay: what is longer is a slip, and would fill any disk.
+constexpr double kLongestHold = 3600;
 
 struct Section;
 
