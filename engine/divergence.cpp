@@ -29,14 +29,14 @@ double energy_of(const World& world, const State& state) {
 }  // namespace
 
 int lost_body(const State& state) {
-  // what has no square is none either, and is noticed before a product makes it so
-  constexpr double kSquarable = 1e100;
-  const auto is_number = [](const Vec3& v) { return v.cwiseAbs().maxCoeff() < kSquarable; };
+  // what has no square is no number either, and is noticed before a product makes it so; of NaN the comparison is false
+  static constexpr double kSquarable = 1e100;
+  const auto is_number = [](const Vec3& v) { return (v.array().abs() < kSquarable).all(); };
   for (std::size_t b = 0; b < state.X_WB.size(); ++b) {
-    const bool found = state.X_WB[b].p.allFinite() && state.V_WB[b].v.allFinite() && state.V_WB[b].w.allFinite() &&
-                       is_number(state.X_WB[b].p) && is_number(state.V_WB[b].v) && is_number(state.V_WB[b].w) &&
-                       std::abs(state.X_WB[b].q.squaredNorm() - 1) < 1e-3;
-    if (!found) return static_cast<int>(b);
+    const Pose& X = state.X_WB[b];
+    const Twist& V = state.V_WB[b];
+    if (!is_number(X.p) || !is_number(V.v) || !is_number(V.w) || !(std::abs(X.q.squaredNorm() - 1) < 1e-3))
+      return static_cast<int>(b);
   }
   return -1;
 }

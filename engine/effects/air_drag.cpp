@@ -28,8 +28,7 @@ constexpr SceneKey kKeys[] = {
     {"drag", "", 1, "1.2", "Drag coefficient of persons and free bodies, each segment by its own section.", 0},
     {"vehicle_drag", "", 3, "[0.3, 0.8, 1]",
      "Drag coefficients of a mesh along its length, width and height, by the sides of its box: those of a saloon car; a van has "
-     "0.4 "
-     "along its length, a bus 0.6, a truck 0.8.",
+     "0.4 along its length, a bus 0.6, a truck 0.8.",
      0},
 };
 
