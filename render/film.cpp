@@ -4,6 +4,7 @@
 #include "render/film.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <semaphore.h>
 #include <signal.h>
 #include <sys/mman.h>
@@ -29,7 +30,8 @@
 namespace render {
 namespace {
 
-constexpr int kDeathsAllowed = 3;  // of one worker at one frame
+constexpr int kKeptPieces = 32 << 20, kKept = 256 << 20;  // [bytes] the most the C library allows; of a worker
+constexpr int kDeathsAllowed = 3;                         // of one worker at one frame
 
 /// Sleeps until somebody posts, at most 10 ms: who posts may be dead. Between processes, in shared memory.
 void sleep_on(sem_t& bell) {
@@ -114,6 +116,9 @@ FrameCost draw_frame(const Job& j, Painter& painter, Image& image, int i) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(4);  // the parent died before the line above could bind us to it
   setenv("LP_NUM_THREADS", "0", 1);
+  // lists and pictures come and go with each frame: their memory stays, else each page is cleared anew
+  mallopt(M_MMAP_THRESHOLD, kKeptPieces);
+  mallopt(M_TRIM_THRESHOLD, kKept);
   int at = first;
   try {
     Painter painter(j.job.width, j.job.height, j.job.quality);

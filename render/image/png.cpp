@@ -1,7 +1,6 @@
 #include "render/image/png.h"
 
 #include <png.h>
-#include <zlib.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "render/error.h"
+#include "render/image/deflate.h"
 #include "render/publish.h"
 
 namespace render {
@@ -53,9 +53,38 @@ void refuse_what_the_file_cannot_hold(png_structp png, png_infop info, const std
 }
 
 bool is_opaque(const Image& image) {
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4)
-    if (image.rgba[i] != 255) return false;
-  return true;
+  unsigned all = 255;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) all &= image.rgba[i];
+  return all == 255;
+}
+
+/// Rows with the filter Sub: each byte less its left neighbour's of the same channel.
+template <std::size_t kChannels>
+std::vector<std::uint8_t> left_differences(const Image& image) {
+  const std::size_t width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
+  std::vector<std::uint8_t> out((1 + kChannels * width) * height);
+  std::uint8_t* to = out.data();
+  const std::uint8_t* from = image.rgba.data();
+  for (std::size_t y = 0; y < height; ++y) {
+    *to++ = 1;
+    for (std::size_t x = 0; x < width; ++x, from += 4, to += kChannels)
+      for (std::size_t c = 0; c < kChannels; ++c) to[c] = static_cast<std::uint8_t>(x == 0 ? from[c] : from[c] - *(from + c - 4));
+  }
+  return out;
+}
+
+void write_pixels_fast(png_structp png, const Image& image, bool opaque) {
+  const std::vector<std::uint8_t> stream = deflate_runs(opaque ? left_differences<3>(image) : left_differences<4>(image));
+  png_write_chunk(png, reinterpret_cast<png_const_bytep>("IDAT"), stream.data(), stream.size());
+  png_write_chunk(png, reinterpret_cast<png_const_bytep>("IEND"), nullptr, 0);
+}
+
+void write_pixels_small(png_structp png, const Image& image, bool opaque) {
+  if (opaque) png_set_filler(png, 0, PNG_FILLER_AFTER);
+  const std::size_t row = 4 * static_cast<std::size_t>(image.width);
+  for (int y = 0; y < image.height; ++y)
+    png_write_row(png, const_cast<png_bytep>(image.rgba.data() + row * static_cast<std::size_t>(y)));
+  png_write_end(png, nullptr);
 }
 
 }  // namespace
@@ -69,13 +98,11 @@ void write_png(const std::filesystem::path& path, const Image& image, const Text
   png_infop info = png_create_info_struct(png);
   try {
     png_init_io(png, file.get());
-    const bool small = effort == PngEffort::small;
-    const bool drop_alpha = small && is_opaque(image);
-    png_set_compression_level(png, small ? 9 : 1);
-    png_set_compression_strategy(png, small ? Z_DEFAULT_STRATEGY : Z_RLE);
-    png_set_filter(png, 0, small ? PNG_ALL_FILTERS : PNG_FILTER_SUB);
+    const bool opaque = is_opaque(image);
+    png_set_compression_level(png, 9);
+    png_set_filter(png, 0, PNG_ALL_FILTERS);
     png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
-                 drop_alpha ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     std::vector<png_text> chunks;
@@ -89,11 +116,7 @@ void write_png(const std::filesystem::path& path, const Image& image, const Text
     }
     if (!chunks.empty()) png_set_text(png, info, chunks.data(), static_cast<int>(chunks.size()));
     png_write_info(png, info);
-    if (drop_alpha) png_set_filler(png, 0, PNG_FILLER_AFTER);
-    for (int y = 0; y < image.height; ++y)
-      png_write_row(
-          png, const_cast<png_bytep>(image.rgba.data() + static_cast<std::size_t>(4 * image.width) * static_cast<std::size_t>(y)));
-    png_write_end(png, info);
+    (effort == PngEffort::small ? write_pixels_small : write_pixels_fast)(png, image, opaque);
     png_destroy_write_struct(&png, &info);
     if (std::fclose(file.release()) != 0) throw RenderError(what + ": " + std::strerror(errno));
     publish(part, path);

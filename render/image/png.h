@@ -11,8 +11,8 @@ namespace render {
 
 using TextChunks = std::map<std::string, std::string>;
 
-/// Frames are written fast; pictures that are kept in a repository, small (the same pixels, a few times the effort; without alpha
-/// where all is opaque).
+/// Frames are written fast; pictures that are kept in a repository, small: the same pixels at many times the effort. Both leave out
+/// alpha where all is opaque.
 enum class PngEffort { fast, small };
 
 /// Writes PATH.part and renames it when whole. Throws RenderError with the path and the reason.
