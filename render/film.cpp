@@ -20,11 +20,14 @@
 #include <ctime>
 #include <new>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include "render/error.h"
 #include "render/image/png.h"
 #include "render/painter.h"
+#include "render/parallel.h"
+#include "render/surface/skin.h"
 #include "render/video/encoder.h"
 
 namespace render {
@@ -188,6 +191,19 @@ class Workers {
   std::vector<pid_t> pids_;
 };
 
+/// What every worker would have to build by itself.
+void prepare(const Stage& stage) {
+  for (const PersonActor& person : stage.persons)
+    if (person.look == PersonLook::skin) person.skin();
+  std::set<const Mesh*> meshes;
+  for (const MeshActor& actor : stage.meshes) meshes.insert(actor.mesh.get());
+  for (const WheelActor& actor : stage.wheels) meshes.insert(actor.mesh.get());
+  for (const PersonActor& person : stage.persons)
+    if (person.look == PersonLook::skin) meshes.insert(person.skin()->mesh.get());
+  const std::vector<const Mesh*> all(meshes.begin(), meshes.end());
+  in_parallel(all.size(), [&all](std::size_t i) { all[i]->levels(); });
+}
+
 void refuse_existing(const FilmJob& job, const std::vector<Moment>& moments) {
   if (job.overwrite) return;
   std::vector<std::string> paths;
@@ -226,8 +242,7 @@ FilmCost make_film(const Stage& stage, const engine::Recording& recording, const
   refuse_existing(job, moments);
   const int frames = static_cast<int>(moments.size());
   if (frames == 0) throw RenderError("there is no frame to draw: check --from, --to and --frames against the length of the film");
-  for (const PersonActor& person : stage.persons)
-    if (person.look == PersonLook::skin) person.skin();
+  prepare(stage);
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const int workers = std::min(job.workers > 0 ? job.workers : cores, frames);
   const int slots = 2 * workers;

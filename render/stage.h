@@ -48,7 +48,9 @@ struct Mesh {
     std::vector<std::uint32_t> indices;
     std::vector<Part> parts;
   };
-  std::vector<Level> levels;
+  /// Made when a picture first shows the mesh, as it costs more than a short run. Call it before work is split among processes.
+  const std::vector<Level>& levels() const;
+  mutable std::optional<std::vector<Level>> made_levels{};
 };
 
 /// Something that moves with one body of the Recording.

@@ -20,12 +20,9 @@ void draw_tiles(const TileMap& tiles, const shade::FrameData& data, const shade:
 
 }  // namespace
 
-void BackgroundPass::draw(Studio& studio, const DrawList& list, const FrameSetup& frame, const DepthPyramid& depth,
-                          const shade::FrameData& data, const shade::Maps& maps) {
-  const Targets& targets = studio.targets;
-  const std::size_t bytes = 4 * static_cast<std::size_t>(targets.width) * static_cast<std::size_t>(targets.height);
-  canvas_.resize(bytes);
-  const shade::Canvas canvas{canvas_.data(), targets.width};
+void BackgroundPass::draw(const DrawList& list, const FrameSetup& frame, const DepthPyramid& depth, const shade::FrameData& data,
+                          const shade::Maps& maps, const shade::Canvas& canvas, int height) {
+  const std::size_t bytes = 4 * static_cast<std::size_t>(canvas.width) * static_cast<std::size_t>(height);
   if (picture_ != list.road.picture) {
     picture_ = list.road.picture;
     kept_ = last_ = std::nullopt;
@@ -33,19 +30,16 @@ void BackgroundPass::draw(Studio& studio, const DrawList& list, const FrameSetup
   // kept from the second equal frame on: a moving camera pays for no copy
   if (last_ && same_background(*last_, frame.block) && !(kept_ && same_background(*kept_, frame.block))) {
     bare_.resize(bytes);
-    draw_tiles(lay_tiles(frame, list.road, depth, Shade::none, targets.width, targets.height), data, maps,
-               {bare_.data(), targets.width});
+    draw_tiles(lay_tiles(frame, list.road, depth, Shade::none, canvas.width, height), data, maps, {bare_.data(), canvas.width});
     kept_ = frame.block;
   }
   last_ = frame.block;
-  TileMap tiles = lay_tiles(frame, list.road, depth, Shade::cast, targets.width, targets.height);
+  TileMap tiles = lay_tiles(frame, list.road, depth, Shade::cast, canvas.width, height);
   if (kept_ && same_background(*kept_, frame.block)) {
-    std::copy(bare_.begin(), bare_.end(), canvas_.begin());
+    std::copy_n(bare_.begin(), bytes, canvas.pixels);
     std::erase_if(tiles, [](const auto& t) { return t.first.sun == Sun::bare; });
   }
   draw_tiles(tiles, data, maps, canvas);
-  glBindTexture(GL_TEXTURE_2D, *targets.picture_colour);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, targets.width, targets.height, GL_RGBA, GL_UNSIGNED_BYTE, canvas_.data());
 }
 
 }  // namespace render::gl

@@ -10,48 +10,41 @@
 namespace render::gl {
 namespace {
 
-// position and normal interleaved
-constexpr GLsizei kStride = 6 * sizeof(float);
-
 void set_vertices(Geometry& g, const std::vector<float>& positions, const std::vector<float>& normals) {
-  std::vector<float> data;
-  data.reserve(positions.size() * 2);
-  g.lower = {1e30f, 1e30f, 1e30f};
-  g.upper = {-1e30f, -1e30f, -1e30f};
-  for (std::size_t v = 0; v + 2 < positions.size(); v += 3) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      g.lower[i] = std::min(g.lower[i], positions[v + i]);
-      g.upper[i] = std::max(g.upper[i], positions[v + i]);
+  const std::size_t count = positions.size() / 3;
+  g.count = static_cast<int>(count);
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::vector<float>&p = g.vertices[i], &n = g.vertices[3 + i];
+    p.assign(count + 7, 0.0f);
+    n.assign(count + 7, 0.0f);
+    for (std::size_t v = 0; v < count; ++v) {
+      p[v] = positions[3 * v + i];
+      n[v] = normals[3 * v + i];
     }
-    for (const auto* part : {&positions, &normals}) data.insert(data.end(), {(*part)[v], (*part)[v + 1], (*part)[v + 2]});
-  }
-  glBindVertexArray(*g.array);
-  glBindBuffer(GL_ARRAY_BUFFER, *g.vertices);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data.size() * sizeof(float)), data.data(), GL_STATIC_DRAW);
-  for (GLuint i = 0; i < 2; ++i) {
-    glEnableVertexAttribArray(i);
-    glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, kStride, reinterpret_cast<const void*>(std::size_t{i} * 3 * sizeof(float)));
+    g.lower[i] = 1e30f;
+    g.upper[i] = -1e30f;
+    for (std::size_t v = 0; v < count; ++v) {
+      g.lower[i] = std::min(g.lower[i], p[v]);
+      g.upper[i] = std::max(g.upper[i], p[v]);
+    }
   }
 }
 
-void set_indices(Geometry& g, const std::vector<std::uint32_t>& indices) {
+void set_indices(Geometry& g, std::vector<std::uint32_t> indices) {
   g.levels = {{0, {{0, static_cast<std::uint32_t>(indices.size()), 0}}}};
-  glBindVertexArray(*g.array);
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, *g.indices);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
-               GL_STATIC_DRAW);
+  g.indices = std::move(indices);
 }
 
 /// All levels of the mesh, one behind the other.
 void set_levels(Geometry& g, const Mesh& mesh) {
   std::vector<std::uint32_t> indices = mesh.indices;
   std::vector<Geometry::Level> levels{{0, parts_of(mesh)}};
-  for (const Mesh::Level& coarse : mesh.levels.empty() ? coarser_levels(mesh) : mesh.levels) {
+  for (const Mesh::Level& coarse : mesh.levels()) {
     levels.push_back({coarse.tolerance, coarse.parts});
     for (Mesh::Part& run : levels.back().runs) run.first += static_cast<std::uint32_t>(indices.size());
     indices.insert(indices.end(), coarse.indices.begin(), coarse.indices.end());
   }
-  set_indices(g, indices);
+  set_indices(g, std::move(indices));
   g.levels = std::move(levels);
 }
 
@@ -121,6 +114,11 @@ bool of_one_winding(const Mesh& mesh) {
 
 }  // namespace
 
+shade::Vertices Geometry::list() const {
+  const auto at = [this](std::size_t i) { return vertices[i].data(); };
+  return {count, at(0), at(1), at(2), at(3), at(4), at(5)};
+}
+
 const Geometry::Level& level_within(const Geometry& g, double tolerance) {
   std::size_t i = 0;
   while (i + 1 < g.levels.size() && g.levels[i + 1].tolerance <= tolerance) ++i;
@@ -170,6 +168,7 @@ const Geometry& GeometryCache::skin(const SkinItem& item, std::size_t i) {
     // closed and turned outward, as render/surface/skin makes them
     known.geometry->closed = 1;
     known.geometry->shell = true;
+    known.geometry->moves = true;
   }
   const bool has_normals = item.normals.size() == item.positions.size();
   set_vertices(*known.geometry, item.positions, has_normals ? item.normals : face_sums(item.positions, item.topology->indices));

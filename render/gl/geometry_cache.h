@@ -1,14 +1,15 @@
-// Triangles on the GL side: meshes uploaded once, ellipsoids once per shape and level of detail, skins every frame.
+// Triangles as they are drawn: meshes laid out once, ellipsoids once per shape and level of detail, skins every frame.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <vector>
 
 #include "render/draw_list.h"
-#include "render/gl/names.h"
+#include "render/shade/kernels.h"
 
 namespace render::gl {
 
@@ -18,14 +19,18 @@ struct Geometry {
     double tolerance = 0;
     std::vector<Mesh::Part> runs;
   };
-  VertexArray array;
-  Buffer vertices;
-  Buffer indices;
+  int count = 0;  // of vertices
+  /// Three places and three components of the normal, a list each, with room for seven more.
+  std::array<std::vector<float>, 6> vertices;
+  std::vector<std::uint32_t> indices;
   std::vector<Level> levels;     // finest first
   std::array<float, 3> lower{};  // box in its own frame [m]
   std::array<float, 3> upper{};
   int closed = 0;      // 1 counter-clockwise outside, -1 clockwise, 0 a sheet or a soup
   bool shell = false;  // nearly watertight and of one winding: back faces need no drawing
+  bool moves = false;  // its vertices are others in the next frame
+
+  shade::Vertices list() const;
 };
 
 /// The coarsest level within `tolerance` [m].
@@ -35,9 +40,9 @@ class GeometryCache {
  public:
   /// Level of detail whose triangles stay within `tolerance` [m]; the choice depends on shape and tolerance alone.
   const Geometry& ellipsoid(const engine::HyperEllipsoid&, double tolerance);
-  /// Uploaded at first sight and kept while the mesh lives.
+  /// Laid out at first sight and kept while the mesh lives.
   const Geometry& mesh(const std::shared_ptr<const Mesh>&);
-  /// Vertices are uploaded anew at each call; the i-th skin of the frame reuses the i-th buffer.
+  /// Vertices are laid out anew at each call; the i-th skin of the frame reuses the i-th place.
   const Geometry& skin(const SkinItem&, std::size_t i);
 
  private:

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/gl/studio.h"
+#include "render/gl/object_pass.h"
 #include "render/shade/kernels.h"
 
 namespace render::gl {
@@ -14,27 +14,26 @@ struct Lighting {
   const shade::Maps& maps;
   const float* materials;
   bool terrain;
+  int samples;  // a side to a pixel
 };
 
 class LightPass {
  public:
-  /// In the band r of the picture; with depth if a line may pass behind things.
-  void draw(Studio&, const Lighting&, const Rectangle& r, bool depth);
+  /// In the band r of the picture.
+  void draw(const Lighting&, ObjectPass&, const Rectangle& r, const shade::Canvas&);
 
  private:
-  void read(const Targets&, const Rectangle&);
-  void find_surfaces(const Rectangle&, int samples);
-  void add_pixel(const Rectangle&, int x, int y, int samples);
-  void light(const Lighting&);
-  void lay(const Targets&, const Rectangle&);
+  void find_surfaces(const Lighting&, const ObjectPass&, const std::vector<shade::Triangle>&, const Rectangle&);
+  void add_pixel(const Lighting&, const ObjectPass&, const std::vector<shade::Triangle>&, const Rectangle&, int x, int y);
+  void lay(const Rectangle&, const shade::Canvas&) const;
 
-  std::vector<std::uint16_t> seen_;    // RGBA of each sample
-  std::vector<float> depth_;           // of each sample
-  std::vector<std::uint8_t> picture_;  // RGBA
   // a surface in a pixel
   std::vector<int> pixel_;
-  std::vector<float> share_, x_, y_, z_, u_, v_, grain_, red_, green_, blue_;
-  std::vector<std::int32_t> row_;
+  std::vector<float> share_, x_, y_, z_, red_, green_, blue_;
+  std::vector<std::int32_t> triangle_;
 };
+
+/// Depth of the nearest sample of each pixel of the band, into a picture `width` pixels wide.
+void nearest_depths(const ObjectPass&, const Rectangle& r, int samples, int width, std::vector<float>& out);
 
 }  // namespace render::gl

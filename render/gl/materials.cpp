@@ -46,7 +46,7 @@ MaterialRow row_of(const Material& m, bool terrain) {
       coat = {0.005f * smooth, 0.035f * smooth, 0, 0};
       lobes = {0, 1, 0.02f * smooth, 120 - 110 * m.roughness};
   }
-  soft[3] = terrain ? 1.0f : 0.0f;
+  soft[3] = terrain ? 1.0f : m.kind == MaterialKind::lamp ? -1.0f : 0.0f;
   return row;
 }
 

@@ -9,7 +9,7 @@
 namespace render::gl {
 
 /// Base colour and diffuse share; reflection straight on, at grazing, tinted mirror, glow; strength and exponent of a broad tinted
-/// and a sharp white highlight; wrap, sheen, grain, terrain.
+/// and a sharp white highlight; wrap, sheen, grain, what kind of surface: 1 terrain, -1 a lamp with ribs.
 using MaterialRow = std::array<Float4, 4>;
 
 MaterialRow row_of(const Material&, bool terrain);

@@ -5,7 +5,7 @@
 
 namespace render::gl {
 
-enum class Kind { buffer, vertex_array, texture, renderbuffer, framebuffer, sampler };
+enum class Kind { buffer, vertex_array, texture, renderbuffer, framebuffer };
 
 /// Owns one GL name; the context must be current when it dies.
 template <Kind kind>
@@ -17,7 +17,6 @@ class Name {
     if constexpr (kind == Kind::texture) glGenTextures(1, &id_);
     if constexpr (kind == Kind::renderbuffer) glGenRenderbuffers(1, &id_);
     if constexpr (kind == Kind::framebuffer) glGenFramebuffers(1, &id_);
-    if constexpr (kind == Kind::sampler) glGenSamplers(1, &id_);
   }
   ~Name() {
     if constexpr (kind == Kind::buffer) glDeleteBuffers(1, &id_);
@@ -25,7 +24,6 @@ class Name {
     if constexpr (kind == Kind::texture) glDeleteTextures(1, &id_);
     if constexpr (kind == Kind::renderbuffer) glDeleteRenderbuffers(1, &id_);
     if constexpr (kind == Kind::framebuffer) glDeleteFramebuffers(1, &id_);
-    if constexpr (kind == Kind::sampler) glDeleteSamplers(1, &id_);
   }
   Name(const Name&) = delete;
   Name& operator=(const Name&) = delete;
@@ -40,6 +38,5 @@ using VertexArray = Name<Kind::vertex_array>;
 using Texture = Name<Kind::texture>;
 using Renderbuffer = Name<Kind::renderbuffer>;
 using Framebuffer = Name<Kind::framebuffer>;
-using Sampler = Name<Kind::sampler>;
 
 }  // namespace render::gl

@@ -1,40 +1,23 @@
 #include "render/gl/object_pass.h"
 
-#include "render/gl/shaders.h"
+#include <algorithm>
 
 namespace render::gl {
-namespace {
 
-void draw_piece(Studio& studio, const Piece& piece) {
-  const Geometry& g = *piece.geometry;
-  const Program& p = studio.program({kObjectVertex, kObjectFragment, piece.kind, piece.culling == Culling::on ? "SHELL" : ""});
-  p.set("model", piece.model);
-  p.set("material", static_cast<float>(piece.row));
-  p.set("opacity", piece.opacity);
-  p.set("closed", static_cast<float>(g.closed));
-  p.set("axes", piece.axes);
-  draw_run(g, *piece.level, piece.run, piece.culling);
-}
-
-}  // namespace
-
-void draw_objects(Studio& studio, const DrawList& list, const std::vector<Piece>& pieces, const Rectangle& r) {
-  const int s = studio.targets.samples;
-  glBindFramebuffer(GL_FRAMEBUFFER, *studio.targets.seen);
-  glViewport(-r.x * s, -r.y * s, studio.targets.width * s, studio.targets.height * s);
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(0, 0, r.width * s, r.height * s);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
-  glDepthMask(GL_TRUE);
-  glDisable(GL_BLEND);
-  glClear(GL_DEPTH_BUFFER_BIT);  // the rest is looked at only where there is a depth
+void ObjectPass::draw(const DrawList& list, const std::vector<Piece>& pieces, const FrameSetup& frame, int width, int height,
+                      int samples, const Rectangle& r) {
+  constexpr std::size_t kRoom = 7;
+  const std::size_t count = static_cast<std::size_t>(r.width * samples) * static_cast<std::size_t>(r.height * samples);
+  if (names_.size() < count + kRoom) names_.resize(count + kRoom);
+  if (depth_.size() < count + kRoom) depth_.resize(count + kRoom);
+  std::fill_n(depth_.begin(), count, 1.0f);
+  sampler_.clear();
   // seen from above, the ground hides what has sunk into it; a terrain does so by its own depth
-  const bool above = list.view.eye[2] > static_cast<float>(list.road.height) && !list.road.terrain;
-  if (above) glEnable(GL_CLIP_DISTANCE0);
-  for (const Piece& piece : pieces) draw_piece(studio, piece);
-  glDisable(GL_CLIP_DISTANCE0);
-  glDisable(GL_SCISSOR_TEST);
+  const float ground = static_cast<float>(list.road.height);
+  const bool above = list.view.eye[2] > ground && !list.road.terrain;
+  sampler_.draw(
+      {frame.world_to_clip, static_cast<double>(width * samples), static_cast<double>(height * samples), ground, above}, pieces,
+      {depth_.data(), names_.data(), r.width * samples, r.x * samples, r.y * samples, r.width * samples, r.height * samples});
 }
 
 }  // namespace render::gl

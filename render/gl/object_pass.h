@@ -1,14 +1,29 @@
-// Things: what each sample sees of them.
+// What each sample of the things' rectangle sees: which triangle, how near.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
+#include "render/gl/frame_block.h"
 #include "render/gl/pieces.h"
-#include "render/gl/studio.h"
+#include "render/gl/sampler.h"
 
 namespace render::gl {
 
-/// What each sample in the band r of the picture sees.
-void draw_objects(Studio&, const DrawList&, const std::vector<Piece>&, const Rectangle& r);
+class ObjectPass {
+ public:
+  /// The band r of a picture of `width` by `height` pixels, `samples` a side to each.
+  void draw(const DrawList&, const std::vector<Piece>&, const FrameSetup&, int width, int height, int samples, const Rectangle& r);
+
+  /// Of the band, row by row, lowest first; where the depth is 1 nothing is seen and the name means nothing.
+  const float* depth() const { return depth_.data(); }
+  const std::int32_t* names() const { return names_.data(); }
+  Sampler& sampler() { return sampler_; }
+
+ private:
+  std::vector<float> depth_;
+  std::vector<std::int32_t> names_;  // of Sampler::triangles
+  Sampler sampler_;
+};
 
 }  // namespace render::gl

@@ -4,45 +4,35 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/gl/gl.h"
-#include "render/gl/shaders.h"
 #include "render/matrix.h"
 
 namespace render::gl {
 namespace {
 
-constexpr int kFloats = 12;     // per vertex: clip 3, tint 4, shape 3, extent 2
 constexpr float kNear = 0.05f;  // clip w below which a point is behind the camera
 const Float4 kOutline{0.05f, 0.05f, 0.06f, 0.85f};
 
+/// Narrows x0 .. x1 to where low <= value + x slope <= high.
+void narrow(float value, float slope, float low, float high, float& x0, float& x1) {
+  if (std::abs(slope) < 1e-6f) {
+    if (value < low || value > high) x1 = x0;
+    return;
+  }
+  const float a = (low - value) / slope, b = (high - value) / slope;
+  x0 = std::max(x0, std::min(a, b));
+  x1 = std::min(x1, std::max(a, b));
+}
+
 }  // namespace
 
-OverlayPass::OverlayPass() : program_("", kOverlayVertex, kOverlayFragment) {
-  glGenVertexArrays(1, &array_);
-  glGenBuffers(1, &buffer_);
-  glBindVertexArray(array_);
-  glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-  const int sizes[] = {3, 4, 3, 2};
-  std::uintptr_t offset = 0;
-  for (unsigned i = 0; i < 4; ++i) {
-    glVertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, kFloats * sizeof(float), reinterpret_cast<const void*>(offset));
-    glEnableVertexAttribArray(i);
-    offset += static_cast<std::uintptr_t>(sizes[i]) * sizeof(float);
-  }
-}
-
-OverlayPass::~OverlayPass() {
-  glDeleteBuffers(1, &buffer_);
-  glDeleteVertexArrays(1, &array_);
-}
-
-void OverlayPass::begin(const DrawList& list, int width, int height) {
+void OverlayPass::begin(const DrawList& list, const shade::Canvas& canvas, int height) {
   const Mat4 m = from_gl(list.view.eye_to_clip) * from_gl(list.view.world_to_eye);
-  for (int i = 0; i < 16; ++i) clip_[i] = static_cast<float>(m.data()[i]);
-  width_ = static_cast<float>(width);
+  for (std::size_t i = 0; i < 16; ++i) clip_[i] = static_cast<float>(m.data()[i]);
+  canvas_ = canvas;
+  rows_ = height;
+  width_ = static_cast<float>(canvas.width);
   height_ = static_cast<float>(height);
   scale_ = height_ / 1080 * list.scale;
-  vertices_.clear();
 }
 
 bool OverlayPass::project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb) const {
@@ -60,7 +50,7 @@ bool OverlayPass::project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb
   if (ca[3] < kNear) cut(ca, cb);
   if (cb[3] < kNear) cut(cb, ca);
   auto pixel = [&](const Float4& c) {
-    return Pixel{(c[0] / c[3] * 0.5f + 0.5f) * width_, (c[1] / c[3] * 0.5f + 0.5f) * height_, c[2] / c[3] * 0.5f + 0.5f, true};
+    return Pixel{(c[0] / c[3] * 0.5f + 0.5f) * width_, (c[1] / c[3] * 0.5f + 0.5f) * height_, c[2] / c[3] * 0.5f + 0.5f};
   };
   pa = pixel(ca);
   pb = pixel(cb);
@@ -84,39 +74,46 @@ void OverlayPass::lie_on(const Float3& at, const Float3& normal, Pixel& pixel) c
   pixel.slope_y = (qz * px - pz * qx) / area;
 }
 
-void OverlayPass::capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour, Ends ends) {
-  float dx = b.x - a.x, dy = b.y - a.y;
-  const float length = std::hypot(dx, dy);
-  if (length > 1e-4f) {
-    dx /= length;
-    dy /= length;
-  } else {
-    dx = 1;
-    dy = 0;
+/// Distance to a capsule, or to a taper cut square, tells how much of a pixel is covered.
+void OverlayPass::capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour, Ends ends) const {
+  const float length = std::hypot(b.x - a.x, b.y - a.y);
+  const bool point = length <= 1e-4f, square = ends == Ends::square;
+  const float dx = point ? 1 : (b.x - a.x) / length, dy = point ? 0 : (b.y - a.y) / length;
+  const float pad = 1, wide = std::max(half_a, half_b) + pad, before = square ? pad : wide;
+  const auto row_of = [this](float y) { return static_cast<int>(std::clamp(y, 0.0f, height_)); };
+  const float reach = std::max(wide, before);
+  for (int row = row_of(std::min(a.y, b.y) - reach); row < row_of(std::max(a.y, b.y) + reach + 1); ++row) {
+    const float y = static_cast<float>(row) + 0.5f - a.y;
+    float x0 = 0, x1 = width_;
+    const float along_0 = (0.5f - a.x) * dx + y * dy, across_0 = y * dx - (0.5f - a.x) * dy;
+    narrow(across_0, -dy, -wide, wide, x0, x1);
+    narrow(along_0, dx, -before, length + before, x0, x1);
+    const int last = static_cast<int>(std::min(std::ceil(x1) + 1, width_));
+    for (int x = static_cast<int>(std::max(x0, 0.0f)); x < last; ++x) {
+      const float along = along_0 + static_cast<float>(x) * dx, across = across_0 - static_cast<float>(x) * dy;
+      const float beyond = std::max(-along, along - length), share = point ? 0 : along / length;
+      const float half = half_a + (half_b - half_a) * share;
+      const float d = square ? std::max(std::abs(across) - half, beyond)
+                             : std::sqrt(across * across + std::max(beyond, 0.0f) * std::max(beyond, 0.0f)) - half_a;
+      const float cover = std::clamp(0.5f - d, 0.0f, 1.0f);
+      if (cover <= 0) continue;
+      const std::ptrdiff_t pixel = static_cast<std::ptrdiff_t>(row) * canvas_.width + x;
+      if (depth_) {
+        const float s = std::clamp(share, 0.0f, 1.0f), off_along = along - s * length;
+        const float off_x = dx * off_along - dy * across, off_y = dy * off_along + dx * across;
+        const float z = a.z + (b.z - a.z) * s + (a.slope_x + (b.slope_x - a.slope_x) * s) * off_x +
+                        (a.slope_y + (b.slope_y - a.slope_y) * s) * off_y;
+        if (std::clamp(z, 0.0f, 1.0f) > depth_[pixel]) continue;
+      }
+      std::uint8_t* const out = canvas_.pixels + 4 * pixel;
+      const float alpha = colour[3] * cover;
+      for (std::size_t c = 0; c < 3; ++c)
+        out[c] = static_cast<std::uint8_t>(255 * colour[c] * alpha + static_cast<float>(out[c]) * (1 - alpha) + 0.5f);
+    }
   }
-  const float pad = 1;
-  const bool square = ends == Ends::square;
-  auto vertex = [&](const Pixel& p, float half, float along_sign, float side) {
-    const float across = side * (half + pad), along = along_sign * (square ? pad : half + pad);
-    const float at = along_sign < 0 ? along : length + along;
-    // a taper goes on beyond its ends, so that its width is linear over the piece
-    if (square && length > 1e-4f) half = half_a + (half_b - half_a) * at / length;
-    const float off_x = dx * along - dy * across, off_y = dy * along + dx * across;
-    const float values[kFloats] = {p.x + off_x, p.y + off_y, std::clamp(p.z + p.slope_x * off_x + p.slope_y * off_y, 0.f, 1.f),
-                                   colour[0],   colour[1],   colour[2],
-                                   colour[3],   across,      at,
-                                   half,        length,      square ? 1.0f : 0.0f};
-    vertices_.insert(vertices_.end(), values, values + kFloats);
-  };
-  vertex(a, half_a, -1, -1);
-  vertex(b, half_b, 1, -1);
-  vertex(b, half_b, 1, 1);
-  vertex(a, half_a, -1, -1);
-  vertex(b, half_b, 1, 1);
-  vertex(a, half_a, -1, 1);
 }
 
-void OverlayPass::polyline(const LineItem& line, float extra, const Float4& colour) {
+void OverlayPass::polyline(const LineItem& line, float extra, const Float4& colour) const {
   const float half = 0.5f * line.width * scale_ + extra * scale_;
   for (std::size_t i = 1; i < line.points.size(); ++i) {
     Pixel a{}, b{};
@@ -129,7 +126,7 @@ void OverlayPass::polyline(const LineItem& line, float extra, const Float4& colo
   }
 }
 
-void OverlayPass::arrow(const ArrowItem& item, float extra, const Float4& colour) {
+void OverlayPass::arrow(const ArrowItem& item, float extra, const Float4& colour) const {
   Pixel a{}, b{};
   if (!project(item.from, item.to, a, b)) return;
   const float half = 0.5f * item.width * scale_, edge = extra * scale_;
@@ -138,7 +135,7 @@ void OverlayPass::arrow(const ArrowItem& item, float extra, const Float4& colour
   const float head = std::min(6.0f * half, 0.75f * length), wide = 0.42f * head;
   auto on = [&](float pixels) {
     const float s = pixels / length;
-    return Pixel{a.x + (b.x - a.x) * s, a.y + (b.y - a.y) * s, a.z + (b.z - a.z) * s, true};
+    return Pixel{a.x + (b.x - a.x) * s, a.y + (b.y - a.y) * s, a.z + (b.z - a.z) * s};
   };
   capsule(a, on(length - head), half + edge, half + edge, colour);
   // the outline of a wedge as far from its sides as from its base: its tip moves on by more than that
@@ -147,34 +144,14 @@ void OverlayPass::arrow(const ArrowItem& item, float extra, const Float4& colour
           Ends::square);
 }
 
-void OverlayPass::flush(bool depth_tested) {
-  if (vertices_.empty()) return;
-  program_.use();
-  program_.set("frame", width_, height_);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glDepthMask(GL_FALSE);
-  if (depth_tested)
-    glEnable(GL_DEPTH_TEST);
-  else
-    glDisable(GL_DEPTH_TEST);
-  glBindVertexArray(array_);
-  glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices_.size() * sizeof(float)), vertices_.data(), GL_STREAM_DRAW);
-  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices_.size() / kFloats));
-  glDepthMask(GL_TRUE);
-  glDisable(GL_BLEND);
-  vertices_.clear();
-}
-
-void OverlayPass::draw(const DrawList& list, int width, int height) {
-  begin(list, width, height);
+void OverlayPass::draw(const DrawList& list, const shade::Canvas& canvas, int height, const float* depth) {
+  begin(list, canvas, height);
   for (const bool behind : {true, false}) {
+    depth_ = behind ? depth : nullptr;
     for (const LineItem& line : list.lines)
       if (line.hidden_behind == behind && line.outline) polyline(line, 1.2f, kOutline);
     for (const LineItem& line : list.lines)
       if (line.hidden_behind == behind) polyline(line, 0, line.colour);
-    flush(behind);
   }
   for (const ArrowItem& item : list.arrows) {
     arrow(item, 1.4f, kOutline);
@@ -186,7 +163,6 @@ void OverlayPass::draw(const DrawList& list, int width, int height) {
     capsule(a, b, marker.radius * scale_ + 1.4f * scale_, marker.radius * scale_ + 1.4f * scale_, kOutline);
     capsule(a, b, marker.radius * scale_, marker.radius * scale_, marker.colour);
   }
-  flush(false);
 }
 
 }  // namespace render::gl

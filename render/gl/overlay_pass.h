@@ -1,42 +1,35 @@
 // Lines, arrows and markers over the finished picture, anti-aliased analytically at one sample.
 #pragma once
 
-#include <vector>
+#include <array>
 
 #include "render/draw_list.h"
-#include "render/gl/program.h"
+#include "render/shade/kernels.h"
 
 namespace render::gl {
 
 class OverlayPass {
  public:
-  OverlayPass();
-  ~OverlayPass();
-  OverlayPass(const OverlayPass&) = delete;
-  OverlayPass& operator=(const OverlayPass&) = delete;
-
-  /// Into the bound framebuffer. Lines that pass behind things are tested against its depth.
-  void draw(const DrawList&, int width, int height);
+  /// Onto the canvas. Lines that pass behind things are held against `depth`, 0..1 of each pixel; without it they are in front.
+  void draw(const DrawList&, const shade::Canvas&, int height, const float* depth);
 
  private:
   struct Pixel {
     float x, y, z;
-    bool visible;
     float slope_x = 0, slope_y = 0;  // of the depth over the picture, where a line lies on a surface
   };
-  void begin(const DrawList&, int width, int height);
+  void begin(const DrawList&, const shade::Canvas&, int height);
   bool project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb) const;
   void lie_on(const Float3& at, const Float3& normal, Pixel&) const;
   enum class Ends { round, square };
-  void capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour, Ends = Ends::round);
-  void polyline(const LineItem&, float extra, const Float4& colour);
-  void arrow(const ArrowItem&, float extra, const Float4& colour);
-  void flush(bool depth_tested);
+  void capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour, Ends = Ends::round) const;
+  void polyline(const LineItem&, float extra, const Float4& colour) const;
+  void arrow(const ArrowItem&, float extra, const Float4& colour) const;
 
-  Program program_;
-  unsigned array_ = 0, buffer_ = 0;
-  std::vector<float> vertices_;
-  float clip_[16] = {};
+  shade::Canvas canvas_{};
+  const float* depth_ = nullptr;  // what the lines at hand are held against
+  int rows_ = 0;
+  std::array<float, 16> clip_{};
   float width_ = 0, height_ = 0, scale_ = 1;
 };
 

@@ -67,17 +67,6 @@ void add_feet(const SkinItem& skin, double ground, std::vector<CasterBox>& boxes
 
 }  // namespace
 
-void draw_run(const Geometry& g, const Geometry::Level& level, std::size_t run, Culling culling) {
-  if (culling == Culling::on) {
-    glEnable(GL_CULL_FACE);
-    glCullFace(g.closed > 0 ? GL_BACK : GL_FRONT);
-  }
-  glBindVertexArray(*g.array);
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(level.runs[run].count), GL_UNSIGNED_INT,
-                 reinterpret_cast<const void*>(std::size_t{level.runs[run].first} * sizeof(std::uint32_t)));
-  glDisable(GL_CULL_FACE);
-}
-
 std::vector<Piece> collect(const DrawList& list, GeometryCache& geometry, MaterialTable& table, double pixel_share, int height,
                            std::vector<CasterBox>& boxes) {
   std::vector<Piece> out;

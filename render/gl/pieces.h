@@ -9,7 +9,7 @@
 
 namespace render::gl {
 
-// KIND of the object shader: enum MaterialKind, then these
+// enum MaterialKind, then these
 constexpr int kTerrainKind = 8, kWireKind = 9;
 
 /// From within a body its inside is seen.
@@ -27,9 +27,6 @@ struct Piece {
   bool casts;
   Culling culling;  // of what faces away
 };
-
-/// The triangles of a run, with the piece's model and material set.
-void draw_run(const Geometry&, const Geometry::Level&, std::size_t run, Culling);
 
 /// What the frame shows. `pixel_share`: tessellations stay within this part of a pixel at their distance, `height` pixels high.
 std::vector<Piece> collect(const DrawList&, GeometryCache&, MaterialTable&, double pixel_share, int height,

@@ -24,14 +24,10 @@ uniform float depth;                   // 0..1
 void main() { gl_Position = vec4(corner * frame.xy - 1.0, depth * 2.0 - 1.0, 1.0); }
 )";
 
-const char* const kDepthVertex = R"(
-layout(location = 0) in vec3 position;
-uniform mat4 model_to_clip;
-void main() { gl_Position = model_to_clip * vec4(position, 1.0); }
-)";
-const char* const kDepthFragment = R"(
-out vec4 colour;
-void main() { colour = vec4(0.0); }
+// Depths that were found elsewhere, into the frame buffer.
+const char* const kSeenDepthFragment = R"(
+uniform sampler2D depth_map;
+void main() { gl_FragDepth = texelFetch(depth_map, ivec2(gl_FragCoord.xy), 0).r; }
 )";
 
 }  // namespace render::gl

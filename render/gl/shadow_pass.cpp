@@ -4,35 +4,9 @@
 #include <cmath>
 
 #include "render/gl/noise.h"
-#include "render/gl/shaders.h"
-#include "render/matrix.h"
 
 namespace render::gl {
 namespace {
-
-void draw_map(Studio& studio, const std::vector<Piece>& pieces, const FrameSetup& frame) {
-  const Targets& targets = studio.targets;
-  glBindFramebuffer(GL_FRAMEBUFFER, *targets.shadow);
-  glViewport(0, 0, targets.shadow_map_size, targets.shadow_map_size);
-  glDisable(GL_SCISSOR_TEST);
-  glDepthMask(GL_TRUE);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LESS);
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_BLEND);
-  glClear(GL_DEPTH_BUFFER_BIT);
-  glEnable(GL_POLYGON_OFFSET_FILL);
-  glPolygonOffset(1.5f, 4.0f);
-  const Program& p = studio.program({kDepthVertex, kDepthFragment});
-  const double tolerance = static_cast<double>(std::max(frame.block.shadow[0], frame.block.shadow[1]));  // a texel
-  for (const Piece& piece : pieces) {
-    if (!piece.casts) continue;
-    p.set("model_to_clip", to_gl(frame.world_to_shadow_clip * from_gl(piece.model)));
-    draw_run(*piece.geometry, level_within(*piece.geometry, tolerance), piece.run,
-             piece.geometry->shell ? Culling::on : Culling::off);
-  }
-  glDisable(GL_POLYGON_OFFSET_FILL);
-}
 
 /// Each texel of the grain with its neighbours to the right, above, and both.
 std::vector<std::int32_t> fourfold(const std::vector<std::uint8_t>& grain) {
@@ -64,36 +38,35 @@ shade::Photograph photograph_of(const RoadLook& road) {
 }
 
 /// [texels] the widest filter, one of its linear weights and one of rounding
-int reach(const Studio& studio, float texel) {
-  return static_cast<int>(std::ceil(studio.cost.shadow_reach / static_cast<double>(texel))) + 2;
+int reach(const Effort& cost, float texel) {
+  return static_cast<int>(std::ceil(cost.shadow_reach / static_cast<double>(texel))) + 2;
 }
 
 }  // namespace
 
 ShadowPass::ShadowPass() : grain_(fourfold(grain_picture())) {}
 
-void ShadowPass::draw(Studio& studio, const std::vector<Piece>& pieces, const FrameSetup& frame) {
+void ShadowPass::draw(const Effort& cost, const std::vector<Piece>& pieces, const FrameSetup& frame) {
   bounds_.clear();
   if (!frame.casts) return;
-  draw_map(studio, pieces, frame);
-  const int size = studio.targets.shadow_map_size;
-  read_depth(size);
-  bounds_.build(depth_.data() + size + 3, size, size + 2, reach(studio, frame.block.shadow[0]),
-                reach(studio, frame.block.shadow[1]));
-  const int side = studio.cost.occlusion_size;
-  occlusion_.resize(static_cast<std::size_t>(side + 2) * static_cast<std::size_t>(side + 2));
+  const int size = cost.shadow_map_size;
+  draw_map(size, pieces, frame);
   const FrameBlock& b = frame.block;
+  bounds_.build(depth_.data() + size + 3, size, size + 2, reach(cost, b.shadow[0]), reach(cost, b.shadow[1]));
+  const int side = cost.occlusion_size;
+  occlusion_.resize(static_cast<std::size_t>(side + 2) * static_cast<std::size_t>(side + 2));
   shade::kernels().occlusion(frame_data(b),
                              {b.counts[0], b.counts[1], b.round_rows[0].data(), b.box_rows[0].data(), b.box_half[0].data()}, side,
                              occlusion_.data());
 }
 
-void ShadowPass::read_depth(int size) {
+void ShadowPass::draw_map(int size, const std::vector<Piece>& pieces, const FrameSetup& frame) {
   const std::size_t pitch = static_cast<std::size_t>(size) + 2;
-  if (depth_.size() != pitch * pitch) depth_.assign(pitch * pitch, 1.0f);
-  glPixelStorei(GL_PACK_ROW_LENGTH, size + 2);
-  glReadPixels(0, 0, size, size, GL_DEPTH_COMPONENT, GL_FLOAT, depth_.data() + pitch + 1);
-  glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+  depth_.assign(pitch * pitch, 1.0f);
+  const double texel = static_cast<double>(std::max(frame.block.shadow[0], frame.block.shadow[1]));
+  const double side = size;
+  sampler_.draw_depth({frame.world_to_shadow_clip, side, side}, pieces, texel,
+                      {depth_.data() + pitch + 1, nullptr, static_cast<std::int64_t>(pitch), 0, 0, size, size});
 }
 
 shade::Maps ShadowPass::maps(const Effort& cost, const RoadLook& road) const {

@@ -6,7 +6,8 @@
 
 #include "render/gl/depth_pyramid.h"
 #include "render/gl/pieces.h"
-#include "render/gl/studio.h"
+#include "render/gl/sampler.h"
+#include "render/renderer.h"
 #include "render/shade/kernels.h"
 
 namespace render::gl {
@@ -14,19 +15,20 @@ namespace render::gl {
 class ShadowPass {
  public:
   ShadowPass();
-  void draw(Studio&, const std::vector<Piece>&, const FrameSetup&);
+  void draw(const Effort&, const std::vector<Piece>&, const FrameSetup&);
   /// Of the map that was drawn last.
   const DepthPyramid& bounds() const { return bounds_; }
   /// For the light of the frame that was drawn last; good until the next.
   shade::Maps maps(const Effort&, const RoadLook&) const;
 
  private:
-  void read_depth(int size);
+  void draw_map(int size, const std::vector<Piece>&, const FrameSetup&);
 
   std::vector<std::int32_t> grain_;
   std::vector<float> depth_;      // of the map, with a rim of depth 1
   std::vector<float> occlusion_;  // likewise
   DepthPyramid bounds_;
+  Sampler sampler_;
 };
 
 }  // namespace render::gl

@@ -1,7 +1,5 @@
 #include "render/gl/studio.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -34,8 +32,7 @@ constexpr GLsizeiptr kSharedBytes = offsetof(FrameBlock, world_to_shadow);  // w
 
 }  // namespace
 
-Studio::Studio(int w, int h, const Effort& effort)
-    : cost(effort), targets(w * cost.scale, h * cost.scale, w, h, cost.samples, cost.shadow_map_size) {
+Studio::Studio(int w, int h) : targets(w, h) {
   const std::vector<std::uint8_t> grain = grain_picture();
   glBindTexture(GL_TEXTURE_2D, *noise_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -50,9 +47,7 @@ Studio::Studio(int w, int h, const Effort& effort)
 const Program& Studio::program(const Variant& v) {
   std::unique_ptr<Program>& p = programs_[v];
   if (!p) {
-    const std::string defines =
-        fmt::format("#define KIND {}\n#define SAMPLES {}\n#define SHELL {}\n", v.kind, cost.samples, v.options == "SHELL" ? 1 : 0);
-    p = std::make_unique<Program>(defines, std::string(kFrameBlock) + v.vertex, std::string(kFrameBlock) + v.fragment);
+    p = std::make_unique<Program>("", std::string(kFrameBlock) + v.vertex, std::string(kFrameBlock) + v.fragment);
   }
   p->use();
   return *p;

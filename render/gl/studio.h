@@ -1,4 +1,4 @@
-// What all passes of a frame share: the quality's price list, the pictures they draw into, the compiled shaders and their inputs.
+// What OpenGL's passes share: the picture they draw into, the compiled shaders and their inputs.
 #pragma once
 
 #include <compare>
@@ -16,18 +16,16 @@
 
 namespace render::gl {
 
-/// Shader text with its switches.
+/// Shader text.
 struct Variant {
   const char* vertex;
   const char* fragment;
-  int kind = 0;
-  std::string options{};  // switches that are on
   auto operator<=>(const Variant&) const = default;
 };
 
 class Studio {
  public:
-  Studio(int width, int height, const Effort&);
+  Studio(int width, int height);
 
   /// Compiled at first sight, in use from here on.
   const Program& program(const Variant&);
@@ -36,7 +34,6 @@ class Studio {
   /// The rectangles of the bound framebuffer, with kTileVertex in use.
   void fill(const std::vector<Rectangle>&);
 
-  const Effort cost;
   Targets targets;
 
  private:

@@ -1,19 +1,24 @@
-// The pictures a frame passes through (twice the output a side for `fine`).
+// Where GL draws lines and strips over the picture (twice the output a side for `fine`).
 #pragma once
+
+#include <cstdint>
+#include <vector>
 
 #include "render/gl/names.h"
 
 namespace render::gl {
 
 struct Targets {
-  /// `samples` a side to a pixel in the object pass.
-  Targets(int width, int height, int out_width, int out_height, int samples, int shadow_map_size);
+  Targets(int width, int height);
 
-  int width, height, out_width, out_height, samples, shadow_map_size;
-  int band_width = 0, band_height = 0;  // pixels of the picture that the object pass holds at a time
-  Texture picture_colour, seen_colour, seen_depth, shadow_depth;
-  Renderbuffer picture_depth, out_colour;
-  Framebuffer picture, seen, shadow, out;
+  /// RGBA, lowest row first.
+  void upload(const std::vector<std::uint8_t>& picture) const;
+  void download(std::vector<std::uint8_t>& picture) const;
+
+  int width, height;
+  Texture colour, seen_depth;  // depths of a pixel, to be put into the frame buffer's
+  Renderbuffer depth;
+  Framebuffer picture;
 };
 
 }  // namespace render::gl

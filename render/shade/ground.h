@@ -205,7 +205,7 @@ LANES V3 ground_light(const FrameData& f, const Maps& maps, const Tile& tile, F 
   if (tile.sun != bare) {
     sky_open = open_sky(f, maps, p.x, p.y);
     if (tile.sun == dark) lit = all(0.0f);
-    if (tile.sun == open) lit = sunlight(f, maps, p, three(0, 0, 1), all(-1), x, y);
+    if (tile.sun == open) lit = sunlight(f, maps, p, three(0, 0, 1), {all(0.0f), all(0.0f)}, all(-1), x, y);
   }
   const F sun = (f.sun[2] > 0 ? f.sun[2] : 0.0f) * lit * mix(sky_open, all(1.0f), all(0.6f));
   c = c * (three(kSunLight) * sun + ambient_light(f, all(1.0f), all(1.0f)) * sky_open);

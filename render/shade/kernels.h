@@ -1,5 +1,6 @@
-// The light of a frame, computed on the processor: sky, ground, things. Plain data in, pixels out; what calls it (render/gl) keeps
-// the memory. The same source is compiled for every x86-64 processor and for those with AVX2; both give the same bytes.
+// A frame, computed on the processor: what is seen, and the light of sky, ground, things. Plain data in, pixels out; what calls it
+// (render/gl) keeps the memory. The same source is compiled for every x86-64 processor and for those with AVX2; both give the same
+// bytes.
 #pragma once
 
 #include <cstdint>
@@ -52,15 +53,82 @@ struct Canvas {
   int width;  // of a row
 };
 
-/// What surfaces are seen, in pieces: one piece a pixel and surface.
-struct Pieces {
-  int count;           // room for seven more in each list
-  const float *x, *y;  // pixels
-  const float* depth;  // 0..1
-  const float *u, *v;  // normal on the octahedron, 0..1
-  const float* grain;
-  const std::int32_t* row;    // of the materials; from 32768 on: the inside of a body
-  float *red, *green, *blue;  // out: 0..1 as on the screen
+/// A mesh, one list a number, room for seven more in each.
+struct Vertices {
+  int count;
+  const float *x, *y, *z, *normal_x, *normal_y, *normal_z;
+};
+
+/// From a mesh onto a grid of samples.
+struct Projection {
+  float model_to_clip[16], model_to_world[16];  // by columns
+  float half_width, half_height;                // [samples] of the whole picture
+  float ground;                                 // [m]
+};
+
+/// Vertices as they lie on the grid; room for seven more in each list. Without normals the rest is left out too.
+struct Projected {
+  std::int32_t *x, *y;   // [1/64 sample]
+  float *depth, *per_w;  // 0..1; one over w, nought where the vertex lies before the near plane or far outside
+  float *normal_x, *normal_y, *normal_z, *height;  // in the world; [m] above the ground
+  float *model_x, *model_y, *model_z;              // as they were
+};
+
+/// Samples x .. x + width, y .. y + height of the picture. Room for seven more behind the last row; beyond `width` no sample is
+/// changed.
+struct SampleGrid {
+  float* depth;         // 0..1, the nearest stays
+  std::int32_t* names;  // number of the triangle that is seen; null: depth alone
+  std::int64_t pitch;
+  int x, y, width, height;
+};
+
+/// Triangles of one material on one body.
+struct Run {
+  const std::uint32_t* indices;
+  int triangles;
+  std::int32_t first_vertex;  // where in Projected index 0 lies
+  int facing;                 // 1: only counter-clockwise ones are seen, -1: only clockwise ones, 0: all
+  int closed;                 // which side of a body is outside: 1 counter-clockwise, -1 clockwise, 0 a sheet
+  std::int32_t row;           // of the materials
+  unsigned kept;              // of two by two samples, bit 2 y + x: those glass does not let through
+  bool above_ground;          // what has sunk into the ground is hidden by it
+  bool wires;                 // parallels and meridians of an ellipsoid with these
+  float axes[3];
+  float model_to_world[16];
+  float offset_slope, offset;  // of a depth map, as OpenGL's polygon offset
+};
+
+/// A triangle that may be seen.
+struct Triangle {
+  std::int32_t vertices[3];
+  std::int32_t row;     // of the materials; from 32768 on: the inside of a body
+  std::int32_t facing;  // its mean normal on the octahedron, 16 bits each
+  float side;           // -1: the normals are to be turned
+};
+
+/// What `raster` adds to.
+struct Drawn {
+  Triangle* triangles;   // room for all of the run
+  int* count;            // also the name of the next
+  std::int32_t* to_cut;  // numbers of the run's triangles that reach before the near plane or far outside: not drawn
+  int* cut_count;
+};
+
+/// What surfaces are seen: one entry a pixel and surface.
+struct Surfaces {
+  int count;                     // room for seven more in each list
+  const float *x, *y;            // pixels
+  const float* depth;            // 0..1
+  const std::int32_t* triangle;  // one of those that show it
+  float *red, *green, *blue;     // out: 0..1 as on the screen
+};
+struct Scene {
+  const float* materials;  // sixteen numbers a row
+  const Triangle* triangles;
+  Projected vertices;
+  float samples;  // a side to a pixel
+  bool terrain;   // some may be ground
 };
 
 struct Occluders {
@@ -70,8 +138,9 @@ struct Occluders {
 
 struct Kernels {
   void (*background)(const FrameData&, const Maps&, const Tile&, const Canvas&);
-  /// `materials`: sixteen numbers a row. `terrain`: some may be ground.
-  void (*surfaces)(const FrameData&, const Maps&, const float* materials, bool terrain, const Pieces&);
+  void (*surfaces)(const FrameData&, const Maps&, const Scene&, const Surfaces&);
+  void (*project)(const Projection&, const Vertices&, const Projected&);
+  void (*raster)(const SampleGrid&, const Projected&, const Run&, const Drawn&);
   /// How much of the sky is open at each texel of the occlusion map, into `out` with its rim.
   void (*occlusion)(const FrameData&, const Occluders&, int size, float* out);
 };

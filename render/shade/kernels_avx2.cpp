@@ -4,6 +4,6 @@
 namespace render::shade {
 
 extern const Kernels kAvx2Kernels;
-const Kernels kAvx2Kernels{background, surfaces, occlusion};
+const Kernels kAvx2Kernels{background, surfaces, project, raster, occlusion};
 
 }  // namespace render::shade

@@ -4,6 +4,6 @@
 namespace render::shade {
 
 extern const Kernels kPlainKernels;
-const Kernels kPlainKernels{background, surfaces, occlusion};
+const Kernels kPlainKernels{background, surfaces, project, raster, occlusion};
 
 }  // namespace render::shade

@@ -40,8 +40,24 @@ LANES float radius(int i, int count) {
   return __builtin_sqrtf((static_cast<float>(i) + 0.5f) / static_cast<float>(count));
 }
 
+/// How depth changes from texel to texel over a surface: what lies on its plane does not shade it.
+struct Slope {
+  F u, v;
+};
+LANES Slope slope_of(const FrameData& f, const Maps& maps, const V3& n) {
+  // the rows of the map's matrix are the light's axes, each over its length
+  const float* m = f.world_to_shadow;
+  const auto along = [&](int row, float size) { return (n.x * m[row] + n.y * m[4 + row] + n.z * m[8 + row]) * (size * size); };
+  constexpr float kSteepest = 4;  // [-] beyond, the sun grazes
+  const F per = -1.0f / min(along(2, f.shadow[2]), f.shadow[2] * -0.05f);
+  const float texels = 1 / static_cast<float>(maps.depth_size);
+  const float most_u = kSteepest * f.shadow[0] / f.shadow[2], most_v = kSteepest * f.shadow[1] / f.shadow[2];
+  return {clamp(along(0, f.shadow_size[0]) * per * texels, -most_u, most_u),
+          clamp(along(1, f.shadow_size[1]) * per * texels, -most_v, most_v)};
+}
+
 /// At p with normal n; x, y are its pixel. Where `wanted` is nought anything may come out.
-LANES F sunlight(const FrameData& f, const Maps& maps, const V3& p, const V3& n, I wanted, F x, F y) {
+LANES F sunlight(const FrameData& f, const Maps& maps, const V3& p, const V3& n, const Slope& slope, I wanted, F x, F y) {
   if (maps.filter == 0) return all(1.0f);
   const int blockers = maps.filter == 2 ? 14 : 8, taps = maps.filter == 2 ? 24 : 12;
   const float texel = f.shadow[0] > f.shadow[1] ? f.shadow[0] : f.shadow[1];
@@ -72,8 +88,9 @@ LANES F sunlight(const FrameData& f, const Maps& maps, const V3& p, const V3& n,
   F blocker = all(0.0f), found = all(0.0f);
   for (int i = 0; i < blockers; ++i, at.next()) {
     const float r = radius(i, blockers);
-    const F depth = depth_at(map, texel_u + at.d.x * (r * wide_u), texel_v + at.d.y * (r * wide_v));
-    const F hit = depth <= z - 0.0002f ? all(1.0f) : all(0.0f);
+    const F du = at.d.x * (r * wide_u), dv = at.d.y * (r * wide_v);
+    const F depth = depth_at(map, texel_u + du, texel_v + dv);
+    const F hit = depth <= min(z + slope.u * du + slope.v * dv, 1.0f) - 0.0002f ? all(1.0f) : all(0.0f);
     blocker += depth * hit;
     found += hit;
   }
@@ -88,7 +105,8 @@ LANES F sunlight(const FrameData& f, const Maps& maps, const V3& p, const V3& n,
   F sum = all(0.0f);
   for (int i = 0; i < taps; ++i, at.next()) {
     const float r = radius(i, taps);
-    sum += nearer_than(map, texel_u - 0.5f + at.d.x * r * spread_u, texel_v - 0.5f + at.d.y * r * spread_v, z);
+    const F du = at.d.x * r * spread_u, dv = at.d.y * r * spread_v;
+    sum += nearer_than(map, texel_u - 0.5f + du, texel_v - 0.5f + dv, min(z + slope.u * du + slope.v * dv, 1.0f));
   }
   return edge ? sum * (1 / static_cast<float>(taps)) : lit;
 }

@@ -2,31 +2,27 @@
 #pragma once
 
 #include "render/shade/ground.h"
+#include "render/shade/raster.h"
 
 namespace render::shade {
 namespace {
 
-/// Sixteen numbers of each lane's row.
+constexpr int kMaterialNumbers = 16;
+
+/// The numbers of each lane's row.
 struct MaterialRows {
   V3 base;
   F diffuse;                                       // share
   F straight, grazing, mirror, glow;               // reflection straight on and at grazing, tinted mirror
   F broad, broad_exponent, sharp, sharp_exponent;  // tinted and white highlight
-  F wrap, sheen, grain, terrain;
+  F wrap, sheen, grain, terrain;                   // terrain: 1 ground, -1 ribs of a lamp
 };
 LANES MaterialRows rows_of(const float* table, I row) {
-  const I at = row * 16;
+  const I at = row * kMaterialNumbers;
   const bool one = !any(row != row[0]);  // mostly
   const float* only = table + at[0];
   const auto n = [&](int i) { return one ? all(only[i]) : gather(table + i, at); };
   return {{n(0), n(1), n(2)}, n(3), n(4), n(5), n(6), n(7), n(8), n(9), n(10), n(11), n(12), n(13), n(14), n(15)};
-}
-
-LANES V3 normal_of(F u, F v) {
-  u = u * 2.0f - 1.0f;
-  v = v * 2.0f - 1.0f;
-  const F z = 1.0f - abs(u) - abs(v), t = max(-z, 0.0f);
-  return normalize({u + (u < 0.0f ? t : -t), v + (v < 0.0f ? t : -t), z});
 }
 
 LANES V3 place_of(const FrameData& f, F x, F y, F depth) {
@@ -59,7 +55,7 @@ LANES V3 surface_light(const FrameData& f, const Maps& maps, const float* materi
   const V3 to_sun = three(f.sun);
   const V3 v = f.eye[3] > 0.5f ? three(-f.forward[0], -f.forward[1], -f.forward[2]) : normalize(three(f.eye) - p);
   const F toward = dot(n, to_sun), ndl = max(toward, 0.0f), ndv = saturate(dot(n, v));
-  const F lit = sunlight(f, maps, p, n, toward >= -m.wrap, x, y);
+  const F lit = sunlight(f, maps, p, n, slope_of(f, maps, n), toward >= -m.wrap, x, y);
   const F height = p.z - f.ground[0];
   const V3 sky =
       ambient_light(f, n.z, mix(0.30f, 1.0f, smoothstep(0, 0.9f, height))) * mix(0.62f, 1.0f, smoothstep(-0.05f, 0.45f, height));
@@ -72,7 +68,7 @@ LANES V3 surface_light(const FrameData& f, const Maps& maps, const float* materi
   V3 paint = m.base * (1.0f + m.grain * (grain - 0.5f));
   if (terrain && any(m.terrain > 0.0f)) {
     const Footprint w = footprint(f, x, y, p, n);
-    paint = mix(paint, ground_colour(f, maps, everything, p.x, p.y, w), m.terrain);
+    paint = mix(paint, ground_colour(f, maps, everything, p.x, p.y, w), max(m.terrain, 0.0f));
   }
   // light goes a little way round into skin and comes out warmer
   const F wrapped = m.wrap > 0.001f ? max((toward + m.wrap) / (1.0f + m.wrap), 0.0f) : ndl;
@@ -92,25 +88,98 @@ LANES V3 surface_light(const FrameData& f, const Maps& maps, const float* materi
   return to_screen(mix(c, haze_colour(f), haze_at(f, far_m)));
 }
 
-LANES F load(const float* from) {
-  F v;
-  __builtin_memcpy(&v, from, sizeof v);
-  return v;
+/// What the corners of its triangle make of a surface.
+struct Look {
+  V3 normal;
+  F grain;
+  I row;
+};
+
+LANES F sine(F x) {
+  return sine_of_turn(x * 0.15915494f);
 }
 
-void surfaces(const FrameData& frame, const Maps& all_maps, const float* materials, bool terrain, const Pieces& pieces) {
+/// The weave of cloth.
+LANES F weave(const V3& p) {
+  return 0.5f + 0.25f * sine(p.x * 31.0f + 2.0f * sine(p.z * 23.0f)) * sine(p.y * 37.0f + 2.0f * sine(p.x * 17.0f + p.z * 9.0f));
+}
+
+LANES Look look_of(const Scene& s, const float* materials, I triangle, F x, F y) {
+  constexpr int kWords = sizeof(Triangle) / sizeof(std::int32_t);
+  const std::int32_t* words = s.triangles[0].vertices;
+  const I at = triangle * kWords;
+  const I v[3] = {gather(words, at), gather(words + 1, at), gather(words + 2, at)};
+  const I row = gather(words + 3, at);
+  const F side = reinterpret_cast<F>(gather(words + 5, at));
+  const Projected& from = s.vertices;
+  F px[3], py[3], per_w[3];
+  for (int k = 0; k < 3; ++k) {
+    px[k] = to_float(gather(from.x, v[k])) * (1.0f / kSub);
+    py[k] = to_float(gather(from.y, v[k])) * (1.0f / kSub);
+    per_w[k] = gather(from.per_w, v[k]);
+  }
+  enum Reach { within, beyond };  // a middle of samples may lie a little beside its triangle; what changes from it on does
+  const auto place = [&](F at_x, F at_y, Reach reach) {
+    Weights w = weights(px, py, per_w, at_x, at_y);
+    const I turned = (w.of[0] + w.of[1] + w.of[2]) < 0.0f;  // a back face runs the other way round
+    for (F& each : w.of) {
+      each = turned ? -each : each;
+      if (reach == within) each = max(each, 0.0f);
+    }
+    const F per = 1.0f / max(w.of[0] + w.of[1] + w.of[2], 1e-30f);
+    for (F& each : w.of) each = each * per;
+    return w;
+  };
+  const auto blend = [&](const float* values, const Weights& w) {
+    return gather(values, v[0]) * w.of[0] + gather(values, v[1]) * w.of[1] + gather(values, v[2]) * w.of[2];
+  };
+  const F sx = x * s.samples, sy = y * s.samples;
+  const Weights w = place(sx, sy, within);
+  Look out{{blend(from.normal_x, w), blend(from.normal_y, w), blend(from.normal_z, w)}, all(0.5f), row};
+  const F length2 = dot(out.normal, out.normal);
+  out.normal = out.normal * (side / sqrt(max(length2, 1e-20f)));
+  const I at_row = (row & 32767) * kMaterialNumbers;
+  const F ribs = gather(materials + 15, at_row), grain = gather(materials + 14, at_row);
+  const I ribbed = ribs<0.0f, woven = grain> 0.0f;
+  if (any(woven)) {
+    const V3 p{blend(from.model_x, w), blend(from.model_y, w), blend(from.model_z, w)};
+    out.grain = woven ? weave(p) : out.grain;
+  }
+  if (any(ribbed)) {  // of a reflector under clear plastic
+    const auto point = [&](const Weights& weight) { return V2{blend(from.model_y, weight), blend(from.model_z, weight)}; };
+    const V2 p = point(w), right = point(place(sx + 1.0f, sy, beyond)), up = point(place(sx, sy + 1.0f, beyond));
+    const V2 dx = {right.x - p.x, right.y - p.y}, dy = {up.x - p.x, up.y - p.y};
+    const F change = 25.0f * (abs(dx.x) + abs(dy.x)) + 20.0f * (abs(dx.y) + abs(dy.y));
+    const F depth = 0.25f * (1.0f - smoothstep(0.2f, 0.8f, change));
+    // the mean of the pixel's samples
+    F ribs_y = all(0.0f), ribs_z = all(0.0f);
+    const int many = s.samples > 1 ? 2 : 1;
+    for (int k = 0; k < many * many; ++k) {
+      const float i = static_cast<float>(k % many) - 0.5f * static_cast<float>(many - 1),
+                  j = static_cast<float>(k / many) - 0.5f * static_cast<float>(many - 1);
+      ribs_y += sine((p.x + dx.x * i + dy.x * j) * 160.0f);
+      ribs_z += sine((p.y + dx.y * i + dy.y * j) * 130.0f + 1.57079633f);
+    }
+    const F share = depth * (1 / static_cast<float>(many * many));
+    const V3 n = normalize({out.normal.x, out.normal.y + share * ribs_y, out.normal.z + share * ribs_z});
+    out.normal = {ribbed ? n.x : out.normal.x, ribbed ? n.y : out.normal.y, ribbed ? n.z : out.normal.z};
+  }
+  return out;
+}
+
+void surfaces(const FrameData& frame, const Maps& all_maps, const Scene& scene, const Surfaces& seen) {
   const FrameData f = frame;
   const Maps maps = all_maps;
-  const Pieces list = pieces;
+  const Scene s = scene;
+  const Surfaces list = seen;
   for (int i = 0; i < list.count; i += kLanes) {
     const F x = load(list.x + i), y = load(list.y + i);
-    I row;
-    __builtin_memcpy(&row, list.row + i, sizeof row);
-    const V3 p = place_of(f, x, y, load(list.depth + i)), n = normal_of(load(list.u + i), load(list.v + i));
-    const V3 c = surface_light(f, maps, materials, terrain, p, n, row, load(list.grain + i), x, y);
-    __builtin_memcpy(list.red + i, &c.x, sizeof c.x);
-    __builtin_memcpy(list.green + i, &c.y, sizeof c.y);
-    __builtin_memcpy(list.blue + i, &c.z, sizeof c.z);
+    const V3 p = place_of(f, x, y, load(list.depth + i));
+    const Look look = look_of(s, s.materials, load_int(list.triangle + i), x, y);
+    const V3 c = surface_light(f, maps, s.materials, s.terrain, p, look.normal, look.row, look.grain, x, y);
+    store(c.x, list.red + i);
+    store(c.y, list.green + i);
+    store(c.z, list.blue + i);
   }
 }
 

@@ -7,11 +7,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <map>
-#include <numeric>
+#include <bit>
 #include <queue>
-#include <span>
 #include <tuple>
+#include <unordered_map>
 
 namespace render {
 namespace {
@@ -97,22 +96,30 @@ class Collapse {
 
   // planes of the triangles, and through each edge that must stay where it is a plane square to its triangle
   void add_planes() {
-    std::map<std::pair<Corner, Corner>, std::vector<std::uint32_t>> edges;
+    std::vector<std::tuple<Corner, Corner, std::uint32_t>> sides_of_edges;
     for (std::uint32_t t = 0; t < triangles_.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         const Corner a = corner_[triangles_[t].vertices[k]], b = corner_[triangles_[t].vertices[(k + 1) % 3]];
-        edges[std::minmax(a, b)].push_back(t);
+        sides_of_edges.emplace_back(std::min(a, b), std::max(a, b), t);
       }
+    std::sort(sides_of_edges.begin(), sides_of_edges.end());
     for (const Triangle& t : triangles_) {
       const Eigen::Vector3d n = area(t.vertices).normalized();
       for (const std::uint32_t v : t.vertices) add_plane(corner_[v], n, at(t.vertices[0]));
     }
-    for (const auto& [edge, sides] : edges) {
-      if (smooth(edge.first, sides) && smooth(edge.second, sides)) continue;
-      const Eigen::Vector3d along = at(edge.second) - at(edge.first);
+    std::vector<std::uint32_t> sides;
+    for (std::size_t i = 0, next = 0; i < sides_of_edges.size(); i = next) {
+      const auto [from, to, unused] = sides_of_edges[i];
+      sides.clear();
+      for (next = i;
+           next < sides_of_edges.size() && std::get<0>(sides_of_edges[next]) == from && std::get<1>(sides_of_edges[next]) == to;
+           ++next)
+        sides.push_back(std::get<2>(sides_of_edges[next]));
+      if (smooth(from, sides) && smooth(to, sides)) continue;
+      const Eigen::Vector3d along = at(to) - at(from);
       for (const std::uint32_t t : sides) {
         const Eigen::Vector3d n = area(triangles_[t].vertices).cross(along).normalized();
-        for (const Corner c : {edge.first, edge.second}) add_plane(c, n, at(edge.first));
+        for (const Corner c : {from, to}) add_plane(c, n, at(from));
       }
     }
   }
@@ -225,17 +232,25 @@ std::vector<Mesh::Part> parts_of(const Mesh& mesh) {
 }
 
 std::vector<std::uint32_t> welded(const Mesh& mesh) {
+  using Place = std::array<float, 3>;
+  const auto hash = [](const Place& p) {
+    std::uint64_t h = 0;
+    for (const float x : p) h = (h ^ std::bit_cast<std::uint32_t>(x)) * 0x9e3779b97f4a7c15u;
+    return static_cast<std::size_t>(h ^ h >> 32);
+  };
   const std::size_t n = mesh.positions.size() / 3;
-  std::vector<std::uint32_t> order(n), same(n);
-  std::iota(order.begin(), order.end(), 0u);
-  const auto place = [&](std::uint32_t v) { return std::span(mesh.positions).subspan(3 * std::size_t{v}, 3); };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    if (std::ranges::equal(place(a), place(b))) return a < b;
-    return std::ranges::lexicographical_compare(place(a), place(b));
-  });
-  for (std::size_t i = 0; i < n; ++i)
-    same[order[i]] = i > 0 && std::ranges::equal(place(order[i]), place(order[i - 1])) ? same[order[i - 1]] : order[i];
+  std::unordered_map<Place, std::uint32_t, decltype(hash)> first(n, hash);
+  std::vector<std::uint32_t> same(n);
+  for (std::uint32_t v = 0; v < n; ++v) {
+    const float* p = &mesh.positions[3 * std::size_t{v}];
+    same[v] = first.try_emplace({p[0] + 0.0f, p[1] + 0.0f, p[2] + 0.0f}, v).first->second;  // -0 is 0
+  }
   return same;
+}
+
+const std::vector<Mesh::Level>& Mesh::levels() const {
+  if (!made_levels) made_levels = coarser_levels(*this);
+  return *made_levels;
 }
 
 std::vector<Mesh::Level> coarser_levels(const Mesh& mesh) {

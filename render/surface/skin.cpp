@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "render/parallel.h"
 #include "render/surface/skin_field.h"
 
 namespace render {
@@ -30,9 +31,11 @@ class Grid {
     cell_ = (upper.z() - origin_.z()) / kCells;
     for (int i = 0; i < 3; ++i) n_[i] = static_cast<int>(std::ceil((upper[i] - origin_[i]) / cell_)) + 2;
     values_.resize(static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]));
-    for (int k = 0; k < n_[2]; k += kBlock)
-      for (int j = 0; j < n_[1]; j += kBlock)
-        for (int i = 0; i < n_[0]; i += kBlock) fill(field, {i, j, k});
+    const auto blocks = [](int nodes) { return static_cast<std::size_t>((nodes + kBlock - 1) / kBlock); };
+    in_parallel(blocks(n_[2]) * blocks(n_[1]), [&](std::size_t b) {
+      const int k = kBlock * static_cast<int>(b / blocks(n_[1])), j = kBlock * static_cast<int>(b % blocks(n_[1]));
+      for (int i = 0; i < n_[0]; i += kBlock) fill(field, {i, j, k});
+    });
   }
   using Node = std::array<int, 3>;
   std::size_t index(const Node& a) const {
@@ -146,6 +149,15 @@ Sheets sheets_of(const Grid& grid, const Grid::Node& a) {
   return out;
 }
 
+/// Calls each(i) for each i below `count`, some hundreds at a time.
+template <class Each>
+void in_slices(std::size_t count, Each each) {
+  constexpr std::size_t kSlice = 256;
+  in_parallel((count + kSlice - 1) / kSlice, [&](std::size_t s) {
+    for (std::size_t i = s * kSlice; i < std::min(count, (s + 1) * kSlice); ++i) each(i);
+  });
+}
+
 Net surface_net(const SkinField& field) {
   const Grid grid(field);
   Net net;
@@ -157,7 +169,7 @@ Net surface_net(const SkinField& field) {
       sheets = sheets_of(grid, cell);
       for (std::size_t i = 0; i < static_cast<std::size_t>(sheets.count); ++i) {
         sheets.vertex[i] = static_cast<std::uint32_t>(net.vertices.size());
-        net.vertices.push_back(field.onto_surface(sheets.place[i]));
+        net.vertices.push_back(sheets.place[i]);
       }
     }
     return sheets.vertex[static_cast<std::size_t>(sheets.of_edge[edge])];
@@ -183,6 +195,7 @@ Net surface_net(const SkinField& field) {
           net.triangles.push_back({corner[0], corner[1], corner[2]});
           net.triangles.push_back({corner[0], corner[2], corner[3]});
         }
+  in_slices(net.vertices.size(), [&](std::size_t v) { net.vertices[v] = field.onto_surface(net.vertices[v]); });
   return net;
 }
 
@@ -229,14 +242,13 @@ class Wardrobe {
 
 /// Triangles by material; those between two are cut where both are equally near.
 std::vector<std::vector<Triangle>> dressed(Net& net, const Wardrobe& wardrobe, const SkinField& field) {
-  std::vector<std::vector<double>> distances;
-  std::vector<std::size_t> wears;
-  auto look_up = [&](const Vec3& x) {
-    distances.push_back(wardrobe.distances(x));
-    const auto& d = distances.back();
-    wears.push_back(static_cast<std::size_t>(std::min_element(d.begin(), d.end()) - d.begin()));
+  std::vector<std::vector<double>> distances(net.vertices.size());
+  std::vector<std::size_t> wears(net.vertices.size());
+  const auto look_up = [&](std::size_t v) {
+    distances[v] = wardrobe.distances(net.vertices[v]);
+    wears[v] = static_cast<std::size_t>(std::min_element(distances[v].begin(), distances[v].end()) - distances[v].begin());
   };
-  for (const Vec3& x : net.vertices) look_up(x);
+  in_slices(net.vertices.size(), look_up);
   std::map<std::array<std::uint32_t, 2>, std::uint32_t> cuts;
   auto cut = [&](std::uint32_t a, std::uint32_t b) {
     if (a > b) std::swap(a, b);
@@ -245,7 +257,9 @@ std::vector<std::vector<Triangle>> dressed(Net& net, const Wardrobe& wardrobe, c
       const double u = distances[a][wears[b]] - distances[a][wears[a]], v = distances[b][wears[a]] - distances[b][wears[b]];
       const double s = u + v > 0 ? std::clamp(u / (u + v), 0.1, 0.9) : 0.5;
       net.vertices.push_back(field.onto_surface(net.vertices[a] + s * (net.vertices[b] - net.vertices[a])));
-      look_up(net.vertices.back());
+      distances.emplace_back();
+      wears.emplace_back();
+      look_up(net.vertices.size() - 1);
     }
     return at->second;
   };
@@ -302,8 +316,8 @@ std::array<Skin::Weight, Skin::kWeights> weights_at(const SkinField& field, cons
   return out;
 }
 
-void push(std::vector<float>& to, const Vec3& v) {
-  for (int i = 0; i < 3; ++i) to.push_back(static_cast<float>(v[i]));
+void put(const Vec3& v, float* to) {
+  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(v[i]);
 }
 
 }  // namespace
@@ -326,11 +340,15 @@ std::shared_ptr<const Skin> build_skin(const PersonActor& person) {
     mesh->parts.push_back({first, static_cast<std::uint32_t>(mesh->indices.size()) - first, static_cast<int>(m)});
   }
   auto skin = std::make_shared<Skin>();
-  for (const Vec3& x : net.vertices) {
-    push(mesh->positions, x);
-    push(mesh->normals, field.normal(x));
-    skin->weights.push_back(weights_at(field, x));
-  }
+  mesh->positions.resize(3 * net.vertices.size());
+  mesh->normals.resize(3 * net.vertices.size());
+  skin->weights.resize(net.vertices.size());
+  in_slices(net.vertices.size(), [&](std::size_t v) {
+    const Vec3& x = net.vertices[v];
+    put(x, &mesh->positions[3 * v]);
+    put(field.normal(x), &mesh->normals[3 * v]);
+    skin->weights[v] = weights_at(field, x);
+  });
   for (const Pose& X_MS : field.poses()) skin->X_SM.push_back(X_MS.inverse());
   skin->mesh = mesh;
   return skin;

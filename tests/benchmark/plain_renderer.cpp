@@ -1,5 +1,6 @@
 #include "plain_renderer.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -53,6 +54,29 @@ void main() {
 }
 )";
 
+const char* const kShadowVertex = R"(
+layout(location = 0) in vec3 position;
+uniform mat4 model_to_clip;
+void main() { gl_Position = model_to_clip * vec4(position, 1.0); }
+)";
+const char* const kShadowFragment = R"(
+out vec4 colour;
+void main() { colour = vec4(0.0); }
+)";
+
+const char* const kThingVertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+uniform mat4 model;
+out vec3 at_W;
+out vec3 normal_W;
+void main() {
+  vec4 p = model * vec4(position, 1.0);
+  at_W = p.xyz;
+  normal_W = mat3(model) * normal;
+  gl_Position = world_to_clip * p;
+}
+)";
 const char* const kThing = R"(
 in vec3 at_W;
 in vec3 normal_W;
@@ -97,9 +121,36 @@ PlainRenderer::PlainRenderer(int width, int height) : width_(width), height_(hei
   glBindFramebuffer(GL_FRAMEBUFFER, *shadow_);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, *shadow_depth_, 0);
   glDrawBuffer(GL_NONE);
-  depth_ = program(kDepthVertex, kDepthFragment);
+  depth_ = program(kShadowVertex, kShadowFragment);
   ground_ = program(kScreenVertex, std::string(kLight) + kGround);
-  thing_ = program(kObjectVertex, std::string(kLight) + kThing);
+  thing_ = program(kThingVertex, std::string(kLight) + kThing);
+}
+
+void PlainRenderer::draw_run(const Piece& piece, const Geometry::Level& level) {
+  const Geometry& g = *piece.geometry;
+  std::unique_ptr<Uploaded>& on_gl = uploaded_[&g];
+  const bool first = !on_gl;
+  if (first) on_gl = std::make_unique<Uploaded>();
+  glBindVertexArray(*on_gl->array);
+  if (first || (g.moves && piece.run == 0)) {
+    std::vector<float> data;
+    for (std::size_t v = 0; v < static_cast<std::size_t>(g.count); ++v)
+      for (const std::vector<float>& list : g.vertices) data.push_back(list[v]);
+    glBindBuffer(GL_ARRAY_BUFFER, *on_gl->vertices);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data.size() * sizeof(float)), data.data(), GL_STATIC_DRAW);
+    for (GLuint i = 0; i < 2; ++i) {
+      glEnableVertexAttribArray(i);
+      glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, 6 * sizeof(float),
+                            reinterpret_cast<const void*>(std::size_t{i} * 3 * sizeof(float)));
+    }
+  }
+  if (first) {
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, *on_gl->indices);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(g.indices.size() * sizeof(std::uint32_t)), g.indices.data(),
+                 GL_STATIC_DRAW);
+  }
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(level.runs[piece.run].count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(std::size_t{level.runs[piece.run].first} * sizeof(std::uint32_t)));
 }
 
 void PlainRenderer::draw_shadows(const std::vector<Piece>& pieces, const FrameSetup& frame) {
@@ -111,7 +162,7 @@ void PlainRenderer::draw_shadows(const std::vector<Piece>& pieces, const FrameSe
   depth_->use();
   for (const Piece& piece : pieces) {
     depth_->set("model_to_clip", to_gl(frame.world_to_shadow_clip * from_gl(piece.model)));
-    draw_run(*piece.geometry, piece.geometry->levels.front(), piece.run, Culling::off);
+    draw_run(piece, piece.geometry->levels.front());
   }
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
@@ -133,7 +184,7 @@ void PlainRenderer::draw_scene(const std::vector<Piece>& pieces, const FrameSetu
     thing_->set("model", piece.model);
     thing_->set("base", Float3{row[0], row[1], row[2]});
     thing_->set("reflects", row[4]);
-    draw_run(*piece.geometry, *piece.level, piece.run, Culling::off);
+    draw_run(piece, *piece.level);
   }
 }
 
@@ -154,14 +205,17 @@ void PlainRenderer::draw(const DrawList& list, Image& out) {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, *one_);
   glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_FRAMEBUFFER, *one_);
-  overlays_.draw(list, width_, height_);
   out.width = width_;
   out.height = height_;
   const std::size_t row = 4 * static_cast<std::size_t>(width_);
   out.rgba.resize(row * static_cast<std::size_t>(height_));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  for (int y = 0; y < height_; ++y)
-    glReadPixels(0, height_ - 1 - y, width_, 1, GL_RGBA, GL_UNSIGNED_BYTE, out.rgba.data() + row * static_cast<std::size_t>(y));
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, out.rgba.data());
+  overlays_.draw(list, {out.rgba.data(), width_}, height_, nullptr);
+  for (int y = 0; y < height_ / 2; ++y) {
+    std::uint8_t* a = out.rgba.data() + row * static_cast<std::size_t>(y);
+    std::swap_ranges(a, a + row, out.rgba.data() + row * static_cast<std::size_t>(height_ - 1 - y));
+  }
   draw_labels(list, out);
 }
 

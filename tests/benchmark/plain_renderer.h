@@ -2,6 +2,7 @@
 // shadow map with 3 x 3 looks, nothing kept from frame to frame, nothing left out; one process, llvmpipe's own threads.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -20,6 +21,7 @@ class PlainRenderer {
 
  private:
   void draw_shadows(const std::vector<render::gl::Piece>&, const render::gl::FrameSetup&);
+  void draw_run(const render::gl::Piece&, const render::gl::Geometry::Level&);
   void draw_scene(const std::vector<render::gl::Piece>&, const render::gl::FrameSetup&);
 
   int width_, height_;
@@ -31,6 +33,11 @@ class PlainRenderer {
   render::gl::Texture shadow_depth_;
   render::gl::Buffer block_;
   render::gl::VertexArray nothing_;
+  struct Uploaded {
+    render::gl::VertexArray array;
+    render::gl::Buffer vertices, indices;
+  };
+  std::map<const render::gl::Geometry*, std::unique_ptr<Uploaded>> uploaded_;
   std::unique_ptr<render::gl::Program> depth_, ground_, thing_;
   render::gl::OverlayPass overlays_;
 };

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <cstring>
+#include <numbers>
 #include <random>
 
 #include "gl_scene.h"
@@ -62,21 +65,103 @@ TEST(Shade, BackgroundIsTheSameOnEveryProcessor) {
             << "zone " << zone << ", sun " << sun << ", filter " << filter;
 }
 
+/// Triangles of all sizes and turns before a street's camera, on a grid of samples.
+struct Heap {
+  static constexpr int kTriangles = 400, kRoom = 3 * kTriangles + 7, kSamples = 2;
+  explicit Heap(const Street& street, bool wires = false) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> any(-1, 1);
+    for (int t = 0; t < kTriangles; ++t) {
+      const float at[] = {4 * any(random), t % 8 == 1 ? -6.0f : 3 + 4 * any(random), 1.5f + 2 * any(random)};
+      const float size = t % 4 == 0 ? 0.02f : t % 4 == 1 ? 1.5f : 0.2f;
+      for (int k = 0; k < 3; ++k) {
+        indices.push_back(static_cast<std::uint32_t>(3 * t + k));
+        for (std::size_t i = 0; i < 3; ++i) {
+          mesh[i].push_back(at[i] + size * any(random));
+          mesh[3 + i].push_back(any(random));
+        }
+      }
+    }
+    for (auto& list : mesh) list.resize(kRoom);
+    std::copy(street.frame.block.world_to_clip.begin(), street.frame.block.world_to_clip.end(), projection.model_to_clip);
+    for (const int i : {0, 5, 10, 15}) projection.model_to_world[i] = run.model_to_world[i] = 1;
+    projection.half_width = kWidth * kSamples / 2.0f;
+    projection.half_height = kHeight * kSamples / 2.0f;
+    run.indices = indices.data();
+    run.triangles = kTriangles;
+    run.closed = 1;
+    run.kept = 13;
+    run.above_ground = true;
+    run.wires = wires;
+    std::fill_n(run.axes, 3, 1.0f);
+  }
+
+  struct Seen {
+    std::vector<float> depth = std::vector<float>(kWidth * kSamples * kHeight * kSamples + 7, 1.0f);
+    std::vector<std::int32_t> names = std::vector<std::int32_t>(depth.size()), places = std::vector<std::int32_t>(2 * kRoom);
+    std::vector<float> numbers = std::vector<float>(9 * kRoom);
+    std::vector<Triangle> triangles = std::vector<Triangle>(kTriangles);
+    std::vector<std::int32_t> cut = std::vector<std::int32_t>(kTriangles);
+    int count = 0, cut_count = 0;
+    Projected vertices() {
+      const auto n = [this](int i) { return numbers.data() + i * kRoom; };
+      return {places.data(), places.data() + kRoom, n(0), n(1), n(2), n(3), n(4), n(5), n(6), n(7), n(8)};
+    }
+  };
+  Seen seen(const Kernels& by) const {
+    Seen out;
+    by.project(projection,
+               {3 * kTriangles, mesh[0].data(), mesh[1].data(), mesh[2].data(), mesh[3].data(), mesh[4].data(), mesh[5].data()},
+               out.vertices());
+    by.raster({out.depth.data(), out.names.data(), kWidth * kSamples, 0, 0, kWidth * kSamples, kHeight * kSamples}, out.vertices(),
+              run, {out.triangles.data(), &out.count, out.cut.data(), &out.cut_count});
+    return out;
+  }
+  std::vector<std::uint32_t> indices;
+  std::vector<std::vector<float>> mesh = std::vector<std::vector<float>>(6);
+  Projection projection{};
+  Run run{};
+};
+
+TEST(Shade, TrianglesAreTheSameOnEveryProcessor) {
+  const Street street;
+  for (const bool wires : {false, true}) {
+    const Heap heap(street, wires);
+    const Heap::Seen a = heap.seen(kernels()), b = heap.seen(plain_kernels());
+    EXPECT_EQ(a.depth, b.depth);
+    EXPECT_EQ(a.names, b.names);
+    EXPECT_EQ(a.places, b.places);
+    EXPECT_EQ(a.numbers, b.numbers);
+    EXPECT_EQ(a.cut, b.cut);
+    ASSERT_EQ(a.count, b.count);
+    EXPECT_GT(a.count, Heap::kTriangles / 3);
+    EXPECT_GT(a.cut_count, 0) << "some reach behind the camera";
+    for (int i = 0; i < a.count; ++i)
+      EXPECT_EQ(std::memcmp(&a.triangles[static_cast<std::size_t>(i)], &b.triangles[static_cast<std::size_t>(i)], sizeof(Triangle)),
+                0);
+    const auto covered = std::count_if(a.depth.begin(), a.depth.end(), [](float z) { return z < 1; });
+    EXPECT_GT(covered, kWidth * kHeight / (wires ? 10 : 2));
+  }
+}
+
 TEST(Shade, SurfacesAreTheSameOnEveryProcessor) {
   const Street street;
-  std::mt19937 random(11);
-  std::uniform_real_distribution<float> any(0, 1);
-  constexpr int kCount = 1003, kRoom = kCount + 7;
-  std::vector<std::vector<float>> in(6, std::vector<float>(kRoom));
-  for (auto& values : in)
-    for (float& v : values) v = any(random);
-  for (int i = 0; i < kRoom; ++i) {
-    in[0][static_cast<std::size_t>(i)] *= kWidth;
-    in[1][static_cast<std::size_t>(i)] *= kHeight;
-    in[2][static_cast<std::size_t>(i)] = 0.9f + 0.1f * in[2][static_cast<std::size_t>(i)];
+  Heap heap(street);
+  Heap::Seen seen = heap.seen(kernels());
+  for (int i = 0; i < seen.count; ++i) seen.triangles[static_cast<std::size_t>(i)].row = i % 8 + (i % 3 == 0 ? 32768 : 0);
+  std::vector<float> x, y, depth;
+  std::vector<std::int32_t> triangle;
+  for (std::size_t at = 0; at + 7 < seen.depth.size(); at += 7) {
+    if (seen.depth[at] >= 1) continue;
+    x.push_back((static_cast<float>(at % (kWidth * Heap::kSamples)) + 0.5f) / Heap::kSamples);
+    y.push_back((static_cast<float>(at / (kWidth * Heap::kSamples)) + 0.5f) / Heap::kSamples);
+    depth.push_back(seen.depth[at]);
+    triangle.push_back(seen.names[at]);
   }
-  std::vector<std::int32_t> row;
-  for (int i = 0; i < kRoom; ++i) row.push_back((i / 20 + i % 2) % 8 + (i % 3 == 0 ? 32768 : 0));
+  const int count = static_cast<int>(x.size());
+  ASSERT_GT(count, 1000);
+  for (auto* list : {&x, &y, &depth}) list->resize(x.size() + 7);
+  triangle.resize(triangle.size() + 7);
   std::vector<float> materials;
   for (int kind = 0; kind < 8; ++kind) {
     Material m;
@@ -84,15 +169,56 @@ TEST(Shade, SurfacesAreTheSameOnEveryProcessor) {
     for (const Float4& four : gl::row_of(m, kind == 0)) materials.insert(materials.end(), four.begin(), four.end());
   }
   const auto lit = [&](const Kernels& by, bool terrain) {
-    std::vector<std::vector<float>> out(3, std::vector<float>(kRoom));
-    by.surfaces(street.data, street.maps(1), materials.data(), terrain,
-                {kCount, in[0].data(), in[1].data(), in[2].data(), in[3].data(), in[4].data(), in[5].data(), row.data(),
-                 out[0].data(), out[1].data(), out[2].data()});
+    std::vector<std::vector<float>> out(3, std::vector<float>(triangle.size()));
+    by.surfaces(street.data, street.maps(1), {materials.data(), seen.triangles.data(), seen.vertices(), Heap::kSamples, terrain},
+                {count, x.data(), y.data(), depth.data(), triangle.data(), out[0].data(), out[1].data(), out[2].data()});
     return out;
   };
   for (const bool terrain : {false, true}) EXPECT_EQ(lit(kernels(), terrain), lit(plain_kernels(), terrain));
   const std::vector<std::vector<float>> colours = lit(kernels(), true);
   for (const float v : colours[1]) EXPECT_TRUE(v >= 0 && v <= 1.01f) << v;
+}
+
+/// A fan around a point in the picture: who shares an edge shares no sample, and none is left out.
+TEST(Shade, TrianglesThatMeetShareNoSampleAndLeaveNoneOut) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> any(0, 1);
+  constexpr int kSide = 64, kSpokes = 23;
+  for (int round = 0; round < 40; ++round) {
+    // corners on the 1/64 grid, often in the middle of a sample
+    const auto snapped = [&] {
+      return static_cast<std::int32_t>(any(random) * (round % 2 ? 64 : 4096)) * (round % 2 ? 64 : 1) + 32;
+    };
+    std::vector<std::int32_t> x{snapped()}, y{snapped()};
+    // around a frame beyond the picture
+    for (int i = 0; i < kSpokes; ++i) {
+      const double turn = 2 * std::numbers::pi * i / kSpokes;
+      x.push_back(static_cast<std::int32_t>(2048 + 9000 * std::cos(turn)));
+      y.push_back(static_cast<std::int32_t>(2048 + 9000 * std::sin(turn)));
+    }
+    std::vector<float> depth(x.size() + 7, 0.5f), per_w(x.size() + 7, 1.0f);
+    x.resize(x.size() + 7);
+    y.resize(y.size() + 7);
+    std::vector<int> times(kSide * kSide, 0);
+    for (std::uint32_t i = 0; i < kSpokes; ++i) {
+      std::vector<float> seen(kSide * kSide + 7, 1.0f);
+      const std::uint32_t corners[] = {0, 1 + i, 1 + (i + 1) % kSpokes};
+      shade::Run run{};
+      run.indices = corners;
+      run.triangles = 1;
+      int count = 0, cut_count = 0;
+      std::int32_t cut = 0;
+      Projected p{};
+      p.x = x.data();
+      p.y = y.data();
+      p.depth = depth.data();
+      p.per_w = per_w.data();
+      kernels().raster({seen.data(), nullptr, kSide, 0, 0, kSide, kSide}, p, run, {nullptr, &count, &cut, &cut_count});
+      for (std::size_t at = 0; at < times.size(); ++at) times[at] += seen[at] < 1 ? 1 : 0;
+      for (std::size_t at = times.size(); at < seen.size(); ++at) ASSERT_EQ(seen[at], 1) << "beyond the grid";
+    }
+    for (const int n : times) ASSERT_EQ(n, 1) << "round " << round;
+  }
 }
 
 TEST(Shade, APictureLiesOnTheGroundToScale) {
