@@ -7,17 +7,21 @@
 
 #include "render/gl/depth_pyramid.h"
 #include "render/gl/frame_block.h"
+#include "render/gl/ground_tiles.h"
 #include "render/shade/kernels.h"
 
 namespace render::gl {
 
 class BackgroundPass {
  public:
-  /// Onto the whole canvas, `width` by `height` pixels.
-  void draw(const DrawList&, const FrameSetup&, const DepthPyramid&, const shade::FrameData&, const shade::Maps&,
-            const shade::Canvas&, int height);
+  /// What is to be drawn on the canvas, `height` pixels high; puts there what is kept of the last frame.
+  void begin(const DrawList&, const FrameSetup&, const DepthPyramid&, const shade::FrameData&, const shade::Maps&,
+             const shade::Canvas&, int height);
+  /// Its rows from y0 up to y1, but not where `covered` (shade::Tile) says so.
+  void draw(int y0, int y1, const std::uint8_t* covered, const shade::FrameData&, const shade::Maps&, const shade::Canvas&) const;
 
  private:
+  TileMap tiles_;
   std::vector<std::uint8_t> bare_;                // RGBA, lowest row first
   std::optional<FrameBlock> kept_, last_;         // whose background lies in bare_, and whose was drawn last
   std::shared_ptr<const GroundPicture> picture_;  // that lay on it

@@ -20,4 +20,19 @@ void ObjectPass::draw(const DrawList& list, const std::vector<Piece>& pieces, co
       {depth_.data(), names_.data(), r.width * samples, r.x * samples, r.y * samples, r.width * samples, r.height * samples});
 }
 
+void ObjectPass::cover(const Rectangle& r, int samples, int width, std::vector<std::uint8_t>& out) const {
+  const std::ptrdiff_t w = r.width * samples;
+  for (int y = 0; y < r.height; ++y) {
+    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(r.y + y) * width;
+    std::fill_n(out.begin() + row, width, std::uint8_t{0});
+    const float* low = depth() + static_cast<std::ptrdiff_t>(y * samples) * w;
+    std::uint8_t* to = out.data() + row + r.x;
+    if (samples == 1)
+      for (int x = 0; x < r.width; ++x) to[x] = low[x] < 1 ? 255 : 0;
+    else
+      for (int x = 0; x < r.width; ++x, low += 2)
+        to[x] = std::max(std::max(low[0], low[1]), std::max(low[w], low[w + 1])) < 1 ? 255 : 0;
+  }
+}
+
 }  // namespace render::gl

@@ -19,6 +19,8 @@ class ObjectPass {
   const float* depth() const { return depth_.data(); }
   const std::int32_t* names() const { return names_.data(); }
   Sampler& sampler() { return sampler_; }
+  /// 255 for the pixels of the band all of whose samples see a thing, 0 for the others of its rows, in a picture `width` wide.
+  void cover(const Rectangle& r, int samples, int width, std::vector<std::uint8_t>& out) const;
 
  private:
   std::vector<float> depth_;

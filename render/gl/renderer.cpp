@@ -1,6 +1,6 @@
-// The passes of a frame: shadow map, background, ground in shade, skid marks, objects in their own rectangle, their light, lines,
-// labels. Only marks are drawn by OpenGL. Work is done where it can be seen, and every pass depends on the frame's list
-// alone.
+// The passes of a frame: shadow map, things in their own rectangle, background where they leave it to be seen, skid marks, the
+// light of things, lines, labels. Only marks are drawn by OpenGL. Work is done where it can be seen, and every pass depends on the
+// frame's list alone.
 #include "render/renderer.h"
 
 #include <algorithm>
@@ -81,8 +81,9 @@ struct Renderer::Impl {
   ObjectPass objects;
   LightPass light;
   gl::OverlayPass overlays;
-  std::vector<std::uint8_t> canvas;  // RGBA, lowest row first, as large as it is drawn
-  std::vector<float> depth;          // of its pixels, where a line may pass behind things
+  std::vector<std::uint8_t> canvas;   // RGBA, lowest row first, as large as it is drawn
+  std::vector<std::uint8_t> covered;  // of its pixels, by things
+  std::vector<float> depth;           // of its pixels, where a line may pass behind things
   FrameCost cost{};
 };
 
@@ -127,25 +128,40 @@ void Renderer::draw(const DrawList& list, Image& out) {
   watch.lap(Pass::shadow);
   const shade::FrameData data = frame_data(frame.block);
   const shade::Maps maps = r.shadow.maps(effort, list.road);
-  r.background.draw(list, frame, r.shadow.bounds(), data, maps, canvas, height);
-  const bool terrain = list.road.terrain != nullptr;
+  r.background.begin(list, frame, r.shadow.bounds(), data, maps, canvas, height);
+  const bool terrain = list.road.terrain != nullptr, on_terrain = terrain && !list.strips.empty();
+  const bool under_things = !terrain && !list.strips.empty();  // marks: they want the ground whole
   if (!list.strips.empty() && !r.marks) r.marks = std::make_unique<Marks>(width, height);
-  if (!terrain && !list.strips.empty()) r.marks->draw(list, frame, r.canvas, nullptr);
+  if (under_things) {
+    r.background.draw(0, height, nullptr, data, maps, canvas);
+    r.marks->draw(list, frame, r.canvas, nullptr);
+  }
   watch.lap(Pass::background);
-  const bool on_terrain = terrain && !list.strips.empty();
   const bool depth =
       on_terrain || std::any_of(list.lines.begin(), list.lines.end(), [](const LineItem& l) { return l.hidden_behind; });
-  if (depth) r.depth.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 1.0f);
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  if (depth) r.depth.assign(pixels, 1.0f);
+  r.covered.resize(pixels + 7);
   const Rectangle objects = terrain ? Rectangle{0, 0, width, height} : frame.objects;
   const int band_height = std::clamp(kBandSamples / (width * effort.samples * effort.samples), 16, height);
+  int done = 0;  // rows of the background
   for (int y = objects.y; y < objects.y + objects.height; y += band_height) {
     const Rectangle band{objects.x, y, objects.width, std::min(band_height, objects.y + objects.height - y)};
     r.objects.draw(list, pieces, frame, width, height, effort.samples, band);
     if (depth) nearest_depths(r.objects, band, effort.samples, width, r.depth);
     watch.lap(Pass::objects);
+    if (!under_things) {
+      r.background.draw(done, y, nullptr, data, maps, canvas);
+      done = y + band.height;
+      r.objects.cover(band, effort.samples, width, r.covered);
+      r.background.draw(y, done, r.covered.data(), data, maps, canvas);
+      watch.lap(Pass::background);
+    }
     r.light.draw({data, maps, r.materials.rows(), terrain, effort.samples}, r.objects, band, canvas);
     watch.lap(Pass::light);
   }
+  if (!under_things) r.background.draw(done, height, nullptr, data, maps, canvas);
+  watch.lap(Pass::background);
   if (on_terrain) r.marks->draw(list, frame, r.canvas, &r.depth);
   r.overlays.draw(list, canvas, height, depth ? r.depth.data() : nullptr);
   watch.lap(Pass::lines);

@@ -232,6 +232,11 @@ void background(const FrameData& frame, const Maps& all_maps, const Tile& one, c
     for (int i = 0; i < tile.width; i += kLanes, at += 4 * kLanes) {
       const F x = count_up(static_cast<float>(tile.x + i) + 0.5f);
       const int count = tile.width - i < kLanes ? tile.width - i : kLanes;
+      if (tile.covered) {
+        std::uint64_t bytes = 0;
+        __builtin_memcpy(&bytes, tile.covered + static_cast<std::int64_t>(row) * out.width + tile.x + i, sizeof bytes);
+        if (bytes == ~std::uint64_t{0}) continue;
+      }
       if (tile.zone == sky)
         put(to_screen(sky_light(f, normalize(ray_of(f, x, y).along))) + dither(x, y), count, at);
       else

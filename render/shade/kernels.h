@@ -45,6 +45,7 @@ struct Tile {
   int x, y, width, height;
   int zone, sun;
   bool near_ground;
+  const std::uint8_t* covered = nullptr;  // a byte a pixel of the canvas and seven more: not 0 where nothing of it will be seen
 };
 
 /// RGBA8, lowest row first.

@@ -165,8 +165,8 @@ LANES I on_wire(const Wires& wires, F x, F y) {
   return (off_parallel <= 1.1f) | ((off_meridian <= 1.1f) & (rho2 >= 0.01f));
 }
 
-/// Samples of one triangle. `kept`: of two by two samples, bit 2 y + x.
-template <bool kNames>
+/// Samples of one triangle. `kept`: of two by two samples, bit 2 y + x. kSieved: some of them, or wires, are left out.
+template <bool kNames, bool kSieved>
 LANES void fill(const SampleGrid& grid, const Edge* edges, int edge_count, const Plane& p, int x0, int y0, int x1, int y1,
                 std::int32_t name, unsigned kept, const Wires* wires) {
   const I count = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -198,8 +198,9 @@ LANES void fill(const SampleGrid& grid, const Edge* edges, int edge_count, const
       I seen = (inside >= 0) & (kNames ? z <= before : z < before);
       if (!any(seen)) continue;
       if constexpr (kNames) {
-        if (kept != 15) seen &= ((static_cast<int>(kept >> (2 * (y & 1))) & (1 << ((count + x) & 1))) != 0);
-        if (wires) seen &= on_wire(*wires, count_f + static_cast<float>(x), all(static_cast<float>(y)));
+        if constexpr (kSieved) seen &= ((static_cast<int>(kept >> (2 * (y & 1))) & (1 << ((count + x) & 1))) != 0);
+        if constexpr (kSieved)
+          if (wires) seen &= on_wire(*wires, count_f + static_cast<float>(x), all(static_cast<float>(y)));
         std::int32_t* const names = grid.names + row + x;
         store(seen ? all(name) : load_int(names), names);
       }
@@ -315,15 +316,19 @@ LANES void draw_run(const SampleGrid& to, const Projected& vertices, const Run& 
       }
       out.triangles[drawn] = {
           {v[0], v[1], v[2]}, run.row + (inside ? 32768 : 0), packed(side * normal[0], side * normal[1], side * normal[2]), side};
-      const Wires wires{&run, &from, {v[0], v[1], v[2]}};
-      fill<true>(grid, edges, edge_count, p, x0, y0, x1, y1, drawn, run.kept, run.wires ? &wires : nullptr);
+      if (run.kept == 15 && !run.wires) {
+        fill<true, false>(grid, edges, edge_count, p, x0, y0, x1, y1, drawn, 15, nullptr);
+      } else {
+        const Wires wires{&run, &from, {v[0], v[1], v[2]}};
+        fill<true, true>(grid, edges, edge_count, p, x0, y0, x1, y1, drawn, run.kept, run.wires ? &wires : nullptr);
+      }
       ++drawn;
     } else {
       const float more = run.offset_slope * static_cast<float>(larger_of(p.per_x, p.per_y)) + run.offset;
       p.z += static_cast<double>(more);
       p.least += more;
       p.largest += more;
-      fill<false>(grid, edges, edge_count, p, x0, y0, x1, y1, 0, 15, nullptr);
+      fill<false, false>(grid, edges, edge_count, p, x0, y0, x1, y1, 0, 15, nullptr);
     }
   }
   *out.count = drawn;

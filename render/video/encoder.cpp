@@ -215,6 +215,9 @@ struct VideoEncoder::Impl {
     } else {
       av_opt_set(codec->priv_data, "preset", "veryfast", 0);
       av_opt_set(codec->priv_data, "crf", "20", 0);
+      // two fifths less work at the same structural similarity, for files a tenth larger; and every frame follows the one before
+      codec->me_subpel_quality = 1;
+      codec->max_b_frames = 0;
     }
     check(avcodec_open2(codec, coder, nullptr), what);
     check(avcodec_parameters_from_context(stream->codecpar, codec), what);
