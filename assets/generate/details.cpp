@@ -61,8 +61,11 @@ void wheel_arch(Surface& s, double x, double hub, double radius, double outer, d
 }
 
 void darken_below(Surface& s, double z) {
-  const Filter below = [z](const V3& p, const V3& n) { return n.z < -0.6 || p.z < z; };
-  cut(s, Seen::from_above, {{-20, -1}, {20, -1}, {20, 2}, {-20, 2}}, below, "underbody");
+  // along clean lines: up to the height, and where the skin turns down
+  paint_where(
+      s, [z](const Vertex& v) { return z - v.p.z; }, "underbody");
+  paint_where(
+      s, [](const Vertex& v) { return -0.6 - v.n.z; }, "underbody");
 }
 
 void underside(Surface& s, double axle, double hub, double floor, double half_track) {

@@ -71,15 +71,15 @@ double side_of(Seen seen, const V3& p, const std::array<double, 2>& a, const std
   return (b[0] - a[0]) * (v - a[1]) - (b[1] - a[1]) * (u - a[0]);
 }
 
-/// Splits a polygon by a line: `in` keeps the left, `out` the right.
-void split(const Polygon& whole, Seen seen, const std::array<double, 2>& a, const std::array<double, 2>& b, Polygon& in,
-           Polygon& out) {
+/// Splits a polygon along the line where `side` is nought, linear between its corners: `in` keeps where it is more, `out` the rest.
+template <class Side>
+void split(const Polygon& whole, Side side, Polygon& in, Polygon& out) {
   in.clear();
   out.clear();
   for (std::size_t i = 0; i < whole.size(); ++i) {
     const Vertex& p = whole[i];
     const Vertex& q = whole[(i + 1) % whole.size()];
-    const double sp = side_of(seen, p.p, a, b), sq = side_of(seen, q.p, a, b);
+    const double sp = side(p), sq = side(q);
     if (sp >= 0) in.push_back(p);
     if (sp <= 0) out.push_back(p);
     if ((sp > 0 && sq < 0) || (sp < 0 && sq > 0)) {
@@ -109,7 +109,10 @@ void cut(Surface& surface, Seen seen, const std::vector<std::array<double, 2>>& 
     Polygon inside(face.v.begin(), face.v.end()), in, out;
     std::vector<Polygon> outside;
     for (std::size_t i = 0; i < border.size() && inside.size() >= 3; ++i) {
-      split(inside, seen, border[i], border[(i + 1) % border.size()], in, out);
+      const auto& a = border[i];
+      const auto& b = border[(i + 1) % border.size()];
+      split(
+          inside, [&](const Vertex& v) { return side_of(seen, v.p, a, b); }, in, out);
       if (out.size() >= 3) outside.push_back(out);
       inside = in;
     }
@@ -119,6 +122,17 @@ void cut(Surface& surface, Seen seen, const std::vector<std::array<double, 2>>& 
     }
     for (const Polygon& piece : outside) emit(result, piece, face.material);
     if (!material.empty()) emit(result, inside, material);
+  }
+  surface = std::move(result);
+}
+
+void paint_where(Surface& surface, const std::function<double(const Vertex&)>& side, const std::string& material) {
+  Surface result;
+  Polygon in, out;
+  for (const Face& face : surface.faces) {
+    split(Polygon(face.v.begin(), face.v.end()), side, in, out);
+    if (out.size() >= 3) emit(result, out, face.material);
+    if (in.size() >= 3) emit(result, in, material);
   }
   surface = std::move(result);
 }

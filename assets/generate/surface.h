@@ -49,6 +49,10 @@ enum class Seen { from_side, from_front, from_above };  // which two coordinates
 /// gets `material`, or is removed when that is empty.
 void cut(Surface&, Seen, const std::vector<std::array<double, 2>>& polygon, const Filter&, const std::string& material);
 
+/// Cuts along the line where `side` changes its sign, linear over each triangle; what lies where it is more than nought gets
+/// `material`.
+void paint_where(Surface&, const std::function<double(const Vertex&)>& side, const std::string& material);
+
 /// Writes NAME.obj and NAME.mtl with shared vertices.
 struct Paint {
   std::string name;
