@@ -21,6 +21,7 @@ struct Effort {
   double shadow_reach = 0.05;  // [m] radius of the widest penumbra
   int occlusion_size = 128;    // texels a side of the occlusion map
   double pixel_share = 0.2;    // [pixels] that tessellation may be off
+  int ground_step = 1;         // [pixels] along a row from one look at the ground to the next
 };
 Effort effort_of(Quality, int width, int height);
 

@@ -23,11 +23,39 @@ void draw_tiles(const TileMap& tiles, const shade::FrameData& data, const shade:
     }
 }
 
+/// For pixels twice as wide.
+FrameSetup of_half_width(FrameSetup frame) {
+  FrameBlock& b = frame.block;
+  for (Float4* per_pixel : {&b.near_x, &b.far_x})
+    for (float& v : *per_pixel) v *= 2;
+  b.frame[0] *= 2;
+  return frame;
+}
+
+/// A row twice as wide, blended between the middles of its pixels.
+void widen(const std::uint8_t* from, int width, std::uint8_t* to) {
+  const auto blend = [](const std::uint8_t* near, const std::uint8_t* far, std::uint8_t* out) {
+    for (int c = 0; c < 4; ++c) out[c] = static_cast<std::uint8_t>((3 * near[c] + far[c] + 2) / 4);
+  };
+  blend(from, from, to);
+  for (int x = 0; x + 1 < width; ++x) {
+    blend(from + 4 * x, from + 4 * x + 4, to + 8 * x + 4);
+    blend(from + 4 * x + 4, from + 4 * x, to + 8 * x + 8);
+  }
+  blend(from + 4 * (width - 1), from + 4 * (width - 1), to + 8 * (width - 1) + 4);
+}
+
 }  // namespace
 
-void BackgroundPass::begin(const DrawList& list, const FrameSetup& frame, const DepthPyramid& depth, const shade::FrameData& data,
-                           const shade::Maps& maps, const shade::Canvas& canvas, int height) {
-  const std::size_t bytes = 4 * static_cast<std::size_t>(canvas.width) * static_cast<std::size_t>(height);
+void BackgroundPass::begin(const DrawList& list, const FrameSetup& whole, const DepthPyramid& depth, const shade::Maps& maps,
+                           const shade::Canvas& onto, int height, int step) {
+  half_ = step == 2 && onto.width % 2 == 0;
+  const int width = half_ ? onto.width / 2 : onto.width;
+  const std::size_t bytes = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  if (half_) narrow_.resize(bytes);
+  const shade::Canvas canvas{half_ ? narrow_.data() : onto.pixels, width};
+  const FrameSetup frame = half_ ? of_half_width(whole) : whole;
+  data_ = frame_data(frame.block);
   if (picture_ != list.road.picture) {
     picture_ = list.road.picture;
     kept_ = last_ = std::nullopt;
@@ -35,21 +63,26 @@ void BackgroundPass::begin(const DrawList& list, const FrameSetup& frame, const 
   // kept from the second equal frame on: a moving camera pays for no copy
   if (last_ && same_background(*last_, frame.block) && !(kept_ && same_background(*kept_, frame.block))) {
     bare_.resize(bytes);
-    draw_tiles(lay_tiles(frame, list.road, depth, Shade::none, canvas.width, height), data, maps, {bare_.data(), canvas.width}, 0,
-               height, nullptr);
+    draw_tiles(lay_tiles(frame, list.road, depth, Shade::none, width, height), data_, maps, {bare_.data(), width}, 0, height,
+               nullptr);
     kept_ = frame.block;
   }
   last_ = frame.block;
-  tiles_ = lay_tiles(frame, list.road, depth, Shade::cast, canvas.width, height);
+  tiles_ = lay_tiles(frame, list.road, depth, Shade::cast, width, height);
   if (kept_ && same_background(*kept_, frame.block)) {
     std::copy_n(bare_.begin(), bytes, canvas.pixels);
     std::erase_if(tiles_, [](const auto& t) { return t.first.sun == Sun::bare; });
   }
 }
 
-void BackgroundPass::draw(int y0, int y1, const std::uint8_t* covered, const shade::FrameData& data, const shade::Maps& maps,
-                          const shade::Canvas& canvas) const {
-  draw_tiles(tiles_, data, maps, canvas, y0, y1, covered);
+void BackgroundPass::draw(int y0, int y1, const std::uint8_t* covered, const shade::Maps& maps, const shade::Canvas& canvas) {
+  if (!half_) {
+    draw_tiles(tiles_, data_, maps, canvas, y0, y1, covered);
+    return;
+  }
+  const int width = canvas.width / 2;
+  draw_tiles(tiles_, data_, maps, {narrow_.data(), width}, y0, y1, nullptr);
+  for (std::ptrdiff_t y = y0; y < y1; ++y) widen(narrow_.data() + 4 * y * width, width, canvas.pixels + 8 * y * width);
 }
 
 }  // namespace render::gl

@@ -14,13 +14,17 @@ namespace render::gl {
 
 class BackgroundPass {
  public:
-  /// What is to be drawn on the canvas, `height` pixels high; puts there what is kept of the last frame.
-  void begin(const DrawList&, const FrameSetup&, const DepthPyramid&, const shade::FrameData&, const shade::Maps&,
-             const shade::Canvas&, int height);
+  /// What is to be drawn on the canvas, `height` pixels high; puts there what is kept of the last frame. `step` 2: every other
+  /// pixel of a row is looked at, with twice the footprint, and those between are blended.
+  void begin(const DrawList&, const FrameSetup&, const DepthPyramid&, const shade::Maps&, const shade::Canvas&, int height,
+             int step);
   /// Its rows from y0 up to y1, but not where `covered` (shade::Tile) says so.
-  void draw(int y0, int y1, const std::uint8_t* covered, const shade::FrameData&, const shade::Maps&, const shade::Canvas&) const;
+  void draw(int y0, int y1, const std::uint8_t* covered, const shade::Maps&, const shade::Canvas&);
 
  private:
+  bool half_ = false;                 // step 2
+  std::vector<std::uint8_t> narrow_;  // then, half as wide
+  shade::FrameData data_{};
   TileMap tiles_;
   std::vector<std::uint8_t> bare_;                // RGBA, lowest row first
   std::optional<FrameBlock> kept_, last_;         // whose background lies in bare_, and whose was drawn last

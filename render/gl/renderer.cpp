@@ -128,12 +128,12 @@ void Renderer::draw(const DrawList& list, Image& out) {
   watch.lap(Pass::shadow);
   const shade::FrameData data = frame_data(frame.block);
   const shade::Maps maps = r.shadow.maps(effort, list.road);
-  r.background.begin(list, frame, r.shadow.bounds(), data, maps, canvas, height);
+  r.background.begin(list, frame, r.shadow.bounds(), maps, canvas, height, effort.ground_step);
   const bool terrain = list.road.terrain != nullptr, on_terrain = terrain && !list.strips.empty();
   const bool under_things = !terrain && !list.strips.empty();  // marks: they want the ground whole
   if (!list.strips.empty() && !r.marks) r.marks = std::make_unique<Marks>(width, height);
   if (under_things) {
-    r.background.draw(0, height, nullptr, data, maps, canvas);
+    r.background.draw(0, height, nullptr, maps, canvas);
     r.marks->draw(list, frame, r.canvas, nullptr);
   }
   watch.lap(Pass::background);
@@ -151,16 +151,16 @@ void Renderer::draw(const DrawList& list, Image& out) {
     if (depth) nearest_depths(r.objects, band, effort.samples, width, r.depth);
     watch.lap(Pass::objects);
     if (!under_things) {
-      r.background.draw(done, y, nullptr, data, maps, canvas);
+      r.background.draw(done, y, nullptr, maps, canvas);
       done = y + band.height;
       r.objects.cover(band, effort.samples, width, r.covered);
-      r.background.draw(y, done, r.covered.data(), data, maps, canvas);
+      r.background.draw(y, done, r.covered.data(), maps, canvas);
       watch.lap(Pass::background);
     }
     r.light.draw({data, maps, r.materials.rows(), terrain, effort.samples}, r.objects, band, canvas);
     watch.lap(Pass::light);
   }
-  if (!under_things) r.background.draw(done, height, nullptr, data, maps, canvas);
+  if (!under_things) r.background.draw(done, height, nullptr, maps, canvas);
   watch.lap(Pass::background);
   if (on_terrain) r.marks->draw(list, frame, r.canvas, &r.depth);
   r.overlays.draw(list, canvas, height, depth ? r.depth.data() : nullptr);

@@ -18,7 +18,7 @@ constexpr int kWidestFine = 4096;  // [pixels] four times that is the largest te
 }  // namespace
 
 Effort effort_of(Quality q, int width, int height) {
-  if (q == Quality::draft) return {1, 1, 512, 1, 0.05, 128, 0.5};
+  if (q == Quality::draft) return {1, 1, 512, 1, 0.05, 128, 0.5, 2};
   if (q == Quality::standard) return {1, 2, 1024, 1, 0.05, 128, 0.2};
   return {std::max(width, height) > kWidestFine ? 1 : 2, 2, 2048, 2, 0.10, 256, 0.2};
 }

@@ -125,12 +125,14 @@ TEST(Frame, DependsOnItsListAlone) {
   DrawList three = one;
   three.lines.push_back(trace);
 
-  Renderer a(kWidth, kHeight, Quality::standard), b(kWidth, kHeight, Quality::standard);
-  const Image first = draw_with(a, one), top = draw_with(a, two), traced = draw_with(a, three), again = draw_with(a, one);
-  const Image b_traced = draw_with(b, three), b_top = draw_with(b, two), b_first = draw_with(b, one);
-  EXPECT_TRUE(first.rgba == again.rgba) << "drawn twice";
-  EXPECT_TRUE(first.rgba == b_first.rgba && top.rgba == b_top.rgba && traced.rgba == b_traced.rgba) << "drawn in another order";
-  EXPECT_FALSE(first.rgba == traced.rgba) << "the line must be seen, else the comparison proves little";
+  for (const Quality quality : {Quality::draft, Quality::standard}) {
+    Renderer a(kWidth, kHeight, quality), b(kWidth, kHeight, quality);
+    const Image first = draw_with(a, one), top = draw_with(a, two), traced = draw_with(a, three), again = draw_with(a, one);
+    const Image b_traced = draw_with(b, three), b_top = draw_with(b, two), b_first = draw_with(b, one);
+    EXPECT_TRUE(first.rgba == again.rgba) << "drawn twice";
+    EXPECT_TRUE(first.rgba == b_first.rgba && top.rgba == b_top.rgba && traced.rgba == b_traced.rgba) << "drawn in another order";
+    EXPECT_FALSE(first.rgba == traced.rgba) << "the line must be seen, else the comparison proves little";
+  }
 }
 
 TEST(Frame, OfAStandingCameraDoesNotDependOnTheOnesBefore) {
@@ -141,15 +143,17 @@ TEST(Frame, OfAStandingCameraDoesNotDependOnTheOnesBefore) {
     out.ellipsoids.push_back(ball({x, 6, 0.5f}, 0.5));
     return out;
   };
-  Renderer renderer(kWidth, kHeight, Quality::standard);
-  for (const float x : {-1.0f, 0.0f, 1.0f}) {
-    const Image in_a_row = draw_with(renderer, with_ball_at(x));
-    Renderer fresh(kWidth, kHeight, Quality::standard);
-    EXPECT_TRUE(in_a_row.rgba == draw_with(fresh, with_ball_at(x)).rgba) << "ball at " << x;
+  for (const Quality quality : {Quality::draft, Quality::standard, Quality::fine}) {
+    Renderer renderer(kWidth, kHeight, quality);
+    for (const float x : {-1.0f, 0.0f, 1.0f}) {
+      const Image in_a_row = draw_with(renderer, with_ball_at(x));
+      Renderer fresh(kWidth, kHeight, quality);
+      EXPECT_TRUE(in_a_row.rgba == draw_with(fresh, with_ball_at(x)).rgba) << "ball at " << x;
+    }
+    // and without anything to draw again
+    Renderer fresh(kWidth, kHeight, quality);
+    EXPECT_TRUE(draw_with(renderer, list).rgba == draw_with(fresh, list).rgba);
   }
-  // and without anything to draw again
-  Renderer fresh(kWidth, kHeight, Quality::standard);
-  EXPECT_TRUE(draw_with(renderer, list).rgba == draw_with(fresh, list).rgba);
 }
 
 TEST(Mesh, OfWhateverWindingIsLitOnTheSideThatIsSeen) {
