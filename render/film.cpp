@@ -119,9 +119,6 @@ FrameCost draw_frame(const Job& j, Painter& painter, Image& image, int i) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(4);  // the parent died before the line above could bind us to it
   setenv("LP_NUM_THREADS", "0", 1);
-  // lists and pictures come and go with each frame: their memory stays, else each page is cleared anew
-  mallopt(M_MMAP_THRESHOLD, kKeptPieces);
-  mallopt(M_TRIM_THRESHOLD, kKept);
   int at = first;
   try {
     Painter painter(j.job.width, j.job.height, j.job.quality);
@@ -191,6 +188,12 @@ class Workers {
   std::vector<pid_t> pids_;
 };
 
+/// Lists and pictures come and go with each frame, here and in the workers: their memory stays, else each page is cleared anew.
+void keep_memory() {
+  mallopt(M_MMAP_THRESHOLD, kKeptPieces);
+  mallopt(M_TRIM_THRESHOLD, kKept);
+}
+
 /// What every worker would have to build by itself.
 void prepare(const Stage& stage) {
   for (const PersonActor& person : stage.persons)
@@ -240,6 +243,7 @@ FilmCost make_film(const Stage& stage, const engine::Recording& recording, const
                    const std::function<void(const FilmProgress&)>& progress) {
   const auto start = std::chrono::steady_clock::now();
   refuse_existing(job, moments);
+  keep_memory();
   const int frames = static_cast<int>(moments.size());
   if (frames == 0) throw RenderError("there is no frame to draw: check --from, --to and --frames against the length of the film");
   prepare(stage);

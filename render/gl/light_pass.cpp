@@ -21,43 +21,69 @@ bool alike(const shade::Triangle& a, const shade::Triangle& b) {
 
 void LightPass::draw(const Lighting& lighting, ObjectPass& objects, const Rectangle& r, const shade::Canvas& canvas) {
   if (r.width <= 0 || r.height <= 0) return;
-  for (auto* list : {&share_, &x_, &y_, &z_}) list->clear();
-  pixel_.clear();
-  triangle_.clear();
   const std::vector<shade::Triangle>& triangles = objects.sampler().triangles();
-  find_surfaces(lighting, objects, triangles, r);
-  if (pixel_.empty()) return;
-  const std::size_t count = pixel_.size(), room = count + 7;
-  for (auto* list : {&x_, &y_, &z_, &red_, &green_, &blue_}) list->resize(room, 0.5f);
-  triangle_.resize(room, 0);
+  find_surfaces(lighting, objects, triangles, r, canvas.width);
+  if (count_ == 0) return;
   shade::kernels().surfaces(
       lighting.data, lighting.maps,
       {lighting.materials, triangles.data(), objects.sampler().vertices(), static_cast<float>(lighting.samples), lighting.terrain},
-      {static_cast<int>(count), x_.data(), y_.data(), z_.data(), triangle_.data(), red_.data(), green_.data(), blue_.data()});
-  lay(r, canvas);
+      {static_cast<int>(count_), x_.data(), y_.data(), z_.data(), triangle_.data(), red_.data(), green_.data(), blue_.data()});
+  lay(canvas);
+}
+
+void LightPass::make_room(std::size_t more) {
+  constexpr std::size_t kRoom = 7;
+  const std::size_t wanted = count_ + more + kRoom;
+  if (pixel_.size() >= wanted) return;
+  const std::size_t size = std::max(wanted, 3 * pixel_.size() / 2);
+  for (auto* list : {&share_, &x_, &y_, &z_, &red_, &green_, &blue_}) list->resize(size, 0.5f);
+  pixel_.resize(size);
+  triangle_.resize(size);
 }
 
 void LightPass::find_surfaces(const Lighting& lighting, const ObjectPass& objects, const std::vector<shade::Triangle>& triangles,
-                              const Rectangle& r) {
-  const int s = lighting.samples, w = r.width * s;
+                              const Rectangle& r, int width) {
+  count_ = 0;
+  const int s = lighting.samples;
+  const std::ptrdiff_t w = r.width * s;
   for (int y = 0; y < r.height; ++y) {
-    const float* low = objects.depth() + static_cast<std::ptrdiff_t>(y * s) * w;
+    make_room(2 * static_cast<std::size_t>(r.width));
+    const float* low = objects.depth() + y * s * w;
     for (int x = 0; x < r.width; ++x, low += s) {
       bool empty = low[0] >= 1;
       if (s == 2) empty = empty && low[1] >= 1 && low[w] >= 1 && low[w + 1] >= 1;
-      if (!empty) add_pixel(lighting, objects, triangles, r, x, y);
+      if (!empty)
+        add_pixel(objects, triangles, s, low - objects.depth(), w, (r.y + y) * width + r.x + x, static_cast<float>(r.x + x),
+                  static_cast<float>(r.y + y));
     }
   }
+  // what fills up the last eight looks like the last
+  for (std::size_t i = count_; i < count_ + 7 && count_ > 0; ++i) triangle_[i] = triangle_[count_ - 1];
 }
 
 /// The samples of a pixel show one surface, or two: nearly no pixel shows three, and the third then looks like the second.
-void LightPass::add_pixel(const Lighting& lighting, const ObjectPass& objects, const std::vector<shade::Triangle>& triangles,
-                          const Rectangle& r, int x, int y) {
-  const int samples = lighting.samples, all = samples * samples;
-  const std::ptrdiff_t w = r.width * samples, corner = static_cast<std::ptrdiff_t>(y * samples) * w + x * samples;
-  const std::array<std::ptrdiff_t, 4> at{corner, corner + 1, corner + w, corner + w + 1};
+void LightPass::add_pixel(const ObjectPass& objects, const std::vector<shade::Triangle>& triangles, int samples,
+                          std::ptrdiff_t corner, std::ptrdiff_t row, int pixel, float x, float y) {
+  const int all = samples * samples;
+  const std::array<std::ptrdiff_t, 4> at{corner, corner + 1, corner + row, corner + row + 1};
   const float* const depth = objects.depth();
   const std::int32_t* const names = objects.names();
+  const auto add = [&](float share, float right, float up, float z, std::int32_t name) {
+    pixel_[count_] = pixel;
+    share_[count_] = share;
+    x_[count_] = x + right;
+    y_[count_] = y + up;
+    z_[count_] = z;
+    triangle_[count_++] = name;
+  };
+  if (samples == 2) {  // mostly
+    const std::int32_t name = names[corner];
+    const float farthest = std::max(std::max(depth[at[0]], depth[at[1]]), std::max(depth[at[2]], depth[at[3]]));
+    if (farthest < 1 && names[at[1]] == name && names[at[2]] == name && names[at[3]] == name) {
+      add(1, 0.5f, 0.5f, (depth[at[0]] + depth[at[1]] + depth[at[2]] + depth[at[3]]) * 0.25f, name);
+      return;
+    }
+  }
   unsigned left = 0;
   for (int k = 0; k < all; ++k) left |= depth[at[static_cast<std::size_t>(k)]] < 1 ? 1u << k : 0u;
   for (int surface = 0; surface < 2 && left != 0; ++surface) {
@@ -77,28 +103,24 @@ void LightPass::add_pixel(const Lighting& lighting, const ObjectPass& objects, c
       up += k >> 1;
     }
     const float per = 1.0f / static_cast<float>(n), sample = 1.0f / static_cast<float>(samples);
-    pixel_.push_back(y * r.width + x);
     const int covered = surface == 0 ? n : std::popcount(left);
-    share_.push_back(static_cast<float>(covered) / static_cast<float>(all));
-    x_.push_back(static_cast<float>(r.x + x) + sample * (0.5f + static_cast<float>(right) * per));
-    y_.push_back(static_cast<float>(r.y + y) + sample * (0.5f + static_cast<float>(up) * per));
-    z_.push_back(z * per);
-    triangle_.push_back(name);
+    add(static_cast<float>(covered) / static_cast<float>(all), sample * (0.5f + static_cast<float>(right) * per),
+        sample * (0.5f + static_cast<float>(up) * per), z * per, name);
     left &= ~same;
   }
 }
 
-void LightPass::lay(const Rectangle& r, const shade::Canvas& canvas) const {
-  for (std::size_t i = 0; i < pixel_.size();) {
-    const int pixel = pixel_[i], x = r.x + pixel % r.width, y = r.y + pixel / r.width;
-    std::uint8_t* out = canvas.pixels + 4 * (static_cast<std::ptrdiff_t>(y) * canvas.width + x);
+void LightPass::lay(const shade::Canvas& canvas) const {
+  for (std::size_t i = 0; i < count_;) {
+    const int pixel = pixel_[i];
+    std::uint8_t* out = canvas.pixels + 4 * static_cast<std::ptrdiff_t>(pixel);
     float left = 1;
     std::array<float, 3> sum{};
-    for (; i < pixel_.size() && pixel_[i] == pixel; ++i) {
+    do {
       const std::array<float, 3> c{red_[i], green_[i], blue_[i]};
       for (std::size_t k = 0; k < 3; ++k) sum[k] += share_[i] * 255 * std::clamp(c[k], 0.0f, 1.0f);
-      left -= share_[i];
-    }
+      left -= share_[i++];
+    } while (i < count_ && pixel_[i] == pixel);
     for (std::size_t k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>(sum[k] + left * static_cast<float>(out[k]) + 0.5f);
   }
 }

@@ -23,12 +23,15 @@ class LightPass {
   void draw(const Lighting&, ObjectPass&, const Rectangle& r, const shade::Canvas&);
 
  private:
-  void find_surfaces(const Lighting&, const ObjectPass&, const std::vector<shade::Triangle>&, const Rectangle&);
-  void add_pixel(const Lighting&, const ObjectPass&, const std::vector<shade::Triangle>&, const Rectangle&, int x, int y);
-  void lay(const Rectangle&, const shade::Canvas&) const;
+  void find_surfaces(const Lighting&, const ObjectPass&, const std::vector<shade::Triangle>&, const Rectangle&, int width);
+  void add_pixel(const ObjectPass&, const std::vector<shade::Triangle>&, int samples, std::ptrdiff_t corner, std::ptrdiff_t row,
+                 int pixel, float x, float y);
+  void make_room(std::size_t more);
+  void lay(const shade::Canvas&) const;
 
   // a surface in a pixel
-  std::vector<int> pixel_;
+  std::size_t count_ = 0;
+  std::vector<int> pixel_;  // of the canvas
   std::vector<float> share_, x_, y_, z_, red_, green_, blue_;
   std::vector<std::int32_t> triangle_;
 };
