@@ -66,8 +66,8 @@ void find(World& world, const State& state, int self) {
       c.body_b = moving(joint.parent);
       c.J_a.setZero();
       c.J_b.setZero();
-      c.J_a.row(0) = rows.J_C.row(k);
-      c.J_b.row(0) = rows.J_P.row(k);
+      c.J_a.row(0) = row_on_child(rows, k).transpose();
+      c.J_b.row(0) = row_on_parent(rows, k).transpose();
       c.target = -kCorrection * rows.error[k] / world.step;
       c.softness = kGive * free_response(world, state, c);
       c.key = (static_cast<std::uint64_t>(self) << 56) | (static_cast<std::uint64_t>(j) << 8) | static_cast<std::uint64_t>(k);

@@ -1,44 +1,73 @@
 #include "engine/solver/articulation.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 namespace engine {
 namespace {
 
-/// Inverse of a symmetric positive definite matrix by blocks of 3 and K - 3: fixed sizes, no loops, no allocation.
-template <int K>
-Eigen::Matrix<double, K, K> inverse_small(const Eigen::Matrix<double, K, K>& A) {
-  if constexpr (K == 3) {
-    return A.inverse();
-  } else {
-    constexpr int R = K - 3;
-    const Mat3 Pi = A.template topLeftCorner<3, 3>().inverse();
-    const Eigen::Matrix<double, 3, R> PiQ = Pi * A.template topRightCorner<3, R>();
-    const Eigen::Matrix<double, R, R> Si =
-        (A.template bottomRightCorner<R, R>() - A.template topRightCorner<3, R>().transpose() * PiQ).inverse();
-    Eigen::Matrix<double, K, K> out;
-    out.template bottomRightCorner<R, R>() = Si;
-    out.template topRightCorner<3, R>() = -PiQ * Si;
-    out.template bottomLeftCorner<R, 3>() = out.template topRightCorner<3, R>().transpose();
-    out.template topLeftCorner<3, 3>() = Pi - out.template topRightCorner<3, R>() * PiQ.transpose();
-    return out;
-  }
+using Mat63 = Eigen::Matrix<double, 6, 3>;
+
+/// Inverse of a symmetric positive definite matrix by blocks of 3: fixed sizes, no loops, no allocation.
+Mat6 inverse_spd(const Mat6& A) {
+  const Mat3 Pi = A.topLeftCorner<3, 3>().inverse();
+  const Mat3 PiQ = Pi * A.topRightCorner<3, 3>();
+  const Mat3 Si = (A.bottomRightCorner<3, 3>() - A.topRightCorner<3, 3>().transpose() * PiQ).inverse();
+  Mat6 out;
+  out.bottomRightCorner<3, 3>() = Si;
+  out.topRightCorner<3, 3>() = -PiQ * Si;
+  out.bottomLeftCorner<3, 3>() = out.topRightCorner<3, 3>().transpose();
+  out.topLeftCorner<3, 3>() = Pi - out.topRightCorner<3, 3>() * PiQ.transpose();
+  return out;
 }
 
-/// Of J H^-1 J^T of a joint. A fixed one with long levers on light inertias leaves the blocks half the digits; it is rare enough
-/// for Cholesky.
-template <int K>
-Eigen::Matrix<double, K, K> inverse_of_joint(const Eigen::Matrix<double, K, K>& A) {
-  if constexpr (K == 6) return A.llt().solve(Mat6::Identity());
-  return inverse_small<K>(A);
+/// M skew(r), without the products with its zeros.
+template <int N>
+Eigen::Matrix<double, N, 3> times_skew(const Eigen::Matrix<double, N, 3>& M, const Vec3& r) {
+  Eigen::Matrix<double, N, 3> out;
+  out.col(0) = r.z() * M.col(1) - r.y() * M.col(2);
+  out.col(1) = r.x() * M.col(2) - r.z() * M.col(0);
+  out.col(2) = r.y() * M.col(0) - r.x() * M.col(1);
+  return out;
+}
+
+/// skew(r) M.
+template <int N>
+Eigen::Matrix<double, 3, N> skew_times(const Vec3& r, const Eigen::Matrix<double, 3, N>& M) {
+  Eigen::Matrix<double, 3, N> out;
+  out.row(0) = r.y() * M.row(2) - r.z() * M.row(1);
+  out.row(1) = r.z() * M.row(0) - r.x() * M.row(2);
+  out.row(2) = r.x() * M.row(1) - r.y() * M.row(0);
+  return out;
+}
+
+/// A motion of the body that gives the rows the right-hand side g; any other differs by what the joint leaves free.
+Vec6 particular(const JointRows& rows, bool body_is_joint_child, const Vec3& r) {
+  const double s = body_is_joint_child ? -1 : 1;
+  Vec3 w = Vec3::Zero();
+  switch (rows.count) {
+    case 3:
+      break;
+    case 4:
+      w = s * rows.bias[3] / rows.n[0].squaredNorm() * rows.n[0];
+      break;
+    case 5: {
+      const double aa = rows.n[0].squaredNorm(), ab = rows.n[0].dot(rows.n[1]), bb = rows.n[1].squaredNorm();
+      const double x = rows.bias[3], y = rows.bias[4];
+      w = s / (aa * bb - ab * ab) * ((bb * x - ab * y) * rows.n[0] + (aa * y - ab * x) * rows.n[1]);
+      break;
+    }
+    default: {
+      Mat3 N;
+      N << rows.n[0].transpose(), rows.n[1].transpose(), rows.n[2].transpose();
+      w = s * (N.inverse() * rows.bias.tail<3>());
+    }
+  }
+  Vec6 c;
+  c << s * rows.bias.head<3>() + r.cross(w), w;
+  return c;
 }
 
 }  // namespace
-
-Mat6 inverse_spd(const Mat6& H) {
-  return inverse_small<6>(H);
-}
 
 Mat3 inertia_W(const Body& body, const Quat& q_WB) {
   const Mat3 R = q_WB.toRotationMatrix();
@@ -51,63 +80,86 @@ void Articulation::reset(const Topology& topology) {
   factors_.resize(topology.links.size());
 }
 
+/// S = [skew(r) S_w; S_w]: the point of the joint stays.
 template <int K>
-void Articulation::eliminate(Factor& f, const Mat6& J_c, const Mat6& J_p, const Mat6& H, Mat6* H_parent,
-                             const JointDamper* damper) {
-  const Eigen::Matrix<double, K, 6> Jc = J_c.topRows<K>();
-  const Mat6 Hi = inverse_spd(H);
-  const Eigen::Matrix<double, 6, K> HJ = Hi * Jc.transpose();
-  const Eigen::Matrix<double, K, K> A = Jc * HJ;
-  const Eigen::Matrix<double, K, K> Ai = inverse_of_joint<K>(A);
-  auto E = f.E.leftCols<K>();
-  E.noalias() = HJ * Ai;
-  f.D = Hi;
-  f.D.noalias() -= E * HJ.transpose();
+void Articulation::eliminate(Factor& f, const Hinge& hinge, const Eigen::Matrix<double, 3, K>& S_w, const Mat6& H, Mat6* H_parent) {
+  Eigen::Matrix<double, 6, K> S;
+  S.template topRows<3>() = skew_times<K>(hinge.r, S_w);
+  S.template bottomRows<3>() = S_w;
+  const Eigen::Matrix<double, 6, K> HS = H * S;
+  Eigen::Matrix<double, K, K> k = S.transpose() * HS;
+  if (hinge.damper && hinge.damper->present) k.noalias() += S_w.transpose() * hinge.damper->matrix * S_w;
+  const Eigen::Matrix<double, K, K> ki = k.inverse();
+  f.D.noalias() = S * ki * S.transpose();
   if (!H_parent) {
     f.X.setZero();
     return;
   }
-  Eigen::Matrix<double, K, 6> Jp = J_p.topRows<K>();
-  if (damper && damper->present) {
-    const Eigen::Matrix<double, 6, 3> HiB = -(Hi.rightCols<3>() * damper->matrix);  // H^-1 B, the columns of w_p
-    Jp.template rightCols<3>() -= Jc * HiB;
-    H_parent->bottomRightCorner<3, 3>() += damper->matrix + damper->matrix * HiB.template bottomRows<3>();
-    f.X.noalias() = -(E * Jp);
-    f.X.rightCols<3>() -= HiB;
-  } else {
-    f.X.noalias() = -(E * Jp);
-  }
-  auto F = f.F.leftCols<K>();
-  F.noalias() = Jp.transpose() * Ai;
-  H_parent->noalias() += F * Jp;
+  // X0 = [1, -skew(d); 0, 1]
+  const Vec3 d = hinge.r_parent - hinge.r;
+  const Eigen::Matrix<double, 6, K> U = HS * ki;
+  Eigen::Matrix<double, K, 6> UX;
+  UX.template leftCols<3>() = U.template topRows<3>().transpose();
+  UX.template rightCols<3>() = U.template bottomRows<3>().transpose() + skew_times<K>(d, U.template topRows<3>()).transpose();
+  f.X.noalias() = -(S * UX);
+  f.X.diagonal().array() += 1;
+  f.X.topRightCorner<3, 3>() -= skew(d);
+  Mat6 rest = H;
+  rest.noalias() -= U * HS.transpose();
+  // X0^T rest X0
+  const Mat3 P = rest.topLeftCorner<3, 3>();
+  const Mat3 PT = -times_skew<3>(P, d);
+  const Mat3 Q = rest.topRightCorner<3, 3>();
+  const Mat3 TQ = skew_times<3>(d, Q);
+  const Mat3 upper = Q + PT;
+  H_parent->topLeftCorner<3, 3>() += P;
+  H_parent->topRightCorner<3, 3>() += upper;
+  H_parent->bottomLeftCorner<3, 3>() += upper.transpose();
+  H_parent->bottomRightCorner<3, 3>() += rest.bottomRightCorner<3, 3>() + TQ + TQ.transpose() + skew_times<3>(d, PT);
 }
 
-/// The same for the three rows of a point that two bodies share, J_c = s [-1, C], J_p = s [1, -P] with C, P skew: the most frequent
-/// joint, and half of the general products are with the identity.
-void Articulation::eliminate_point(Factor& f, double s, const Mat3& C, const Mat3& P, const Mat6& H, Mat6* H_parent) {
-  const Mat6 Hi = inverse_spd(H);
-  Eigen::Matrix<double, 6, 3> HJ = -Hi.leftCols<3>();
-  HJ.noalias() -= Hi.rightCols<3>() * C;
-  Mat3 A = -HJ.topRows<3>();
-  A.noalias() += C * HJ.bottomRows<3>();
-  const Mat3 Ai = A.inverse();
-  const Eigen::Matrix<double, 6, 3> E = HJ * Ai;
-  f.D = Hi;
-  f.D.noalias() -= E * HJ.transpose();
-  f.E.leftCols<3>() = s * E;
+/// A point that two bodies share, the most frequent joint: S_w = 1, and what passes through it is a force at the point, A of it for
+/// an acceleration of the point.
+void Articulation::eliminate_point(Factor& f, const Hinge& hinge, const Mat6& H, Mat6* H_parent) {
+  const Vec3 &r = hinge.r, &r_parent = hinge.r_parent;
+  const Mat3 M = H.topLeftCorner<3, 3>();
+  const Mat3 HS = times_skew<3>(M, r) + H.topRightCorner<3, 3>();
+  const Mat3 K = times_skew<3>(H.bottomLeftCorner<3, 3>(), r) + H.bottomRightCorner<3, 3>() - skew_times<3>(r, HS);
+  const Mat3 Ki = K.inverse();
+  const Mat3 RK = skew_times<3>(r, Ki);
+  f.D.topLeftCorner<3, 3>() = -times_skew<3>(RK, r);
+  f.D.topRightCorner<3, 3>() = RK;
+  f.D.bottomLeftCorner<3, 3>() = RK.transpose();
+  f.D.bottomRightCorner<3, 3>() = Ki;
   if (!H_parent) {
     f.X.setZero();
     return;
   }
-  f.X.leftCols<3>() = -E;
-  f.X.rightCols<3>().noalias() = E * P;
-  const Mat3 AiP = Ai * P, PAi = -AiP.transpose() /* P skew, A symmetric */;
-  f.F.topLeftCorner<3, 3>() = s * Ai;
-  f.F.block<3, 3>(3, 0) = s * PAi;
-  H_parent->topLeftCorner<3, 3>() += Ai;
-  H_parent->topRightCorner<3, 3>() -= AiP;
-  H_parent->bottomLeftCorner<3, 3>() += PAi;
-  H_parent->bottomRightCorner<3, 3>().noalias() -= PAi * P;
+  const Mat3 U = HS * Ki;
+  Mat3 A = M;
+  A.noalias() -= U * HS.transpose();
+  // the body's motion when the point moves, then the point's with the parent
+  Mat63 by_point;
+  by_point.topRows<3>() = Mat3::Identity() - skew_times<3>(r, U.transpose());
+  by_point.bottomRows<3>() = -U.transpose();
+  f.X.leftCols<3>() = by_point;
+  f.X.rightCols<3>() = -times_skew<6>(by_point, r_parent);
+  const Mat3 AP = -times_skew<3>(A, r_parent);
+  H_parent->topLeftCorner<3, 3>() += A;
+  H_parent->topRightCorner<3, 3>() += AP;
+  H_parent->bottomLeftCorner<3, 3>() += AP.transpose();
+  H_parent->bottomRightCorner<3, 3>() += skew_times<3>(r_parent, AP);
+}
+
+/// No freedom at all: the parent carries the body as its own.
+void Articulation::eliminate_fixed(Factor& f, const Hinge& hinge, const Mat6& H, Mat6* H_parent) {
+  f.D.setZero();
+  f.X.setZero();
+  if (!H_parent) return;
+  const Vec3 d = hinge.r_parent - hinge.r;
+  f.X.setIdentity();
+  f.X.topRightCorner<3, 3>() = -skew(d);
+  H_parent->noalias() += f.X.transpose() * H * f.X;
 }
 
 void Articulation::factor(const Topology& topology, int tree, const std::vector<Pose>& X_WB,
@@ -122,7 +174,7 @@ void Articulation::factor(const Topology& topology, int tree, const std::vector<
   for (int l = range.begin; l < range.end; ++l) {
     const Topology::Link& link = topology.links[l];
     Factor& f = factors_[l];
-    Mat6& H = H_[link.body];
+    const Mat6& H = H_[link.body];
     if (link.joint < 0) {
       f.D = inverse_spd(H);
       f.X.setZero();
@@ -132,43 +184,41 @@ void Articulation::factor(const Topology& topology, int tree, const std::vector<
     const Joint& joint = model_.joints[link.joint];
     static const Pose kWorld;
     joint_rows(joint, joint.parent < 0 ? kWorld : X_WB[joint.parent], X_WB[joint.child], f.rows);
-    const Mat6& J_c = link.body_is_joint_child ? f.rows.J_C : f.rows.J_P;
-    const Mat6& J_p = link.body_is_joint_child ? f.rows.J_P : f.rows.J_C;
-    const JointDamper* damper = dampers ? &(*dampers)[link.joint] : nullptr;
-    if (damper && damper->present) H.bottomRightCorner<3, 3>() += damper->matrix;
+    const bool child = link.body_is_joint_child;
+    const Hinge hinge{child ? f.rows.r_C : f.rows.r_P, child ? f.rows.r_P : f.rows.r_C,
+                      dampers ? &(*dampers)[link.joint] : nullptr};
     Mat6* H_parent = link.parent < 0 ? nullptr : &H_[link.parent];
     switch (f.rows.count) {
       case 3:
-        if (damper && damper->present) {
-          eliminate<3>(f, J_c, J_p, H, H_parent, damper);
+        if (hinge.damper && hinge.damper->present) {
+          eliminate<3>(f, hinge, Mat3::Identity(), H, H_parent);
         } else {
-          const double s = link.body_is_joint_child ? 1 : -1;
-          eliminate_point(f, s, s * J_c.topRightCorner<3, 3>(), -s * J_p.topRightCorner<3, 3>(), H, H_parent);
+          eliminate_point(f, hinge, H, H_parent);
         }
         break;
-      case 4:
-        eliminate<4>(f, J_c, J_p, H, H_parent, damper);
+      case 4: {  // a cross of two axes
+        Eigen::Matrix<double, 3, 2> axes;
+        axes << f.rows.t[0], f.rows.u[0];
+        eliminate<2>(f, hinge, axes, H, H_parent);
         break;
+      }
       case 5:
-        eliminate<5>(f, J_c, J_p, H, H_parent, damper);
+        eliminate<1>(f, hinge, f.rows.u[0], H, H_parent);
         break;
       default:
-        eliminate<6>(f, J_c, J_p, H, H_parent, damper);
+        eliminate_fixed(f, hinge, H, H_parent);
         break;
     }
   }
 }
 
-void Articulation::set_bias(const Topology& topology, int tree, const std::vector<Pose>& X_WB, const std::vector<Twist>& V_WB) {
+void Articulation::set_bias(const Topology& topology, int tree, const std::vector<Twist>& V_WB) {
   const Topology::Tree& range = topology.trees[tree];
   for (int l = range.begin; l < range.end; ++l) {
     const Topology::Link& link = topology.links[l];
     if (link.joint < 0) continue;
     const Joint& joint = model_.joints[link.joint];
-    static const Pose kWorld;
-    const bool on_world = joint.parent < 0;
-    joint_bias(joint, on_world ? kWorld : X_WB[joint.parent], X_WB[joint.child], on_world ? Vec3::Zero() : V_WB[joint.parent].w,
-               V_WB[joint.child].w, factors_[l].rows);
+    joint_bias(joint.parent < 0 ? Vec3::Zero() : V_WB[joint.parent].w, V_WB[joint.child].w, factors_[l].rows);
   }
 }
 
@@ -176,21 +226,21 @@ void Articulation::solve(const Topology& topology, int tree, std::vector<Vec6>& 
   const Topology::Tree& range = topology.trees[tree];
   for (int l = range.begin; l < range.end; ++l) {
     const Topology::Link& link = topology.links[l];
-    if (link.parent < 0) continue;
     const Factor& f = factors_[l];
-    Vec6& to = force[link.parent];
-    to.noalias() += f.X.transpose() * force[link.body];
-    if (bias == Bias::zero) continue;
-    for (int k = 0; k < f.rows.count; ++k) to += f.F.col(k) * f.rows.bias[k];
+    if (bias == Bias::from_rows && link.joint >= 0) {
+      a[link.body] = particular(f.rows, link.body_is_joint_child, link.body_is_joint_child ? f.rows.r_C : f.rows.r_P);
+      force[link.body].noalias() -= H_[link.body] * a[link.body];
+    } else {
+      a[link.body].setZero();
+    }
+    if (link.parent >= 0) force[link.parent].noalias() += f.X.transpose() * force[link.body];
   }
   for (int l = range.end - 1; l >= range.begin; --l) {
     const Topology::Link& link = topology.links[l];
     const Factor& f = factors_[l];
     Vec6& out = a[link.body];
-    out.noalias() = f.D * force[link.body];
+    out.noalias() += f.D * force[link.body];
     if (link.parent >= 0) out.noalias() += f.X * a[link.parent];
-    if (bias == Bias::zero) continue;
-    for (int k = 0; k < f.rows.count; ++k) out += f.E.col(k) * f.rows.bias[k];
   }
 }
 

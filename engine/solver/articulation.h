@@ -1,12 +1,13 @@
 // The joints of a tree of bodies, factorised in tree order: exact whatever the mass ratio, linear in the number of bodies.
 //
 // To solve   [ M  J^T ] [ a]   [f]
-//            [ J   0  ] [-l] = [g]     leaves first, body c on joint (Jc, Jp) with parent p:
-//   H_c = M_c + what its children added          A = Jc H_c^-1 Jc^T
-//   a_c = X a_p + D f_c + E g                    E = H_c^-1 Jc^T A^-1,  X = -E Jp,  D = H_c^-1 - E Jc H_c^-1
-//   H_p += Jp^T A^-1 Jp                          f_p += X^T f_c + F g,  F = Jp^T A^-1
-// A damper C between c and p (3x3 on the relative angular velocity, times the step) couples the two: with B = -C in the angular
-// block, H_c and H_p gain C, Jp becomes Jp - Jc H_c^-1 B, X gains -H_c^-1 B and H_p loses B^T H_c^-1 B.
+//            [ J   0  ] [-l] = [g]     leaves first, each body with its own joint, S the motions that joint leaves it:
+//   a_c = X0 a_p + S z + c       X0 carries the parent's motion to c as if the joint were locked, c gives the rows their bias g
+//   H_c = M_c + what its children added,  K = S^T H_c S,  D = S K^-1 S^T
+//   a_c = X a_p + D f_c + c,     X = X0 - D H_c X0,  with f_c - H_c c for f_c
+//   H_p += X0^T H_c X            f_p += X^T f_c
+// after Featherstone (1983). What is inverted is K, as large as the joint has freedoms, and never the inertia of a light body.
+// A damper C between c and p (3x3 on the relative angular velocity, times the step) adds S_w^T C S_w to K.
 // The inverse seen between bodies follows from X and D alone: W_ii = D_i + X_i W_pp X_i^T, W_ij = X_i W_pj (response.h).
 #pragma once
 
@@ -32,7 +33,7 @@ class Articulation {
   void factor(const Topology&, int tree, const std::vector<Pose>& X_WB, const std::vector<JointDamper>* dampers);
 
   /// Right-hand side g = -Jdot V of every joint of the tree. Call after factor.
-  void set_bias(const Topology&, int tree, const std::vector<Pose>& X_WB, const std::vector<Twist>& V_WB);
+  void set_bias(const Topology&, int tree, const std::vector<Twist>& V_WB);
 
   /// Solves for one tree: f (per body) is used up, a receives the result; `bias` says whether g is rows.bias or zero.
   enum class Bias { zero, from_rows };
@@ -40,24 +41,27 @@ class Articulation {
 
   struct Factor {
     JointRows rows;
-    Mat6 X, D, E, F;  // E, F: first rows.count columns
+    Mat6 X, D;
   };
   Factor& of_link(int link) { return factors_[link]; }
   const Factor& of_link(int link) const { return factors_[link]; }
 
  private:
+  /// What one joint is to the factorisation: levers and sense seen from the body that is eliminated.
+  struct Hinge {
+    const Vec3& r;         // [m] from the body's centre to the joint's point
+    const Vec3& r_parent;  // [m] from its parent's
+    const JointDamper* damper;
+  };
   template <int K>
-  void eliminate(Factor&, const Mat6& J_c, const Mat6& J_p, const Mat6& H, Mat6* H_parent, const JointDamper*);
-
-  void eliminate_point(Factor&, double sign, const Mat3& C, const Mat3& P, const Mat6& H, Mat6* H_parent);
+  void eliminate(Factor&, const Hinge&, const Eigen::Matrix<double, 3, K>& S_w, const Mat6& H, Mat6* H_parent);
+  void eliminate_point(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);
+  void eliminate_fixed(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);
 
   const Model& model_;
   std::vector<Factor> factors_;  // per link
   std::vector<Mat6> H_;          // per body
 };
-
-/// Inverse of a symmetric positive definite 6x6 by 3x3 blocks.
-Mat6 inverse_spd(const Mat6&);
 
 /// Inertia of a body about its centre in world axes.
 Mat3 inertia_W(const Body&, const Quat& q_WB);

@@ -49,7 +49,7 @@ void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const
     for (std::size_t b = 0; b < force_.size(); ++b) applied_[b] = force_[b].head<3>();
   for (const int tree : world.active_trees) {
     world.smooth.factor(world.topology, tree, X, nullptr);
-    world.smooth.set_bias(world.topology, tree, X, V);
+    world.smooth.set_bias(world.topology, tree, V);
     world.smooth.solve(world.topology, tree, force_, a, Articulation::Bias::from_rows);
   }
 }
@@ -154,13 +154,16 @@ double joint_velocity_errors(World& world, int tree, const std::vector<Twist>& V
     if (link.joint < 0) continue;
     const Joint& joint = world.model.joints[link.joint];
     JointRows& rows = world.smooth.of_link(l).rows;
-    for (int k = 0; k < rows.count; ++k) {
-      double u = rows.J_C.row(k).head<3>().dot(V[joint.child].v) + rows.J_C.row(k).tail<3>().dot(V[joint.child].w);
-      if (joint.parent >= 0)
-        u += rows.J_P.row(k).head<3>().dot(V[joint.parent].v) + rows.J_P.row(k).tail<3>().dot(V[joint.parent].w);
-      rows.bias[k] = -u;
-      largest = std::max(largest, std::abs(u));
+    const Twist& child = V[joint.child];
+    Vec3 w = -child.w;
+    rows.bias.head<3>() = child.v + child.w.cross(rows.r_C);
+    if (joint.parent >= 0) {
+      const Twist& parent = V[joint.parent];
+      rows.bias.head<3>() -= parent.v + parent.w.cross(rows.r_P);
+      w += parent.w;
     }
+    for (int k = 0; k < rows.count - 3; ++k) rows.bias[3 + k] = -rows.n[k].dot(w);
+    largest = std::max(largest, rows.bias.head(rows.count).cwiseAbs().maxCoeff());
   }
   return largest;
 }
