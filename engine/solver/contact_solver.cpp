@@ -21,7 +21,10 @@ constexpr int kBoundSteps = 40;          // of the fixed point on the friction b
 constexpr int kMostSweeps = 2000;        // of all in one solve: what is not solved by then gets a shorter step instead
 constexpr double kNearBound = 1e-2;      // [m/s] change of a step after which Newton on the whole is tried
 constexpr int kNewtonSteps = 8;          // in a row
-constexpr double kTinyImpulse = 1e-14;   // [N s]
+constexpr int kQuickSteps = 6;           // in the first round, which keeps its matrix while no contact changes its kind
+constexpr int kQuickPatience = 2;
+constexpr double kRegularQuick = 1e-4;  // [-]
+constexpr double kTinyImpulse = 1e-14;  // [N s]
 constexpr double kRegularFirst =
     1e-3;  // [-] of a row's own response added in Newton: redundant contacts leave impulses undetermined
 constexpr double kRegularFalls = 0.1;  // [-] with every step that succeeds, to
@@ -34,7 +37,7 @@ void ContactSolver::reserve(std::size_t constraints, std::size_t bodies) {
   const std::size_t rows = 3 * constraints;
   G_.reserve(rows * rows);
   newton_.reserve(rows);
-  rule_.reserve(rows);
+  for (std::vector<Row>* list : {&rule_, &factored_rule_}) list->reserve(rows);
   L_start_.reserve(constraints);
   Y_.reserve(bodies);
   for (std::vector<double>* list : {&u_, &L_, &u_kept_, &L_kept_, &u_start_, &bound_}) list->reserve(rows);
@@ -214,50 +217,77 @@ int ContactSolver::linearise(const std::vector<Constraint>& all, const std::vect
   return static_cast<int>(unknown_.size());
 }
 
-/// Moves the impulses to the solution of the linearised conditions; false if there is none.
-bool ContactSolver::newton_step(std::vector<Constraint>& all, const std::vector<int>& members) {
-  const int n = linearise(all, members);
-  if (n == 0) return false;
+/// The matrix of the conditions linearised; false if it has no inverse.
+bool ContactSolver::factor_linearised(const std::vector<Constraint>& all, const std::vector<int>& members) {
+  const int n = static_cast<int>(unknown_.size());
+  factored_rule_.clear();
   newton_.resize(n);
+  for (int m = 0; m < n; ++m) {
+    const double* response = G_.data() + static_cast<std::size_t>(unknown_[m]) * static_cast<std::size_t>(size_);
+    double* column = newton_.column(m);
+    for (int k = 0; k < n; ++k) column[k] = response[unknown_[k]];
+  }
   for (int k = 0; k < n; ++k) {
     const auto [kind, member, r] = rule_[k];
     const Constraint& c = all[members[member]];
-    const int row = unknown_[k];
-    const double u = u_[static_cast<std::size_t>(row)];
     if (kind == Row::let_go) {
+      for (int m = 0; m < n; ++m) newton_.A(k, m) = 0;
       newton_.A(k, k) = 1;
-      newton_.b(k) = -c.impulse[r];
-      continue;
+    } else if (kind != Row::slip) {
+      newton_.A(k, k) += regular_ * G(unknown_[k], unknown_[k]) + (r == 0 ? c.softness : (r == 2 ? c.grip_softness : 0));
+    } else if (r == 1) {
+      // L_t - mu L_n x/|x| = 0 with x = L_t - rho u_t: its two rows, which stand together after that of the normal
+      const Slip slip = slipping(c, member);
+      for (int m = 0; m < n; ++m) {
+        const Eigen::Vector2d u{newton_.A(k, m), newton_.A(k + 1, m)};
+        const Eigen::Vector2d a = slip.rho * (slip.across * u);
+        newton_.A(k, m) = a[0];
+        newton_.A(k + 1, m) = a[1];
+      }
+      for (int q = 0; q < 2; ++q) {
+        if (!bounded_) newton_.A(k + q, k - 1) -= c.friction * slip.direction[q];
+        for (int p = 0; p < 2; ++p) newton_.A(k + q, k + p) += (p == q ? 1 : 0) - slip.across(q, p);
+      }
     }
-    if (kind != Row::slip) {
-      for (int m = 0; m < n; ++m) newton_.A(k, m) = G(row, unknown_[m]);
-      newton_.A(k, k) += regular_ * G(row, row) + (r == 0 ? c.softness : (r == 2 ? c.grip_softness : 0));
-      newton_.b(k) = r == 0 ? c.target - u - c.softness * c.impulse[0] : -u - (r == 2 ? c.grip_softness * c.impulse[2] : 0);
-      continue;
-    }
-    // L_t = mu L_n x/|x| with x = L_t - rho u_t
-    const Mat3 A = own_response(member, 3);
-    const double rho = 1 / std::max(A(1, 1), A(2, 2));
-    const Vec3 v = velocity(member, 3);
-    const Eigen::Vector2d x = c.impulse.tail<2>() - rho * v.tail<2>();
-    const double length = x.norm();
-    const Eigen::Vector2d d = x / length;
-    const double most = bounded_ ? bound_[member] : c.friction * std::max(0.0, c.impulse[0]);
-    const double share = std::min(1.0, most / length);
-    const Eigen::Vector2d across = share * (Eigen::Vector2d::Unit(r - 1) - d[r - 1] * d);
-    const int first = offset_[member];
-    for (int m = 0; m < n; ++m) {
-      const int column = unknown_[m];
-      double a = rho * (across[0] * G(first + 1, column) + across[1] * G(first + 2, column));
-      if (column == first && !bounded_) a -= c.friction * d[r - 1];
-      if (column == first + 1) a -= across[0];
-      if (column == first + 2) a -= across[1];
-      if (column == row) a += 1;
-      newton_.A(k, m) = a;
-    }
-    newton_.b(k) = most * d[r - 1] - c.impulse[r];
   }
-  if (!newton_.solve()) return false;
+  if (!newton_.factor()) return false;
+  factored_rule_ = rule_;
+  return true;
+}
+
+/// How a sliding contact's tangential impulse follows its slip.
+ContactSolver::Slip ContactSolver::slipping(const Constraint& c, int member) const {
+  const Mat3 A = own_response(member, 3);
+  Slip slip;
+  slip.rho = 1 / std::max(A(1, 1), A(2, 2));
+  const Eigen::Vector2d x = c.impulse.tail<2>() - slip.rho * velocity(member, 3).tail<2>();
+  const double length = x.norm();
+  slip.direction = x / length;
+  slip.most = bounded_ ? bound_[member] : c.friction * std::max(0.0, c.impulse[0]);
+  slip.across = std::min(1.0, slip.most / length) * (Eigen::Matrix2d::Identity() - slip.direction * slip.direction.transpose());
+  return slip;
+}
+
+/// Moves the impulses to the solution of the linearised conditions, with the last matrix while they are of the same kind and
+/// `again` allows it; false if there is none.
+bool ContactSolver::newton_step(std::vector<Constraint>& all, const std::vector<int>& members, bool again) {
+  const int n = linearise(all, members);
+  if (n == 0) return false;
+  if (!(again && rule_ == factored_rule_) && !factor_linearised(all, members)) return false;
+  for (int k = 0; k < n; ++k) {
+    const auto [kind, member, r] = rule_[k];
+    const Constraint& c = all[members[member]];
+    const double u = u_[static_cast<std::size_t>(unknown_[k])];
+    if (kind == Row::let_go) {
+      newton_.b(k) = -c.impulse[r];
+    } else if (kind != Row::slip) {
+      newton_.b(k) = r == 0 ? c.target - u - c.softness * c.impulse[0] : -u - (r == 2 ? c.grip_softness * c.impulse[2] : 0);
+    } else if (r == 1) {
+      const Slip slip = slipping(c, member);
+      for (int q = 0; q < 2; ++q) newton_.b(k + q) = slip.most * slip.direction[q] - c.impulse[1 + q];
+    }
+  }
+  newton_.solve();
 
   L_.resize(static_cast<std::size_t>(size_));
   for (int i = 0; i < static_cast<int>(members.size()); ++i)
@@ -292,25 +322,27 @@ void ContactSolver::go_back(std::vector<Constraint>& all, const std::vector<int>
 
 /// Newton steps at full length: the set of open, sticking and slipping contacts settles on the way, so the residual may rise for a
 /// while; the best of them is kept.
-void ContactSolver::newton(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance, bool settle,
+void ContactSolver::newton(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance, Care care,
                            SolveReport& report) {
   keep(all, members);
   double best = report.residual;
   bool at_best = true;
   int worse = 0;
-  regular_ = settle ? kRegularFirst : kRegularJammed;
-  for (int k = 0; k < kNewtonSteps && report.residual > tolerance; ++k) {
+  const bool quick = care == Care::none;
+  regular_ = quick ? kRegularQuick : care == Care::redundant ? kRegularFirst : kRegularJammed;
+  factored_rule_.clear();
+  for (int k = 0; k < (quick ? kQuickSteps : kNewtonSteps) && report.residual > tolerance; ++k) {
     ++report.newton_steps;
-    if (!newton_step(all, members)) break;
-    if (settle) {
+    if (!newton_step(all, members, quick)) break;
+    if (care == Care::redundant) {
       sweep(all, members);  // contacts on the edge between sticking and slipping, where Newton alone goes to and fro
       ++report.sweeps;
     }
     report.residual = residual(all, members);
     at_best = report.residual < best;
     if (!std::isfinite(report.residual)) break;
-    regular_ = std::max(kRegularLast, (at_best ? kRegularFalls : 1.0) * regular_);
-    if (!at_best && ++worse == kPatience) break;
+    if (!quick) regular_ = std::max(kRegularLast, (at_best ? kRegularFalls : 1.0) * regular_);
+    if (!at_best && ++worse == (quick ? kQuickPatience : kPatience)) break;
     if (!at_best) continue;
     best = report.residual;
     keep(all, members);
@@ -324,8 +356,8 @@ void ContactSolver::iterate(std::vector<Constraint>& all, const std::vector<int>
                             SolveReport& report) {
   const int last = report.sweeps + sweeps;
   int round = kFirstSweeps;
-  bool redundant = true;  // or jammed: the two ask for different care, and one cannot tell before
-  // the first round asks for more than the tolerance: Newton gives it for a step or two, and resting bodies creep by what is left
+  Care care = Care::none;
+  // the first rounds ask for more than the tolerance: Newton gives it for a step or two, and resting bodies creep by what is left
   double goal = kFirstGoal * tolerance;
   while (report.residual > goal && report.sweeps < last) {
     double change = 0;
@@ -335,8 +367,15 @@ void ContactSolver::iterate(std::vector<Constraint>& all, const std::vector<int>
       if (change < 0.1 * goal) break;
     }
     report.residual = residual(all, members);
-    if (report.residual > goal) newton(all, members, goal, redundant, report), redundant = !redundant;
+    if (report.residual > goal) newton(all, members, goal, care, report);
     if (change == 0) break;
+    if (care == Care::none) {
+      if (report.residual <= tolerance) return;
+      care = Care::redundant;
+      continue;
+    }
+    // redundant or jammed: the two ask for different care, and one cannot tell before
+    care = care == Care::redundant ? Care::jammed : Care::redundant;
     round *= 2;
     goal = tolerance;
   }
@@ -368,7 +407,7 @@ void ContactSolver::follow_bounds(std::vector<Constraint>& all, const std::vecto
     report.residual = residual(all, members);
     if (report.residual <= tolerance) return;
     if (change < kNearBound || k % 4 == 3) {
-      newton(all, members, tolerance, false, report);
+      newton(all, members, tolerance, Care::jammed, report);
       if (report.residual <= tolerance) return;
     }
     if (change > 0.9 * last) share = std::max(0.25, 0.7 * share);

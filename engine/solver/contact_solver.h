@@ -47,8 +47,11 @@ class ContactSolver {
   void iterate(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, int sweeps, SolveReport&);
   void follow_bounds(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, SolveReport&);
   double residual(const std::vector<Constraint>&, const std::vector<int>& members) const;
-  void newton(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, bool settle, SolveReport&);
-  bool newton_step(std::vector<Constraint>&, const std::vector<int>& members);
+  /// What Newton takes care of: nothing, contacts more than the bodies have freedoms, chains of contacts that jam each other.
+  enum class Care { none, redundant, jammed };
+  void newton(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, Care, SolveReport&);
+  bool newton_step(std::vector<Constraint>&, const std::vector<int>& members, bool again);
+  bool factor_linearised(const std::vector<Constraint>&, const std::vector<int>& members);
   void keep(const std::vector<Constraint>&, const std::vector<int>& members);
   void go_back(std::vector<Constraint>&, const std::vector<int>& members);
   int linearise(const std::vector<Constraint>&, const std::vector<int>& members);
@@ -62,7 +65,15 @@ class ContactSolver {
   struct Row {
     enum Kind { normal, stick, slip, let_go } kind;
     int member, r;
+    bool operator==(const Row&) const = default;
   };
+  /// A sliding contact's tangential impulse: `most` along `direction`, and how that turns with the slip.
+  struct Slip {
+    double rho, most;
+    Eigen::Vector2d direction;
+    Eigen::Matrix2d across;
+  };
+  Slip slipping(const Constraint&, int member) const;
 
   double regular_ = 0;
   bool bounded_ = false;       // friction bounds are held at bound_
@@ -71,9 +82,10 @@ class ContactSolver {
   std::vector<int> offset_;  // per member
   std::vector<double> G_;    // column-major size_ x size_
   std::vector<double> u_;
-  DenseSystem newton_;        // of the rows that can change
-  std::vector<int> unknown_;  // row of G per unknown
-  std::vector<Row> rule_;     // per unknown
+  DenseSystem newton_;              // of the rows that can change
+  std::vector<int> unknown_;        // row of G per unknown
+  std::vector<Row> rule_;           // per unknown
+  std::vector<Row> factored_rule_;  // of the matrix in newton_
   std::vector<double> L_, u_kept_, L_kept_, u_start_;
   std::vector<Vec3> L_start_;
   std::vector<Eigen::Matrix<double, 3, 6>> Y_;

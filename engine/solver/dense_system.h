@@ -7,20 +7,24 @@ namespace engine {
 
 class DenseSystem {
  public:
-  void reserve(std::size_t n) { A_.reserve(n * n), b_.reserve(n); }
+  void reserve(std::size_t n) { A_.reserve(n * n), b_.reserve(n), pivot_.reserve(n); }
+  /// All zero.
   void resize(int n);
-  int size() const { return n_; }
-  double& A(int row, int column) { return A_[static_cast<std::size_t>(column) * stride_ + static_cast<std::size_t>(row)]; }
+  int size() const { return static_cast<int>(n_); }
+  double& A(int row, int column) { return A_[static_cast<std::size_t>(column) * n_ + static_cast<std::size_t>(row)]; }
+  double* column(int column) { return A_.data() + static_cast<std::size_t>(column) * n_; }
   double& b(int row) { return b_[static_cast<std::size_t>(row)]; }
 
-  /// Gaussian elimination with partial pivoting; b becomes the solution. False if a pivot vanishes.
-  bool solve();
+  /// Gaussian elimination with partial pivoting; A is used up. False if a pivot vanishes.
+  bool factor();
+  /// b becomes the solution; again for other b, as long as A is not touched.
+  void solve();
 
  private:
-  int n_ = 0;
-  std::size_t stride_ = 0;
+  std::size_t n_ = 0;
   std::vector<double> A_;  // column-major
   std::vector<double> b_;
+  std::vector<std::size_t> pivot_;  // row that changed places with row k
 };
 
 }  // namespace engine
