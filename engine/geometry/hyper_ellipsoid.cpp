@@ -13,7 +13,7 @@ namespace {
 constexpr double kLargestRadius = 1e3;
 
 double power(double base, double exponent) {
-  if (exponent == 1) return base;
+  if (exponent == 1 || base == 1) return base;
   if (exponent == 2) return base * base;
   if (exponent == 0.5) return std::sqrt(base);
   if (exponent == 1.5) return base * std::sqrt(base);
@@ -47,17 +47,14 @@ Vec3 principal_inertia(const HyperEllipsoid& shape, double mass) {
   return mass * second_moment(shape.exponent) * (Vec3::Constant(squares.sum()) - squares);
 }
 
-double support_value(const HyperEllipsoid& shape, const Vec3& direction) {
-  return norm_p(shape.semi_axes.cwiseProduct(direction.cwiseAbs()), shape.exponent / (shape.exponent - 1));
-}
-
-Vec3 support_point(const HyperEllipsoid& shape, const Vec3& direction) {
+Support support(const HyperEllipsoid& shape, const Vec3& direction) {
   assert(direction.squaredNorm() > 0 && "a support point needs a direction");
   if (shape.exponent == 2) {
     const Vec3 w = shape.semi_axes.cwiseProduct(direction);
-    return shape.semi_axes.cwiseProduct(w / w.norm());
+    const double h = w.norm();
+    return {h, shape.semi_axes.cwiseProduct(w / h)};
   }
-  // s_i = a_i (w_i/h)^(1/(n-1)) with h^q = sum w_i^q, q = n/(n-1): the same powers serve both
+  // s_i = a_i (w_i/h)^(1/(n-1)) with h^q = sum w_i^q, q = n/(n-1)
   const Vec3 w = shape.semi_axes.cwiseProduct(direction.cwiseAbs());
   const double largest = w.maxCoeff();
   Vec3 powers;
@@ -68,23 +65,28 @@ Vec3 support_point(const HyperEllipsoid& shape, const Vec3& direction) {
     sum += u * powers[i];
   }
   const double scale = 1 / power(sum, 1 / shape.exponent);
-  Vec3 s;
-  for (int i = 0; i < 3; ++i) s[i] = std::copysign(shape.semi_axes[i] * scale * powers[i], direction[i]);
-  return s;
+  Support out;
+  out.value = largest * sum * scale;
+  for (int i = 0; i < 3; ++i) out.point[i] = std::copysign(shape.semi_axes[i] * scale * powers[i], direction[i]);
+  return out;
 }
 
-Mat3 support_hessian(const HyperEllipsoid& shape, const Vec3& direction) {
-  const double h = support_value(shape, direction);
-  assert(h > 0 && "a support Hessian needs a direction");
-  const Vec3 s = support_point(shape, direction);
-  const double n = shape.exponent;
+double support_value(const HyperEllipsoid& shape, const Vec3& direction) {
+  return direction.squaredNorm() > 0 ? support(shape, direction).value : 0;
+}
+
+Vec3 support_point(const HyperEllipsoid& shape, const Vec3& direction) {
+  return support(shape, direction).point;
+}
+
+Mat3 support_hessian(const HyperEllipsoid& shape, const Vec3& direction, const Support& at) {
+  const double n = shape.exponent, h = at.value;
   const double cap = kLargestRadius * shape.semi_axes.maxCoeff() * (n - 1) * h;
-  Mat3 H = -s * s.transpose();
+  Mat3 H = -at.point * at.point.transpose();
   for (int i = 0; i < 3; ++i) {
-    const double a = shape.semi_axes[i];
-    const double u = a * std::abs(direction[i]) / h;
-    const double q_minus_2 = (2 - n) / (n - 1);
-    H(i, i) += n == 2 ? a * a : std::min(cap, a * a * (u > 0 ? std::pow(u, q_minus_2) : 1e300));
+    // a^2 u^(q - 2) with u = a |d|/h, and u^(q - 1) = |s|/a
+    const double a = shape.semi_axes[i], d = std::abs(direction[i]);
+    H(i, i) += n == 2 ? a * a : (d > 0 ? std::min(cap, std::abs(at.point[i]) * h / d) : cap);
   }
   return H / ((n - 1) * h);
 }

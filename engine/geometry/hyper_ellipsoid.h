@@ -17,15 +17,25 @@ double volume(const HyperEllipsoid&);
 /// Inertia about the centre for a mass [kg] evenly spread: diagonal of the tensor in body axes [kg m^2] (3).
 Vec3 principal_inertia(const HyperEllipsoid&, double mass);
 
-/// Support function h(d) = max d.x over the body [m * |d|]; d in body axes, need not be unit.
+/// Support function h(d) = max d.x over the body and the point where it is reached: the same powers serve both.
+/// Source: dual norm of the hyper-ellipsoid, 1/n + 1/q = 1.
+struct Support {
+  double value = 0;  // [m * |d|]
+  Vec3 point;        // [m] body axes
+};
+
+/// d in body axes, need not be unit; zero asserts.
+Support support(const HyperEllipsoid&, const Vec3& direction);
+
+/// Value alone; zero for no direction.
 double support_value(const HyperEllipsoid&, const Vec3& direction);
 
-/// Point of the surface farthest along `direction` (3, body axes, need not be unit) [m]; a zero direction asserts.
-/// Source: dual norm of the hyper-ellipsoid, 1/n + 1/q = 1.
+/// Point alone: of the surface the farthest along `direction` [m] (3).
 Vec3 support_point(const HyperEllipsoid&, const Vec3& direction);
 
-/// Hessian of the support function at `direction` (unit, body axes) [m], 3x3. Infinite curvature radii are capped.
-Mat3 support_hessian(const HyperEllipsoid&, const Vec3& direction);
+/// Hessian of the support function at `direction` (unit, body axes) [m], 3x3, from what support() says there. Infinite curvature
+/// radii are capped.
+Mat3 support_hessian(const HyperEllipsoid&, const Vec3& direction, const Support&);
 
 /// Gauge N(x) = (|x/a|^n + |y/b|^n + |z/c|^n)^(1/n): 1 on the surface, < 1 inside, homogeneous of degree one.
 double gauge(const HyperEllipsoid&, const Vec3& x);

@@ -28,11 +28,36 @@ struct Pair {
   Vec3 support_sum(const Vec3& n) const {
     return R_WA * support_point(A, R_WA.transpose() * n) + R_WB * support_point(B, R_WB.transpose() * n);
   }
-  Mat3 hessian_sum(const Vec3& n) const {
-    return R_WA * support_hessian(A, R_WA.transpose() * n) * R_WA.transpose() +
-           R_WB * support_hessian(B, R_WB.transpose() * n) * R_WB.transpose();
+
+  /// All there is to know at n.
+  struct At {
+    Vec3 n, n_A, n_B;
+    Support a, b;
+    double gap;
+    Vec3 sum;  // of the support points, world axes
+  };
+  At at(const Vec3& n) const {
+    At out;
+    out.n = n;
+    out.n_A = R_WA.transpose() * n;
+    out.n_B = R_WB.transpose() * n;
+    out.a = support(A, out.n_A);
+    out.b = support(B, out.n_B);
+    out.gap = n.dot(d) - out.a.value - out.b.value;
+    out.sum = R_WA * out.a.point + R_WB * out.b.point;
+    return out;
+  }
+  Mat3 hessian_sum(const At& p) const {
+    return R_WA * support_hessian(A, p.n_A, p.a) * R_WA.transpose() + R_WB * support_hessian(B, p.n_B, p.b) * R_WB.transpose();
   }
 };
+
+Eigen::Matrix<double, 3, 2> tangents(const Vec3& n) {
+  const Vec3 t = n.unitOrthogonal();
+  Eigen::Matrix<double, 3, 2> E;
+  E << t, n.cross(t);
+  return E;
+}
 
 struct Found {
   Vec3 n;
@@ -69,26 +94,20 @@ double climb_about(const Pair& pair, const Vec3& w, double tolerance, Vec3& n) {
 }
 
 /// One step of Newton on the tangential miss, taken if it halves it. `top`: there is none to take, it is a maximum to rounding.
-bool newton(const Pair& pair, Vec3& n, bool& top) {
+bool newton(const Pair& pair, Pair::At& at, bool& top) {
   constexpr double kRounding = 2e-14;  // [m]
   top = false;
-  auto frame_at = [](const Vec3& m) {
-    const Vec3 t1 = m.unitOrthogonal();
-    Eigen::Matrix<double, 3, 2> E;
-    E << t1, m.cross(t1);
-    return E;
-  };
-  const auto E = frame_at(n);
-  const Eigen::Vector2d miss = E.transpose() * (pair.d - pair.support_sum(n));
-  const Eigen::Matrix2d H = E.transpose() * pair.hessian_sum(n) * E + pair.gap(n) * Eigen::Matrix2d::Identity();
+  const auto E = tangents(at.n);
+  const Eigen::Vector2d miss = E.transpose() * (pair.d - at.sum);
+  const Eigen::Matrix2d H = E.transpose() * pair.hessian_sum(at) * E + at.gap * Eigen::Matrix2d::Identity();
   if (!(H.determinant() > 0 && H.trace() > 0)) return false;
   top = miss.norm() < kRounding;
   if (top) return false;
   const Eigen::Vector2d step = H.inverse() * miss;
   if (!(step.norm() < 0.1)) return false;
-  const Vec3 next = (n + E * step).normalized();
-  if ((frame_at(next).transpose() * (pair.d - pair.support_sum(next))).norm() > 0.5 * miss.norm()) return false;
-  n = next;
+  const Pair::At next = pair.at((at.n + E * step).normalized());
+  if ((tangents(next.n).transpose() * (pair.d - next.sum)).norm() > 0.5 * miss.norm()) return false;
+  at = next;
   return true;
 }
 
@@ -100,7 +119,7 @@ Found settle(const Pair& pair, Found at, double tolerance) {
   Vec3 n = at.n;
   for (int round = 0; round < kRounds; ++round) {
     bool top = false;
-    while (newton(pair, n, top)) continue;
+    for (Pair::At here = pair.at(n); newton(pair, here, top);) n = here.n;
     if (top) break;
     double moved = 0;
     bool kinks = false;
@@ -135,36 +154,32 @@ constexpr int kSweep = 120;                // directions
 constexpr std::size_t kRounds = 7;         // of them are followed
 constexpr double kGoldenAngle = 2.399963;  // [rad]
 
-Found climb(const Pair& pair, Vec3 n, int iterations) {
+Found climb(const Pair& pair, const Vec3& n, int iterations) {
   constexpr double kStationary = 1e-9;  // [m] of the tangential miss; the gap errs by its square over the radius
-  double g = pair.gap(n);
+  Pair::At at = pair.at(n);
   double damping = 1e-3 * pair.d.norm() + 1e-6;
   for (int k = 0; k < iterations; ++k) {
-    const Vec3 t1 = n.unitOrthogonal();
-    Eigen::Matrix<double, 3, 2> E;
-    E << t1, n.cross(t1);
-    const Eigen::Vector2d slope = E.transpose() * (pair.d - pair.support_sum(n));
-    if (slope.norm() < kStationary) return {n, g, true};
-    const Eigen::Matrix2d H = E.transpose() * pair.hessian_sum(n) * E + g * Eigen::Matrix2d::Identity();
+    const auto E = tangents(at.n);
+    const Eigen::Vector2d slope = E.transpose() * (pair.d - at.sum);
+    if (slope.norm() < kStationary) return {at.n, at.gap, true};
+    const Eigen::Matrix2d H = E.transpose() * pair.hessian_sum(at) * E + at.gap * Eigen::Matrix2d::Identity();
     bool better = false;
     for (int trial = 0; trial < 12 && !better; ++trial) {
       const Eigen::Matrix2d M = H + damping * Eigen::Matrix2d::Identity();
       if (M.determinant() > 0 && M.trace() > 0) {
         Eigen::Vector2d s = M.inverse() * slope;
         if (s.norm() > 0.5) s *= 0.5 / s.norm();
-        const Vec3 next = (n + E * s).normalized();
-        const double g_next = pair.gap(next);
-        if (g_next > g) {
+        const Pair::At next = pair.at((at.n + E * s).normalized());
+        if (next.gap > at.gap) {
           better = true;
-          n = next;
-          g = g_next;
+          at = next;
         }
       }
       damping = better ? 0.1 * damping : 8 * damping;
     }
     if (!better) break;
   }
-  return {n, g, false};
+  return {at.n, at.gap, false};
 }
 
 /// On a flat side a normal that is right to rounding still leaves open where along the side the surfaces meet: the support point
