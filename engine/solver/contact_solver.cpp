@@ -14,7 +14,7 @@ namespace {
 constexpr double kLeastResponse = 0.01;  // [-] of the free response of a contact's bodies
 constexpr int kFirstSweeps = 1;          // before Newton is tried; twice as many before it is tried again, and so on
 constexpr double kFirstGoal = 1e-3;      // [-] of the tolerance
-constexpr int kPlainSweeps = 60;         // before the friction bounds are followed
+constexpr int kPlainSweeps = 1000;       // before the friction bounds are followed
 constexpr int kPatience = 3;             // Newton steps without a new best
 constexpr int kBoundedSweeps = 200;      // in each
 constexpr int kBoundSteps = 40;          // of the fixed point on the friction bounds
@@ -53,15 +53,25 @@ void ContactSolver::assemble(const Topology& topology, const Response& response,
     offset_[i] = size_;
     size_ += all[members[i]].rows;
   }
-  G_.assign(static_cast<std::size_t>(size_) * size_, 0.0);
+  G_.resize(static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_));  // all of it is written
   u_.resize(size_);
 
+  // bodies stand in the order in which the constraints name them: only those up to i are asked for
   const std::vector<int>& bodies = response.touched();
+  std::size_t named = 0;
+  auto name_until = [&](int body) {
+    if (body < 0) return;
+    const auto place = std::find(bodies.begin(), bodies.end(), body);
+    named = std::max(named, static_cast<std::size_t>(place - bodies.begin()) + 1);
+  };
   Y_.resize(topology.tree_of_body.size());
   for (int i = 0; i < count; ++i) {
     const Constraint& ci = all[members[i]];
+    name_until(ci.body_a);
+    name_until(ci.body_b);
     // Y_t = rows of i through the joints to body t
-    for (const int t : bodies) {
+    for (std::size_t n = 0; n < named; ++n) {
+      const int t = bodies[n];
       const int tree = topology.tree_of_body[t];
       const bool via_a = ci.body_a >= 0 && topology.tree_of_body[ci.body_a] == tree;
       const bool via_b = ci.body_b >= 0 && topology.tree_of_body[ci.body_b] == tree;

@@ -24,12 +24,29 @@ void displace(Pose& X, const Vec3& dp, const Vec3& rotation) {
   X.q.normalize();
 }
 
+namespace {
+
+/// Angular acceleration by a unit force on a lever [m] from the centre, about an axis at right angles to it: r/I [1/(kg m)].
+double swing_per_force(const Body& body, const Vec3& lever_B) {
+  const double r = lever_B.norm();
+  if (r == 0 || body.fixed) return 0;
+  const Mat3 inverse = body.inertia_B.inverse();
+  return r * (inverse.trace() - lever_B.dot(inverse * lever_B) / (r * r));
+}
+
+}  // namespace
+
 SmoothMotion::SmoothMotion(const Model& model)
     : X_(model.bodies.size()), force_(model.bodies.size()), applied_(model.bodies.size()), joint_force_(model.bodies.size()) {
   for (Stage& stage : stages_) {
     stage.a.resize(model.bodies.size());
     stage.dq.resize(model.bodies.size());
     stage.V.resize(model.bodies.size());
+  }
+  for (const Joint& joint : model.joints) {
+    const double child = swing_per_force(model.bodies[joint.child], joint.X_CF.p);
+    const double parent = joint.parent < 0 ? 0 : swing_per_force(model.bodies[joint.parent], joint.X_PF.p);
+    swing_per_force_.push_back(std::max(child, parent));
   }
 }
 
@@ -109,19 +126,8 @@ void SmoothMotion::measure_swing(const World& world) {
       Vec3& T = joint_force_[link.body];
       T += body.mass * stages_[0].a[link.body].head<3>() - applied_[link.body];
       if (link.parent >= 0) joint_force_[link.parent] += T;
-      const Joint& joint = world.model.joints[link.joint];
-      auto weigh = [&](int b, const Vec3& lever_B) {
-        const Body& swung = world.model.bodies[b];
-        const double r = lever_B.norm();
-        if (r == 0) return;
-        // about an axis at right angles to the lever
-        const Mat3 inverse = swung.inertia_B.inverse();
-        const double inverse_across = inverse.trace() - lever_B.dot(inverse * lever_B) / (r * r);
-        // the other end of a link is pulled as hard
-        largest = std::max(largest, T.norm() * 2 * r * inverse_across);
-      };
-      weigh(joint.child, joint.X_CF.p);
-      if (joint.parent >= 0 && !world.model.bodies[joint.parent].fixed) weigh(joint.parent, joint.X_PF.p);
+      // the other end of a link is pulled as hard
+      largest = std::max(largest, 2 * T.norm() * swing_per_force_[static_cast<std::size_t>(link.joint)]);
     }
   }
   fastest_swing_ = std::sqrt(largest);

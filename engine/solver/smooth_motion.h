@@ -38,6 +38,7 @@ class SmoothMotion {
   std::vector<Pose> X_;
   std::vector<Vec6> force_;
   std::vector<Vec3> applied_, joint_force_;  // [N] per body: of the first stage, without joints; through its parent joint
+  std::vector<double> swing_per_force_;      // [1/(kg m)] per joint: of its two bodies the larger
   double fastest_swing_ = 0;
 };
 

@@ -71,7 +71,7 @@ double box_on_doubled_contacts(const Setting& setting, const char* name, double 
   const double difference = largest_difference(four, eight);
   row(name, eight, "%zu contacts against %zu, velocities differ by %.1e m/s, rad/s", most, most_of_four, difference);
   EXPECT_GE(most, 8u);
-  EXPECT_EQ(most, 2 * most_of_four);
+  EXPECT_GT(most, most_of_four + 3);  // of the middle's two one may carry all, and what carries nothing is not recorded
   return difference;
 }
 
