@@ -26,7 +26,7 @@ std::vector<std::string> film(const std::vector<std::string>& more) {
 
 /// The program under a shell that prepares its surroundings: "ulimit -n 4; PROGRAM render ...".
 int under_shell(const Folder& folder, const std::string& line) {
-  const std::string command = "cd '" + folder.path().string() + "' && P='" CRASHREEL_PROGRAM "' && " + line;
+  const std::string command = "cd '" + folder.path().string() + "' && P='" + program() + "' && " + line;
   const int status = std::system(command.c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
@@ -80,9 +80,7 @@ TEST_F(Disturbed, WithoutAFontNoPictureIsMade) {
 }
 
 TEST_F(Disturbed, TooFewDescriptorsAreToldAndNothingIsLeft) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizers want descriptors of their own";
-#endif
+  if (sanitized_program()) GTEST_SKIP() << "the sanitizers want descriptors of their own";
   // 3 is closed first: what runs the tests in parallel leaves descriptors open
   EXPECT_EQ(under_shell(folder, "(exec 3>&-; ulimit -n 4; exec $P render ball.toml --size 64x64 -j 1 -o a.mp4) 2>message"), 3);
   EXPECT_THAT(contents(folder / "message"), HasSubstr("a.mp4"));
@@ -119,7 +117,7 @@ TEST_F(Disturbed, SignalsEndARunWithinTwoSeconds) {
     const pid_t child = fork();
     if (child == 0) {
       if (chdir(folder.path().c_str()) != 0) _exit(99);
-      execl(CRASHREEL_PROGRAM, CRASHREEL_PROGRAM, "simulate", "long.toml", "-q", "-o", "out", nullptr);
+      execl(program(), program(), "simulate", "long.toml", "-q", "-o", "out", nullptr);
       _exit(98);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(500));

@@ -13,6 +13,15 @@
 
 namespace cli_tests {
 
+/// The program built beside these tests, or one built with sanitizers: ./tests/run --sanitize names it.
+inline const char* sanitized_program() {
+  return std::getenv("CRASHREEL_SANITIZED_PROGRAM");
+}
+inline const char* program() {
+  const char* other = sanitized_program();
+  return other ? other : CRASHREEL_PROGRAM;
+}
+
 inline std::string contents(const std::filesystem::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
@@ -54,7 +63,7 @@ inline Result run(const Folder& folder, const std::vector<std::string>& argument
   };
   std::string command = "cd " + quoted(folder.path().string()) + " && env";
   for (const std::string& pair : environment) command += " " + quoted(pair);
-  command += " " + quoted(CRASHREEL_PROGRAM);
+  command += " " + quoted(program());
   for (const std::string& argument : arguments) command += " " + quoted(argument);
   command += " >.stdout 2>.stderr </dev/null";
   const int status = std::system(command.c_str());

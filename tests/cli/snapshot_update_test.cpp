@@ -15,10 +15,10 @@ std::string at_terminal(const Folder& folder, const std::vector<std::string>& ar
   int terminal = -1;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
   if (child == 0) {
-    std::vector<char*> list = {const_cast<char*>(CRASHREEL_PROGRAM)};
+    std::vector<char*> list = {const_cast<char*>(program())};
     for (const std::string& argument : arguments) list.push_back(const_cast<char*>(argument.c_str()));
     list.push_back(nullptr);
-    if (chdir(folder.path().c_str()) == 0) execv(CRASHREEL_PROGRAM, list.data());
+    if (chdir(folder.path().c_str()) == 0) execv(program(), list.data());
     _exit(127);
   }
   EXPECT_EQ(write(terminal, typed.data(), typed.size()), static_cast<ssize_t>(typed.size()));
