@@ -8,7 +8,7 @@
 //   6 joint drift projected out
 //   7 contacts and limits at the end of the step: what it was blind to (curved surfaces, fast turns, neighbouring triangles) shows
 //   as
-//     penetration there; if that is more than a bound the step is taken again at half its length
+//     penetration there; if that is more than a bound, or if rigid contacts gave energy, the step is taken again at half its length
 #include "engine/step.h"
 
 #include <algorithm>
@@ -61,6 +61,7 @@ void Stepper::reserve(const World& world) {
   islands_.resize(trees);
   for (auto& island : islands_) island.reserve(kRoom);
   island_has_impact_.reserve(trees);
+  island_rise_.reserve(trees);
   island_of_tree_.reserve(trees);
   contact_trees_.reserve(trees);
   members_.reserve(kRoom);
@@ -269,6 +270,7 @@ double Stepper::attempt(World& world, State& state, double h) {
   const bool impulses = exchange_over_step(world, state, taken, residual);
   const double gap = close_joints(world);
   const int lost = lost_body(end_);
+  const bool gained = impulses && lost < 0 && may_halve && largest_rise(world, state, taken) > kMayRise;
 
   std::vector<Constraint>& of_step = step_constraints_;
   of_step.swap(world.constraints);
@@ -276,7 +278,8 @@ double Stepper::attempt(World& world, State& state, double h) {
   if (lost < 0) find_contacts(world, end_, end_contacts_);
   world.constraints.swap(of_step);
   world.step = taken;
-  if (may_halve && (lost >= 0 || residual > kUnsolved * world.model.settings.solver_tolerance || !acceptable(end_contacts_))) {
+  if (may_halve &&
+      (lost >= 0 || gained || residual > kUnsolved * world.model.settings.solver_tolerance || !acceptable(end_contacts_))) {
     ++world.diagnostics.substeps;
     next_step_ = 0.5 * taken;
     assemble_constraints(world, state, next_step_);

@@ -31,6 +31,7 @@ class Stepper {
   void assemble_constraints(World&, const State&, double h);
   void push_apart(World&, const std::vector<int>& island, double h);
   bool acceptable(const std::vector<Constraint>& end) const;
+  double largest_rise(const World&, const State& start, double h);
   double fastest_turning(const World&, const State&) const;
   double time_to_impact(World&, double h) const;
   void exchange_impulses(World&, State&, const std::vector<int>& members, double& energy_change);
@@ -48,6 +49,7 @@ class Stepper {
   void apply(World&, double h);
   void book(World&);
   void apply_resistance(World&, double h);
+  double resistance_work(const World&, int joint, double h) const;
   void book_resistance(World&, double h);
   void drop_open_rows(World&, double h);
 
@@ -72,6 +74,7 @@ class Stepper {
   std::vector<Vec6> force_, result_;
   std::vector<std::vector<int>> islands_;
   std::vector<char> island_has_impact_;
+  std::vector<double> island_rise_;  // [J] per island
   std::vector<int> island_of_tree_;
   std::vector<double> weight_;  // per constraint: share of the step its displacement acts
   double turning_ = 0;          // [rad/s] of the fastest body

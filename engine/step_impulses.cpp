@@ -315,20 +315,55 @@ void Stepper::book(World& world) {
   }
 }
 
-/// Work of the joint resistance, once the velocities at the end of the step are known.
+/// Work [J] of a joint's resistance over the step on the two bodies it joins, once the velocities at its end are known.
+double Stepper::resistance_work(const World& world, int j, double h) const {
+  const Joint& joint = world.model.joints[j];
+  const Resistance& resistance = world.resistances[j];
+  Vec3 w_PC = V_[joint.child].w;
+  if (joint.parent >= 0) w_PC -= V_[joint.parent].w;
+  const Vec3 twist = resistance.torque_W * h - world.dampers[j].matrix * w_PC;
+  return 0.5 * twist.dot(w_PC + resistance.w_PC);
+}
+
 void Stepper::book_resistance(World& world, double h) {
-  for (const int tree : world.active_trees) {
+  for (const int tree : world.active_trees)
     for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
       const int j = world.topology.links[l].joint;
-      if (j < 0 || !world.dampers[j].present) continue;
-      const Joint& joint = world.model.joints[j];
-      const Resistance& resistance = world.resistances[j];
-      Vec3 w_PC = V_[joint.child].w;
-      if (joint.parent >= 0) w_PC -= V_[joint.parent].w;
-      const Vec3 twist = resistance.torque_W * h - world.dampers[j].matrix * w_PC;
-      world.dissipated[resistance.effect] -= 0.5 * twist.dot(w_PC + resistance.w_PC);
+      if (j >= 0 && world.dampers[j].present) world.dissipated[world.resistances[j].effect] -= resistance_work(world, j, h);
+    }
+}
+
+/// The most [J] that the mechanical energy of an island rose over the step beyond what its joints' resistance gave. Rigid contacts
+/// and stops give none; but two segments that press on each other near a dead centre of the joints between them (chin and chest)
+/// exchange impulses so large that the levers they turn meanwhile matter. Wheels and springs may give energy: those islands are
+/// left out.
+double Stepper::largest_rise(const World& world, const State& start, double h) {
+  const std::size_t count = islands_.size();
+  island_rise_.assign(count, 0);
+  for (const int tree : world.active_trees) {
+    int root = tree;
+    while (island_of_tree_[root] != root) root = island_of_tree_[root];
+    double& rise = island_rise_[root];
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      const int b = world.topology.links[l].body, j = world.topology.links[l].joint;
+      const Body& body = world.model.bodies[b];
+      const Twist &from = start.V_WB[b], &to = V_[b];
+      rise += 0.5 * body.mass * (to.v - from.v).dot(to.v + from.v);
+      rise -= body.mass * world.model.settings.gravity.dot(X_[b].p - start.X_WB[b].p);
+      rise += 0.5 * (to.w.dot(inertia_W(body, X_[b].q) * to.w) - from.w.dot(inertia_W(body, start.X_WB[b].q) * from.w));
+      if (world.any_damper && j >= 0 && world.dampers[j].present) rise -= resistance_work(world, j, h);
     }
   }
+  double largest = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (islands_[k].empty() || island_rise_[k] <= largest) continue;
+    const bool rigid = std::none_of(islands_[k].begin(), islands_[k].end(), [&](int i) {
+      const Constraint& c = world.constraints[i];
+      return c.kind == ConstraintKind::wheel || is_compliant(c);
+    });
+    if (rigid) largest = island_rise_[k];
+  }
+  return largest;
 }
 
 }  // namespace engine

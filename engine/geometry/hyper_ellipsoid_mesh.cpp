@@ -28,6 +28,9 @@ struct Scene {
   const TriangleMesh& mesh;
   double margin;
   std::vector<SurfaceContact>& out;  // in the mesh frame
+  /// The support point against the face looked at last: a flat panel may have thousands of triangles with one normal.
+  Vec3 last_normal = Vec3::Zero();
+  Vec3 last_point = Vec3::Zero();  // [m] mesh frame
 };
 
 bool inside(const TriangleMesh& mesh, int triangle, const Vec3& p) {
@@ -43,16 +46,19 @@ void touch_face(Scene& s, int triangle) {
   const Vec3& n = s.mesh.face_normals()[triangle];
   const double offset = n.dot(s.mesh.vertices()[s.mesh.triangles()[triangle][0]]);
   const Vec3 down_A = s.X_MA.q.conjugate() * -n;
-  auto add = [&](const Vec3& direction_A, std::uint32_t rank) {
-    const Vec3 p = s.X_MA * support_point(s.shape, direction_A);
+  if (n != s.last_normal) {
+    s.last_normal = n;
+    s.last_point = s.X_MA * support_point(s.shape, down_A);
+  }
+  auto add = [&](const Vec3& p, std::uint32_t rank) {
     const double gap = n.dot(p) - offset;
     if (gap >= s.margin || !inside(s.mesh, triangle, p - gap * n)) return;
     s.out.push_back({p, p - gap * n, n, gap, rank});
   };
-  add(down_A, kDeepest);
+  add(s.last_point, kDeepest);
   if (s.shape.exponent < kFlatExponent) return;
   std::uint32_t rank = 1;
-  for (const Vec3& direction : corner_directions(s.shape, down_A)) add(direction, rank++);
+  for (const Vec3& direction : corner_directions(s.shape, down_A)) add(s.X_MA * support_point(s.shape, direction), rank++);
 }
 
 /// The contact at a mesh point p (on an edge or a vertex) with normal against the gauge gradient there.
@@ -106,10 +112,12 @@ void touch_edge(Scene& s, int triangle, int edge) {
   s.out.push_back(c);
 }
 
-void touch_vertex(Scene& s, int vertex, const std::vector<int>& nearby) {
+template <class IsNear>
+void touch_vertex(Scene& s, int vertex, const IsNear& is_near) {
   SurfaceContact c;
   if (!point_contact(s, s.mesh.vertices()[vertex], c)) return;
-  for (const int triangle : nearby) {
+  for (const int triangle : s.mesh.triangles_at(vertex)) {
+    if (!is_near(triangle)) continue;
     const Triangle& t = s.mesh.triangles()[triangle];
     for (int k = 0; k < 3; ++k) {
       if (t[k] != vertex) continue;
@@ -188,6 +196,7 @@ void keep_the_telling(std::vector<SurfaceContact>& found, double apart, int most
 void reserve(MeshContactScratch& scratch, const TriangleMesh& mesh) {
   const std::size_t count = mesh.triangles().size();
   scratch.triangles.reserve(count);
+  if (scratch.seen.size() < count) scratch.seen.resize(count, 0);
   scratch.vertices.reserve(6 * count);
   scratch.candidates.reserve(std::min<std::size_t>(4 * count, 4096));
 }
@@ -214,13 +223,25 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
 
   // away with triangles whose plane the body does not reach, or whose back its centre has passed
   const Mat3 R_AM = X_MA.q.conjugate().toRotationMatrix();
+  Vec3 last_normal = Vec3::Zero();  // many triangles of a panel share theirs
+  double h = 0;
   std::erase_if(scratch.triangles, [&](int t) {
     const Vec3& n = mesh.face_normals()[t];
     const double height = n.dot(X_MA.p - mesh.vertices()[mesh.triangles()[t][0]]);
     if (height > radius) return true;
-    const double h = support_value(shape, R_AM * n);
+    if (n != last_normal) {
+      last_normal = n;
+      h = support_value(shape, R_AM * n);
+    }
     return height - h > margin || height < -0.25 * h;
   });
+  if (scratch.seen.size() < mesh.triangles().size()) scratch.seen.resize(mesh.triangles().size(), 0);
+  if (++scratch.call == 0) {  // after four thousand million calls
+    std::fill(scratch.seen.begin(), scratch.seen.end(), 0u);
+    scratch.call = 1;
+  }
+  for (const int t : scratch.triangles) scratch.seen[static_cast<std::size_t>(t)] = scratch.call;
+  const auto is_near = [&](int t) { return scratch.seen[static_cast<std::size_t>(t)] == scratch.call; };
 
   scratch.candidates.clear();
   Scene scene{shape, X_MA, mesh, margin, scratch.candidates};
@@ -230,16 +251,14 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
     for (int e = 0; e < 3; ++e) {
       if (!felt(mesh.edge_kind(t, e))) continue;
       const int other = mesh.neighbour(t, e);
-      const bool other_is_near = other >= 0 && other < t &&
-                                 std::find(scratch.triangles.begin(), scratch.triangles.end(), other) != scratch.triangles.end();
-      if (!other_is_near) touch_edge(scene, t, e);
+      if (other < 0 || other > t || !is_near(other)) touch_edge(scene, t, e);  // once for both
       scratch.vertices.push_back(mesh.triangles()[t][e]);
       scratch.vertices.push_back(mesh.triangles()[t][(e + 1) % 3]);
     }
   }
   std::sort(scratch.vertices.begin(), scratch.vertices.end());
   scratch.vertices.erase(std::unique(scratch.vertices.begin(), scratch.vertices.end()), scratch.vertices.end());
-  for (const int v : scratch.vertices) touch_vertex(scene, v, scratch.triangles);
+  for (const int v : scratch.vertices) touch_vertex(scene, v, is_near);
 
   const bool flat = shape.exponent >= kFlatExponent;
   if (flat) let_four_corners_speak(scratch.candidates);

@@ -12,6 +12,8 @@ namespace engine {
 /// Scratch of contacts_with_mesh, kept by the caller between steps (no allocation after warm-up).
 struct MeshContactScratch {
   std::vector<int> triangles;
+  std::vector<std::uint32_t> seen;  // per triangle: the call it was last near in
+  std::uint32_t call = 0;
   std::vector<SurfaceContact> candidates;
   std::vector<int> vertices;
   double apart = 0;  // [m] when nothing was found: the surfaces are at least this far from each other

@@ -133,6 +133,15 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> tri
 }
 
 void TriangleMesh::connect() {
+  at_vertex_begin_.assign(vertices_.size() + 1, 0);
+  for (const Triangle& t : triangles_)
+    for (const std::int32_t v : t) ++at_vertex_begin_[index(v) + 1];
+  for (std::size_t v = 0; v < vertices_.size(); ++v) at_vertex_begin_[v + 1] += at_vertex_begin_[v];
+  at_vertex_.resize(3 * triangles_.size());
+  std::vector<std::size_t> next(at_vertex_begin_.begin(), at_vertex_begin_.end() - 1);
+  for (std::size_t t = 0; t < triangles_.size(); ++t)
+    for (const std::int32_t v : triangles_[t]) at_vertex_[next[index(v)]++] = static_cast<int>(t);
+
   face_normals_.clear();
   for (const Triangle& v : triangles_)
     face_normals_.push_back((vertices_[v[1]] - vertices_[v[0]]).cross(vertices_[v[2]] - vertices_[v[0]]).normalized());

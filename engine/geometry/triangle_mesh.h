@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/math/types.h"
@@ -34,6 +35,11 @@ class TriangleMesh {
   EdgeKind edge_kind(int triangle, int edge) const { return edge_kinds_[index(triangle)][index(edge)]; }
   /// Triangle on the other side of that edge, or -1.
   int neighbour(int triangle, int edge) const { return neighbours_[index(triangle)][index(edge)]; }
+  /// Triangles that share this vertex.
+  std::span<const int> triangles_at(int vertex) const {
+    const auto first = at_vertex_begin_[index(vertex)];
+    return {at_vertex_.data() + first, at_vertex_begin_[index(vertex) + 1] - first};
+  }
   const Aabb& bounds() const { return bounds_; }
   int dropped_triangles() const { return dropped_; }
   int turned_triangles() const { return turned_; }
@@ -59,6 +65,8 @@ class TriangleMesh {
   std::vector<Vec3> face_normals_;
   std::vector<std::array<EdgeKind, 3>> edge_kinds_;
   std::vector<std::array<int, 3>> neighbours_;
+  std::vector<int> at_vertex_;  // triangles by vertex, from at_vertex_begin_[v] on
+  std::vector<std::size_t> at_vertex_begin_;
   std::vector<Node> nodes_;
   std::vector<int> order_;
   Aabb bounds_;
