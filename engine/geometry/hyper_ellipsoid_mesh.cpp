@@ -27,10 +27,22 @@ struct Scene {
   Pose X_MA;  // body in the mesh frame
   const TriangleMesh& mesh;
   double margin;
-  std::vector<SurfaceContact>& out;  // in the mesh frame
-  /// The support point against the face looked at last: a flat panel may have thousands of triangles with one normal.
+  std::vector<SurfaceContact>& out;       // in the mesh frame
+  SmallVector<Vec3, 5> last_points = {};  // [m] mesh frame
   Vec3 last_normal = Vec3::Zero();
-  Vec3 last_point = Vec3::Zero();  // [m] mesh frame
+
+  /// The deepest point against a face of this normal and, of a body with flat sides, the corners of its side, of rank 1 to 4: those
+  /// of the last normal are kept, for a panel may have thousands of triangles.
+  const SmallVector<Vec3, 5>& points_against(const Vec3& normal) {
+    if (normal == last_normal) return last_points;
+    last_normal = normal;
+    last_points.clear();
+    const Vec3 down_A = X_MA.q.conjugate() * -normal;
+    last_points.push_back(X_MA * support_point(shape, down_A));
+    if (shape.exponent >= kFlatExponent)
+      for (const Vec3& direction : corner_directions(shape, down_A)) last_points.push_back(X_MA * support_point(shape, direction));
+    return last_points;
+  }
 };
 
 bool inside(const TriangleMesh& mesh, int triangle, const Vec3& p) {
@@ -45,20 +57,12 @@ bool inside(const TriangleMesh& mesh, int triangle, const Vec3& p) {
 void touch_face(Scene& s, int triangle) {
   const Vec3& n = s.mesh.face_normals()[triangle];
   const double offset = n.dot(s.mesh.vertices()[s.mesh.triangles()[triangle][0]]);
-  const Vec3 down_A = s.X_MA.q.conjugate() * -n;
-  if (n != s.last_normal) {
-    s.last_normal = n;
-    s.last_point = s.X_MA * support_point(s.shape, down_A);
-  }
-  auto add = [&](const Vec3& p, std::uint32_t rank) {
+  std::uint32_t rank = kDeepest;  // first, then the corners
+  for (const Vec3& p : s.points_against(n)) {
     const double gap = n.dot(p) - offset;
-    if (gap >= s.margin || !inside(s.mesh, triangle, p - gap * n)) return;
-    s.out.push_back({p, p - gap * n, n, gap, rank});
-  };
-  add(s.last_point, kDeepest);
-  if (s.shape.exponent < kFlatExponent) return;
-  std::uint32_t rank = 1;
-  for (const Vec3& direction : corner_directions(s.shape, down_A)) add(s.X_MA * support_point(s.shape, direction), rank++);
+    if (gap < s.margin && inside(s.mesh, triangle, p - gap * n)) s.out.push_back({p, p - gap * n, n, gap, rank});
+    rank = rank == kDeepest ? 1 : rank + 1;
+  }
 }
 
 /// The contact at a mesh point p (on an edge or a vertex) with normal against the gauge gradient there.
@@ -127,10 +131,6 @@ void touch_vertex(Scene& s, int vertex, const IsNear& is_near) {
     }
   }
   s.out.push_back(c);
-}
-
-bool felt(EdgeKind kind) {
-  return kind == EdgeKind::convex || kind == EdgeKind::open;
 }
 
 std::uint32_t key_of(const SurfaceContact& c, const Pose& X_MA, double exponent) {
@@ -211,10 +211,24 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
   if (scratch.apart > margin) return;
   scratch.apart = 0;
   const Vec3 half = aabb_half_widths(shape, X_MA.q);
+  // in the middle of a panel only the triangles count that one of the points lies above that touch_face will look at
+  constexpr double kSlack = 1e-5;  // [m] for normals that agree to rounding
+  bool passed = false;
+  Scene scene{shape, X_MA, mesh, margin, scratch.candidates};
+  auto pass = [&](const Vec3& n, double offset, const Aabb& branch) {
+    for (const Vec3& p : scene.points_against(n)) {
+      const Vec3 on_plane = p - (n.dot(p) - offset) * n;
+      const bool above =
+          (on_plane.array() > branch.lower.array() - kSlack).all() && (on_plane.array() < branch.upper.array() + kSlack).all();
+      if (above) return false;
+    }
+    passed = true;
+    return true;
+  };
   auto look = [&](double around) {
     scratch.triangles.clear();
-    mesh.query({X_MA.p - half - Vec3::Constant(around), X_MA.p + half + Vec3::Constant(around)}, scratch.triangles);
-    return !scratch.triangles.empty();
+    mesh.query({X_MA.p - half - Vec3::Constant(around), X_MA.p + half + Vec3::Constant(around)}, scratch.triangles, pass);
+    return passed || !scratch.triangles.empty();
   };
   if (!look(margin)) {
     scratch.apart = look(margin + kLookAhead) ? margin : margin + kLookAhead;
@@ -244,7 +258,6 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
   const auto is_near = [&](int t) { return scratch.seen[static_cast<std::size_t>(t)] == scratch.call; };
 
   scratch.candidates.clear();
-  Scene scene{shape, X_MA, mesh, margin, scratch.candidates};
   scratch.vertices.clear();
   for (const int t : scratch.triangles) {
     touch_face(scene, t);

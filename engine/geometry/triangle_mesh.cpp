@@ -130,6 +130,7 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> tri
   turned_ = turn_strays(triangles_);
   connect();
   build_tree();
+  mark_plain();
 }
 
 void TriangleMesh::connect() {
@@ -186,7 +187,7 @@ void TriangleMesh::build_tree() {
   };
   nodes_.clear();
   if (n == 0) return;
-  nodes_.push_back({box_of(0, n), 0, n});
+  nodes_.push_back({.box = box_of(0, n), .first = 0, .count = n});
   bounds_ = nodes_[0].box;
   for (std::size_t at = 0; at < nodes_.size(); ++at) {
     const int first = nodes_[at].first, count = nodes_[at].count;
@@ -198,28 +199,41 @@ void TriangleMesh::build_tree() {
                      [&](int a, int b) { return centre[a][axis] != centre[b][axis] ? centre[a][axis] < centre[b][axis] : a < b; });
     nodes_[at].first = static_cast<std::int32_t>(nodes_.size());
     nodes_[at].count = 0;
-    nodes_.push_back({box_of(first, half), first, half});
-    nodes_.push_back({box_of(first + half, count - half), first + half, count - half});
+    nodes_.push_back({.box = box_of(first, half), .first = first, .count = half});
+    nodes_.push_back({.box = box_of(first + half, count - half), .first = first + half, .count = count - half});
   }
 }
 
-int TriangleMesh::query(const Aabb& box, std::vector<int>& out) const {
-  if (nodes_.empty()) return 0;
-  std::array<int, 64> stack;
-  int depth = 0, visited = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const Node& node = nodes_[stack[--depth]];
-    ++visited;
-    if ((node.box.lower.array() > box.upper.array()).any() || (node.box.upper.array() < box.lower.array()).any()) continue;
+void TriangleMesh::mark_plain() {
+  constexpr double kSame = 1e-9;  // [-], [m]
+  std::vector<char> felt_vertex(vertices_.size(), 0);
+  for (std::size_t t = 0; t < triangles_.size(); ++t)
+    for (std::size_t e = 0; e < 3; ++e)
+      if (felt(edge_kinds_[t][e])) felt_vertex[triangles_[t][e]] = felt_vertex[triangles_[t][(e + 1) % 3]] = 1;
+  auto agree = [&](const Node& a, const Node& b) {
+    return (a.normal - b.normal).norm() < kSame && std::abs(a.offset - b.offset) < kSame;
+  };
+  // children stand behind their parents
+  for (std::size_t at = nodes_.size(); at-- > 0;) {
+    Node& node = nodes_[at];
     if (node.count == 0) {
-      stack[depth++] = node.first + 1;
-      stack[depth++] = node.first;
+      const Node &left = nodes_[index(node.first)], &right = nodes_[index(node.first) + 1];
+      node.plain = left.plain && right.plain && agree(left, right);
+      node.normal = left.normal;
+      node.offset = left.offset;
       continue;
     }
-    for (int i = node.first; i < node.first + node.count; ++i) out.push_back(order_[i]);
+    node.plain = true;
+    for (int i = node.first; i < node.first + node.count && node.plain; ++i) {
+      const int t = order_[index(i)];
+      Node own;
+      own.normal = face_normals_[index(t)];
+      own.offset = own.normal.dot(vertices_[triangles_[index(t)][0]]);
+      if (i == node.first) node.normal = own.normal, node.offset = own.offset;
+      node.plain = agree(node, own);
+      for (const std::int32_t v : triangles_[index(t)]) node.plain = node.plain && !felt_vertex[v];
+    }
   }
-  return visited;
 }
 
 bool TriangleMesh::raycast(const Vec3& origin, const Vec3& direction, double s_max, double& s, int& triangle) const {

@@ -20,6 +20,10 @@ struct Aabb {
 /// Whether contact normals may leave the face at this edge: a convex edge may, a flat or concave one must not be felt.
 enum class EdgeKind : std::uint8_t { flat, convex, concave, open };
 
+inline bool felt(EdgeKind kind) {
+  return kind == EdgeKind::convex || kind == EdgeKind::open;
+}
+
 /// Immutable after construction. Triangles are counter-clockwise seen from outside.
 class TriangleMesh {
  public:
@@ -45,7 +49,32 @@ class TriangleMesh {
   int turned_triangles() const { return turned_; }
 
   /// Appends to `out` the triangles whose boxes overlap `box` (mesh frame), in a fixed order. Returns nodes visited.
-  int query(const Aabb& box, std::vector<int>& out) const;
+  int query(const Aabb& box, std::vector<int>& out) const {
+    return query(box, out, [](const Vec3&, double, const Aabb&) { return false; });
+  }
+
+  /// The same, but leaves out whole branches in the middle of flat panels, where no edge and no corner is felt, if
+  /// pass(normal, offset, box of the branch) says so: normal.x = offset on it.
+  template <class Pass>
+  int query(const Aabb& box, std::vector<int>& out, const Pass& pass) const {
+    if (nodes_.empty()) return 0;
+    std::array<int, 64> stack;
+    int depth = 0, visited = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+      const Node& node = nodes_[index(stack[--depth])];
+      ++visited;
+      if ((node.box.lower.array() > box.upper.array()).any() || (node.box.upper.array() < box.lower.array()).any()) continue;
+      if (node.plain && pass(node.normal, node.offset, node.box)) continue;
+      if (node.count == 0) {
+        stack[depth++] = node.first + 1;
+        stack[depth++] = node.first;
+        continue;
+      }
+      for (int i = node.first; i < node.first + node.count; ++i) out.push_back(order_[index(i)]);
+    }
+    return visited;
+  }
 
   /// Nearest hit of the ray origin + s * direction, 0 <= s <= s_max: true, with s and the triangle. For wheels and cameras.
   bool raycast(const Vec3& origin, const Vec3& direction, double s_max, double& s, int& triangle) const;
@@ -55,10 +84,14 @@ class TriangleMesh {
     Aabb box;
     std::int32_t first = 0;  // leaf: first triangle in order_; inner: left child
     std::int32_t count = 0;  // leaf: triangles; inner: 0 (right child is first + 1)
+    bool plain = false;      // all its triangles lie in one plane, and nothing of them is felt but their faces
+    double offset = 0;       // [m] of that plane along
+    Vec3 normal = Vec3::Zero();
   };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   void connect();     // adjacency and edge kinds
   void build_tree();  // median splits along the longest side
+  void mark_plain();  // nodes in the middle of panels
 
   std::vector<Vec3> vertices_;
   std::vector<Triangle> triangles_;

@@ -138,7 +138,7 @@ TEST_P(JointKinds, InverseDynamicsGivesBackForcesAndJointTorques) {
     Articulation articulation(e.model);
     articulation.reset(topology);
     articulation.factor(topology, 0, e.X, nullptr);
-    articulation.set_bias(topology, 0, e.X, e.V);
+    articulation.set_bias(topology, 0, e.V);
     articulation.solve(topology, 0, force, a, Articulation::Bias::from_rows);
 
     // inverse, from the last body inwards: what each must get from its joint, by Newton and Euler
