@@ -1,4 +1,4 @@
-// One worker process a core: several OSMesa contexts in one process are serialised by a lock, several processes are not. Frame i is
+// One worker process a core: nothing is shared but the ring, and one that dies takes no other with it. Frame i is
 // drawn by worker i mod n into slot i mod 2n of a ring in shared memory; the parent takes frames in order. A worker that dies is
 // replaced and its frame drawn again.
 #include "render/film.h"

@@ -23,11 +23,11 @@ struct Difference {
   double perceptual_worst = 0;  // and at its worst place
 };
 
-/// What the same scene may differ by on another machine: without fused multiply-add up to 0.28 % of pixels change, another Mesa
-/// changes some hundred, mostly by 1. A real change (another way of multisampling) has a PSNR of 47 dB. A largest difference alone
-/// says nothing, and what is averaged over the picture misses what is small: a missing arrow, another digit, a limb turned by a
-/// degree show at the worst place an eye finds. There a pixel off by 1/255 comes to 0.013, a block of sixteen of them to 0.037; the
-/// smallest fault of those in the tests, a 0 for an 8 in a clock five pixels tall, to 0.158.
+/// What the same scene may differ by on another machine: our own kernels round alike everywhere, skid marks and text come from
+/// libraries and may change some hundred pixels, mostly by 1. A real change (another way of multisampling) has a PSNR of 47 dB. A
+/// largest difference alone says nothing, and what is averaged over the picture misses what is small: a missing arrow, another
+/// digit, a limb turned by a degree show at the worst place an eye finds. There a pixel off by 1/255 comes to 0.013, a block of
+/// sixteen of them to 0.037; the smallest fault of those in the tests, a 0 for an 8 in a clock five pixels tall, to 0.158.
 struct Limits {
   double share_above_2 = 0.005;
   double above_32 = 50;
