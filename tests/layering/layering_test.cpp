@@ -50,7 +50,7 @@ const std::vector<Library> kLibraries = {
     {"GL/.*|EGL/.*", {"render/gl/"}},
     {"immintrin\\.h", {"render/shade/lanes.h"}},
     {"lib(av|sw).*", {"render/video/"}},
-    {"png\\.h|zlib\\.h", {"render/image/"}},
+    {"png\\.h|zlib\\.h|libdeflate\\.h", {"render/image/"}},
     {"cairo.*|pango.*|ft2build\\.h|freetype.*|fontconfig.*", {"render/text/", "render/figures/", "render/charts/"}},
     {"toml\\+\\+.*|toml\\.hpp", {"scenes/loader/toml.cpp"}},
     {"assimp/.*|meshoptimizer\\.h", {"scenes/loader/"}},
