@@ -1,19 +1,29 @@
 #include "engine/effects/body_pairs.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/geometry/hyper_ellipsoid_pair.h"
 
 namespace engine {
 namespace {
 
-bool can_meet(const Model& model, int a, int b) {
+/// Who is joined to whom, lower index first.
+using Joined = std::vector<std::pair<int, int>>;
+
+Joined joined_bodies(const Model& model) {
+  Joined joined;
+  for (const Joint& j : model.joints) joined.emplace_back(std::min(j.parent, j.child), std::max(j.parent, j.child));
+  std::sort(joined.begin(), joined.end());
+  return joined;
+}
+
+bool can_meet(const Model& model, const Joined& joined, int a, int b) {
   const Body& A = model.bodies[a];
   const Body& B = model.bodies[b];
   if (!std::holds_alternative<HyperEllipsoid>(A.shape) || !std::holds_alternative<HyperEllipsoid>(B.shape)) return false;
   if (A.fixed && B.fixed) return false;
-  return std::none_of(model.joints.begin(), model.joints.end(),
-                      [&](const Joint& j) { return (j.parent == a && j.child == b) || (j.parent == b && j.child == a); });
+  return !std::binary_search(joined.begin(), joined.end(), std::pair(std::min(a, b), std::max(a, b)));
 }
 
 /// Segments of one person that stand inside each other in the start pose (upper arm in the side of the torso, thighs at the
@@ -28,29 +38,38 @@ bool overlaps_at_start(const Model& model, int a, int b) {
 }  // namespace
 
 std::vector<BodyPair> pairs_within_persons(const Model& model, int effect) {
+  const Joined joined = joined_bodies(model);
   std::vector<BodyPair> pairs;
   for (const Person& person : model.persons)
     for (std::size_t i = 0; i < person.bodies.size(); ++i)
       for (std::size_t k = i + 1; k < person.bodies.size(); ++k)
-        if (can_meet(model, person.bodies[i], person.bodies[k]) && !overlaps_at_start(model, person.bodies[i], person.bodies[k]))
+        if (can_meet(model, joined, person.bodies[i], person.bodies[k]) &&
+            !overlaps_at_start(model, person.bodies[i], person.bodies[k]))
           pairs.push_back({effect, person.bodies[i], person.bodies[k], Vec3::Zero(), {}});
   return pairs;
 }
 
 std::vector<BodyPair> pairs_between_bodies(const Model& model, int effect) {
+  const Joined joined = joined_bodies(model);
   std::vector<BodyPair> pairs;
   const int n = static_cast<int>(model.bodies.size());
   for (int a = 0; a < n; ++a)
     for (int b = a + 1; b < n; ++b) {
       const bool same_person = model.bodies[a].person >= 0 && model.bodies[a].person == model.bodies[b].person;
-      if (!same_person && can_meet(model, a, b)) pairs.push_back({effect, a, b, Vec3::Zero(), {}});
+      if (!same_person && can_meet(model, joined, a, b)) pairs.push_back({effect, a, b, Vec3::Zero(), {}});
     }
   return pairs;
 }
 
-void add_pairs(World& world, const std::vector<BodyPair>& pairs) {
+void add_pairs(World& world, std::vector<BodyPair> pairs) {
+  // all of two trees together, so that one look at the trees does for all their pairs
+  const auto trees = [&world](const BodyPair& pair) {
+    return std::pair(world.topology.tree_of_body[pair.a], world.topology.tree_of_body[pair.b]);
+  };
+  std::stable_sort(pairs.begin(), pairs.end(), [&](const BodyPair& x, const BodyPair& y) { return trees(x) < trees(y); });
+  world.body_pairs.reserve(world.body_pairs.size() + pairs.size());
   for (const BodyPair& pair : pairs) {
-    const int tree_a = world.topology.tree_of_body[pair.a], tree_b = world.topology.tree_of_body[pair.b];
+    const auto [tree_a, tree_b] = trees(pair);
     const auto at = world.body_pairs.size();
     if (world.body_pair_runs.empty() || world.body_pair_runs.back().effect != pair.effect ||
         world.body_pair_runs.back().tree_a != tree_a || world.body_pair_runs.back().tree_b != tree_b)

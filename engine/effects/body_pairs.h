@@ -10,7 +10,7 @@ std::vector<BodyPair> pairs_within_persons(const Model&, int effect);
 std::vector<BodyPair> pairs_between_bodies(const Model&, int effect);
 
 /// Appends them to those of the world.
-void add_pairs(World&, const std::vector<BodyPair>&);
+void add_pairs(World&, std::vector<BodyPair>);
 
 void find_pair_contacts(World&, const State&, int effect, ContactKind);
 
