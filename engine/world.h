@@ -161,6 +161,7 @@ struct World {
   std::vector<MeshPair> mesh_pairs;
   std::vector<BodyPair> body_pairs;
   std::vector<PairRun> body_pair_runs;
+  std::vector<PairRun> mesh_pair_runs;  // of bodies (a) and meshes (b)
   Nearness nearness;
   std::vector<WheelState> wheels;
   std::vector<Vec3> joint_load;                           // [N] on the child, per joint; of those that can break

@@ -7,7 +7,7 @@ namespace engine {
 namespace {
 
 Finding look(const Model& model) {
-  const std::size_t count = pairs_between_bodies(model, 0).size();
+  const std::size_t count = count_pairs_between_bodies(model);
   if (count > 0)
     return {true, counted(count, "pair") + " of segments or free bodies that are not one person's: " + round_bodies(model),
             "pairs farther apart than they can travel in a step: exact"};

@@ -49,16 +49,31 @@ std::vector<BodyPair> pairs_within_persons(const Model& model, int effect) {
   return pairs;
 }
 
-std::vector<BodyPair> pairs_between_bodies(const Model& model, int effect) {
+namespace {
+
+template <class What>
+void for_each_pair_between_bodies(const Model& model, const What& what) {
   const Joined joined = joined_bodies(model);
-  std::vector<BodyPair> pairs;
   const int n = static_cast<int>(model.bodies.size());
   for (int a = 0; a < n; ++a)
     for (int b = a + 1; b < n; ++b) {
       const bool same_person = model.bodies[a].person >= 0 && model.bodies[a].person == model.bodies[b].person;
-      if (!same_person && can_meet(model, joined, a, b)) pairs.push_back({effect, a, b, Vec3::Zero(), {}});
+      if (!same_person && can_meet(model, joined, a, b)) what(a, b);
     }
+}
+
+}  // namespace
+
+std::vector<BodyPair> pairs_between_bodies(const Model& model, int effect) {
+  std::vector<BodyPair> pairs;
+  for_each_pair_between_bodies(model, [&](int a, int b) { pairs.push_back({effect, a, b, Vec3::Zero(), {}}); });
   return pairs;
+}
+
+std::size_t count_pairs_between_bodies(const Model& model) {
+  std::size_t count = 0;
+  for_each_pair_between_bodies(model, [&](int, int) { ++count; });
+  return count;
 }
 
 void add_pairs(World& world, std::vector<BodyPair> pairs) {

@@ -35,20 +35,23 @@ Finding look(const Model& model) {
 
 void begin(World& world, const State&, int self) {
   const auto& bodies = world.model.bodies;
+  const std::vector<int>& tree = world.topology.tree_of_body;
   for (int m = 0; m < static_cast<int>(bodies.size()); ++m)
     for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
-      if (can_meet(bodies[b], bodies[m]))
+      if (can_meet(bodies[b], bodies[m])) {
+        const std::size_t at = world.mesh_pairs.size();
+        std::vector<PairRun>& runs = world.mesh_pair_runs;
+        if (runs.empty() || runs.back().tree_a != tree[b] || runs.back().tree_b != tree[m])
+          runs.push_back({self, tree[b], tree[m], at, at});
         world.mesh_pairs.push_back({self, b, m, std::get<MeshShape>(bodies[m].shape).mesh.get(), {}});
+        ++runs.back().end;
+      }
   for (const MeshPair& pair : world.mesh_pairs) reserve(world.mesh_scratch, *pair.mesh);
 }
 
-void find(World& world, const State& state, int self) {
-  ContactPoints touches;
-  world.nearness.look(world, state);
-  for (MeshPair& pair : world.mesh_pairs) {
-    if (pair.effect != self) continue;
-    const std::vector<int>& tree = world.topology.tree_of_body;
-    if (!world.nearness.close(tree[pair.body], tree[pair.mesh_body])) continue;
+void find_contacts_of(World& world, const State& state, const PairRun& run, ContactPoints& touches) {
+  for (std::size_t i = run.begin; i < run.end; ++i) {
+    MeshPair& pair = world.mesh_pairs[i];
     if (!world.awake[pair.body] && !world.model.bodies[pair.body].fixed) continue;  // waits or sleeps: those effects watch
     const Body& round = world.model.bodies[pair.body];
     const Body& mesh = world.model.bodies[pair.mesh_body];
@@ -64,9 +67,16 @@ void find(World& world, const State& state, int self) {
     const double e = std::max(round.surface.restitution_body.at(state.time), mesh.surface.restitution_body.at(state.time));
     const std::size_t first = world.constraints.size();
     for (const SurfaceContact& touch : touches)
-      add_contact(world, state, touch, pair.body, pair.mesh_body, self, ContactKind::vehicle, mu, e);
+      add_contact(world, state, touch, pair.body, pair.mesh_body, run.effect, ContactKind::vehicle, mu, e);
     share_stiffness(world, first);
   }
+}
+
+void find(World& world, const State& state, int) {
+  ContactPoints touches;
+  world.nearness.look(world, state);
+  for (const PairRun& run : world.mesh_pair_runs)
+    if (world.nearness.close(run.tree_a, run.tree_b)) find_contacts_of(world, state, run, touches);
 }
 
 }  // namespace
