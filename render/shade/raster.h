@@ -219,7 +219,8 @@ LANES std::int32_t packed(float x, float y, float z) {
     u = folded_u;
     v = folded_v;
   }
-  return static_cast<std::int32_t>((0.5f + 0.5f * u) * 65535) | static_cast<std::int32_t>((0.5f + 0.5f * v) * 65535) * 65536;
+  const auto place = [](float w) { return static_cast<std::uint32_t>((0.5f + 0.5f * w) * 65535); };
+  return static_cast<std::int32_t>(place(u) | place(v) << 16);
 }
 
 /// Which way a triangle's corner normals look: 1 out of its counter-clockwise side.
