@@ -155,8 +155,9 @@ LANES Look look_of(const Scene& s, const float* materials, I triangle, F x, F y)
     F ribs_y = all(0.0f), ribs_z = all(0.0f);
     const int many = s.samples > 1 ? 2 : 1;
     for (int k = 0; k < many * many; ++k) {
-      const float i = static_cast<float>(k % many) - 0.5f * static_cast<float>(many - 1),
-                  j = static_cast<float>(k / many) - 0.5f * static_cast<float>(many - 1);
+      const int across = k % many, down = k / many;
+      const float i = static_cast<float>(across) - 0.5f * static_cast<float>(many - 1),
+                  j = static_cast<float>(down) - 0.5f * static_cast<float>(many - 1);
       ribs_y += sine((p.x + dx.x * i + dy.x * j) * 160.0f);
       ribs_z += sine((p.y + dx.y * i + dy.y * j) * 130.0f + 1.57079633f);
     }
