@@ -64,35 +64,47 @@ LANES V3 pavement_colour(F x, F y, const Footprint& w, const Grain& g) {
   return grey(0.215f, 0.21f, 0.2f, (1.0f + 0.45f * g.fine + 0.15f * g.middle + 0.25f * g.wide) * (1.0f - 0.4f * joint));
 }
 
+/// Eight pixels that nothing of the pattern reaches pass it by: the same colours, sooner.
 LANES V3 paint_markings(const FrameData& f, const V3& road, F x, F y, float lane, const Footprint& w, const Grain& g) {
   const float half = f.ground[1];
   F paint = bar(abs(y), half - 0.25f, 0.06f, w.y);
   const int lanes = static_cast<int>(f.ground[3]);
-  if (lanes > 1) {
-    const F broken = bars(x, 9, 1.5f, w.x);
-    for (int i = 1; i < lanes; ++i) paint = max(paint, broken * bar(y, -half + lane * static_cast<float>(i), 0.06f, w.y));
+  for (int i = 1; i < lanes; ++i) {
+    const F line = bar(y, -half + lane * static_cast<float>(i), 0.06f, w.y);
+    if (any(line > 0.0f)) paint = max(paint, bars(x, 9, 1.5f, w.x) * line);
   }
   if (f.road[2] > 0.5f) {  // zebra
-    const F inside = bar(y, 0, half - 0.45f, w.y), clear = 1.0f - bar(x, f.road[3], 2.4f, w.x);
-    paint = max(paint * clear, inside * bar(x, f.road[3], 1.75f, w.x) * bars(y, 1, 0.25f, w.y));
+    const F kept_clear = bar(x, f.road[3], 2.4f, w.x);
+    if (any(kept_clear > 0.0f))
+      paint =
+          max(paint * (1.0f - kept_clear), bar(y, 0, half - 0.45f, w.y) * bar(x, f.road[3], 1.75f, w.x) * bars(y, 1, 0.25f, w.y));
   }
+  if (!any(paint > 0.0f)) return road;
   const V3 white = grey(0.62f, 0.62f, 0.60f, 0.93f + 0.55f * g.fine + 0.18f * g.middle);
   return mix(road, white, paint * saturate(1.02f + 0.7f * g.middle));
 }
 
-LANES V3 road_colour(const FrameData& f, int zone, F x, F y, const Footprint& w, const Grain& g) {
-  V3 c = grey(0.118f, 0.117f, 0.118f, 1.0f + 0.95f * g.fine + 0.55f * g.middle + 0.40f * g.wide);
+LANES V3 carriageway_colour(const FrameData& f, int zone, F x, F y, const Footprint& w, const Grain& g) {
+  const V3 c = grey(0.118f, 0.117f, 0.118f, 1.0f + 0.95f * g.fine + 0.55f * g.middle + 0.40f * g.wide);
   // wheels polish two tracks in each lane
   const float half = f.ground[1], lane = 2 * half / (f.ground[3] > 1 ? f.ground[3] : 1);
   const F track = abs(abs(fract((y + half) * (1 / lane)) - 0.5f) * lane - 0.75f);
-  c = c * (1.0f + 0.07f * (1.0f - smoothstep(0.1f, 0.5f, track)) - 0.03f);
-  if (zone != asphalt) c = paint_markings(f, c, x, y, lane, w, g);
-  if (zone != everything) return c;
-  // kerb stone, pavement of slabs, grass
-  const F off = abs(y) - half;
-  c = mix(c, grey(0.25f, 0.245f, 0.235f, 1.0f + 0.4f * g.middle + 0.3f * g.fine), saturate(off * w.y.per + 0.5f));
-  c = mix(c, pavement_colour(x, y, w, g), saturate((off - 0.15f) * w.y.per + 0.5f));
-  return mix(c, grass_colour(g), saturate((off - 2.15f - 0.1f * (g.middle + g.fine)) * min(w.y.per, 50.0f) + 0.5f));
+  const V3 polished = c * (1.0f + 0.07f * (1.0f - smoothstep(0.1f, 0.5f, track)) - 0.03f);
+  return zone == asphalt ? polished : paint_markings(f, polished, x, y, lane, w, g);
+}
+
+LANES V3 road_colour(const FrameData& f, int zone, F x, F y, const Footprint& w, const Grain& g) {
+  if (zone != everything) return carriageway_colour(f, zone, x, y, w, g);
+  // kerb stone, pavement of slabs, grass; each lies over the one before
+  const F off = abs(y) - f.ground[1];
+  const F kerb = saturate(off * w.y.per + 0.5f), slabs = saturate((off - 0.15f) * w.y.per + 0.5f);
+  const F lawn = saturate((off - 2.15f - 0.1f * (g.middle + g.fine)) * min(w.y.per, 50.0f) + 0.5f);
+  V3 c = three(0, 0, 0);
+  if (any(kerb < 1.0f)) c = carriageway_colour(f, zone, x, y, w, g);
+  if (any((kerb > 0.0f) & (slabs < 1.0f))) c = mix(c, grey(0.25f, 0.245f, 0.235f, 1.0f + 0.4f * g.middle + 0.3f * g.fine), kerb);
+  if (any((slabs > 0.0f) & (lawn < 1.0f))) c = mix(c, pavement_colour(x, y, w, g), slabs);
+  if (any(lawn > 0.0f)) c = mix(c, grass_colour(g), lawn);
+  return c;
 }
 
 /// Straight from the screen's curve to light, to 2 %.
@@ -151,129 +163,6 @@ LANES V3 ground_colour(const FrameData& f, const Maps& maps, int zone, F x, F y,
   }
   if (maps.photograph.levels > 0 && zone == everything) c = over_photograph(maps.photograph, c, x, y, w);
   return max(c, 0.005f);
-}
-
-/// How much of the sky things near x, y leave open, from the map.
-LANES F open_sky(const FrameData& f, const Maps& maps, F x, F y) {
-  const float n = static_cast<float>(maps.occlusion_size);
-  const F u = clamp((x - f.occlusion[0]) * (n / f.occlusion[2]) - 0.5f, -1, n);
-  const F v = clamp((y - f.occlusion[1]) * (n / f.occlusion[3]) - 0.5f, -1, n);
-  const F i = floor(u), j = floor(v), s = u - i, t = v - j;
-  const int pitch = maps.occlusion_size + 2;
-  const auto at = [&](int a, int b) {
-    return gather(maps.occlusion,
-                  (clamp(to_int(j) + b, -1, maps.occlusion_size) + 1) * pitch + clamp(to_int(i) + a, -1, maps.occlusion_size) + 1);
-  };
-  return mix(mix(at(0, 0), at(1, 0), s), mix(at(0, 1), at(1, 1), s), t);
-}
-
-/// A pixel's ray and how it changes from pixel to pixel.
-struct Ray {
-  V3 from, along;
-  V3 from_x, along_x, from_y, along_y;
-};
-LANES Ray ray_of(const FrameData& f, F x, F y) {
-  const V3 near_x = three(f.near_x), near_y = three(f.near_y), far_x = three(f.far_x), far_y = three(f.far_y);
-  const V3 from = three(f.near_0) + near_x * x + near_y * y, to = three(f.far_0) + far_x * x + far_y * y;
-  return {from, to - from, near_x, far_x - near_x, near_y, far_y - near_y};
-}
-
-/// How far before the ray's first point the eye lies, in lengths of the ray; the same for all rays of a perspective picture.
-LANES float before_ray(const FrameData& f) {
-  float before = 0, along = 0;
-  for (int i = 0; i < 3; ++i) {
-    before += (f.near_0[i] - f.eye[i]) * f.forward[i];
-    along += (f.far_0[i] - f.near_0[i]) * f.forward[i];
-  }
-  return before / along;
-}
-
-LANES V3 ground_light(const FrameData& f, const Maps& maps, const Tile& tile, F x, F y) {
-  const Ray ray = ray_of(f, x, y);
-  const F reach = sqrt(dot(ray.along, ray.along));  // [m] between the two points that make the ray
-  const V3 d = ray.along * (1.0f / reach);
-  // where the ray meets the ground, and how far that moves from pixel to pixel; behind or beside the horizon: very far
-  const F per_fall = -1.0f / min(ray.along.z, -1e-6f);
-  const F s = min((ray.from.z - f.ground[0]) * per_fall, 1e5f);
-  const V3 p{ray.from.x + s * ray.along.x, ray.from.y + s * ray.along.y, all(f.ground[0])};
-  const V3 along_x = ray.from_x + ray.along_x * s, along_y = ray.from_y + ray.along_y * s;
-  const F step_x = along_x.z * per_fall, step_y = along_y.z * per_fall;
-  const Footprint w = footprint(clamp(abs(along_x.x + ray.along.x * step_x) + abs(along_y.x + ray.along.x * step_y), 1e-4f, 1e4f),
-                                clamp(abs(along_x.y + ray.along.y * step_x) + abs(along_y.y + ray.along.y * step_y), 1e-4f, 1e4f));
-  V3 c = ground_colour(f, maps, tile.zone, p.x, p.y, w);
-  F sky_open = all(1.0f), lit = all(1.0f);
-  if (tile.sun != bare) {
-    sky_open = open_sky(f, maps, p.x, p.y);
-    if (tile.sun == dark) lit = all(0.0f);
-    if (tile.sun == open) lit = sunlight(f, maps, p, three(0, 0, 1), {all(0.0f), all(0.0f)}, all(-1), x, y);
-  }
-  const F sun = (f.sun[2] > 0 ? f.sun[2] : 0.0f) * lit * mix(sky_open, all(1.0f), all(0.6f));
-  c = c * (three(kSunLight) * sun + ambient_light(f, all(1.0f), all(1.0f)) * sky_open);
-  const F far_m = f.eye[3] > 0.5f ? all(0.0f) : (s + before_ray(f)) * reach;
-  // asphalt shines a little against the light
-  const F steep = 1.0f - saturate(-d.z);
-  c = c + haze_colour(f) * (0.05f * (1.0f - f.eye[3]) * steep * steep * steep * steep * steep * sky_open);
-  if (tile.near_ground) return to_screen(mix(c, haze_colour(f), haze_at(f, far_m)));
-  // at the very horizon ground and sky are one haze; the sun's glow fades in with distance
-  const F horizon = smoothstep(150, 900, far_m);
-  const V3 above = sky_light(f, {d.x, d.y, max(d.z, 0.0f)});
-  c = mix(mix(c, haze_colour(f), mix(haze_at(f, far_m), all(1.0f), horizon)), above, horizon);
-  return to_screen(mix(above, c, step(all(1e-5f), -d.z))) + dither(x, y);
-}
-
-void background(const FrameData& frame, const Maps& all_maps, const Tile& one, const Canvas& out) {
-  // copies of its own: a pixel written cannot change them, and what follows from them is computed once
-  const FrameData f = frame;
-  const Maps maps = all_maps;
-  const Tile tile = one;
-  for (int row = tile.y; row < tile.y + tile.height; ++row) {
-    std::uint8_t* at = out.pixels + 4 * (static_cast<std::int64_t>(row) * out.width + tile.x);
-    const F y = all(static_cast<float>(row) + 0.5f);
-    for (int i = 0; i < tile.width; i += kLanes, at += 4 * kLanes) {
-      const F x = count_up(static_cast<float>(tile.x + i) + 0.5f);
-      const int count = tile.width - i < kLanes ? tile.width - i : kLanes;
-      if (tile.covered) {
-        std::uint64_t bytes = 0;
-        __builtin_memcpy(&bytes, tile.covered + static_cast<std::int64_t>(row) * out.width + tile.x + i, sizeof bytes);
-        if (bytes == ~std::uint64_t{0}) continue;
-      }
-      if (tile.zone == sky)
-        put(to_screen(sky_light(f, normalize(ray_of(f, x, y).along))) + dither(x, y), count, at);
-      else
-        put(ground_light(f, maps, tile, x, y), count, at);
-    }
-  }
-}
-
-void occlusion(const FrameData& frame, const Occluders& o, int size, float* out) {
-  const FrameData f = frame;
-  const int pitch = size + 2;
-  for (int i = 0; i < pitch * pitch; ++i) out[i] = 1;
-  for (int j = 0; j < size; ++j)
-    for (int i = 0; i < size; i += kLanes) {
-      const V3 p{f.occlusion[0] + f.occlusion[2] / static_cast<float>(size) * count_up(static_cast<float>(i) + 0.5f),
-                 all(f.occlusion[1] + f.occlusion[3] / static_cast<float>(size) * (static_cast<float>(j) + 0.5f)),
-                 all(f.ground[0])};
-      const auto row = [&p](const float* r) { return r[0] * p.x + r[1] * p.y + r[2] * p.z + r[3]; };
-      F left = all(1.0f);
-      for (int k = 0; k < o.rounds; ++k) {
-        const float* r = o.round_rows + 12 * k;
-        const V3 u{row(r), row(r + 4), row(r + 8)};
-        // the up direction in the sphere's own space; cosine to the centre over squared distance is the form factor
-        const V3 up = normalize(three(r[2], r[6], r[10]));
-        const F d2 = max(dot(u, u), 1.0f), cosine = max(-dot(u, up) / sqrt(d2), 0.0f);
-        left *= 1.0f - 0.9f * cosine / d2;
-      }
-      for (int k = 0; k < o.boxes; ++k) {
-        const float *r = o.box_rows + 12 * k, *h = o.box_half + 4 * k;
-        const V3 b{row(r), row(r + 4), row(r + 8)};
-        const float least = h[0] < h[1] ? h[0] : h[1], rounding = least < 0.45f ? least : 0.45f;
-        const F bx = max(abs(b.x) - (h[0] - rounding), 0.0f), by = max(abs(b.y) - (h[1] - rounding), 0.0f);
-        const F side = max(sqrt(bx * bx + by * by) - rounding, -0.3f), under = max(abs(b.z) - h[2], 0.0f);
-        left *= 1.0f - 0.86f * min(exp((side + 0.12f) * (-1 / 0.28f)), 1.0f) / (1.0f + under * under * 4.0f);
-      }
-      __builtin_memcpy(out + (j + 1) * pitch + i + 1, &left, sizeof left);
-    }
 }
 
 }  // namespace

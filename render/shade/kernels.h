@@ -40,7 +40,8 @@ struct Maps {
   Photograph photograph{};
 };
 
-/// Rectangle of one kind of background; numbers as enum Zone and enum Sun.
+/// Rectangle of one kind of background; numbers as enum Zone and enum Sun. x is a multiple of eight: what changes slowly is
+/// computed for every eighth pixel of a row and blended between, the same in whatever tile a pixel lies.
 struct Tile {
   int x, y, width, height;
   int zone, sun;

@@ -68,9 +68,9 @@ LANES F dither(F x, F y) {
   return (pixel_noise(x, y) - 0.5f) * (1 / 255.0f);
 }
 
-/// The first `count` of eight pixels.
+/// The first `count` of eight pixels. Out of the tone curve, with or without noise, no value rounds below 0 or above 255.
 LANES void put(const V3& c, int count, std::uint8_t* out) {
-  const auto byte = [](F v) { return to_int(saturate(v) * 255.0f + 0.5f); };
+  const auto byte = [](F v) { return to_int(v * 255.0f + 0.5f); };
   const I rgba = byte(c.x) | byte(c.y) << 8 | byte(c.z) << 16 | static_cast<std::int32_t>(0xff000000u);
   if (count == kLanes)
     __builtin_memcpy(out, &rgba, sizeof rgba);

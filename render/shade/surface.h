@@ -1,7 +1,7 @@
 // Things: one material model for all, its numbers in a row of the material table.
 #pragma once
 
-#include "render/shade/ground.h"
+#include "render/shade/background.h"
 #include "render/shade/raster.h"
 
 namespace render::shade {

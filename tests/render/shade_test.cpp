@@ -50,9 +50,9 @@ struct Street {
   FrameData data;
 };
 
-std::vector<std::uint8_t> background(const Kernels& by, const Street& street, int zone, int sun, int filter) {
+std::vector<std::uint8_t> background(const Kernels& by, const Street& street, int zone, int sun, int filter, bool near = false) {
   std::vector<std::uint8_t> out(4 * kWidth * kHeight);
-  by.background(street.data, street.maps(filter), {3, 0, kWidth - 3, kHeight, zone, sun, false}, {out.data(), kWidth});
+  by.background(street.data, street.maps(filter), {8, 0, kWidth - 8, kHeight, zone, sun, near}, {out.data(), kWidth});
   return out;
 }
 
@@ -61,8 +61,10 @@ TEST(Shade, BackgroundIsTheSameOnEveryProcessor) {
   for (int zone = 0; zone <= static_cast<int>(gl::Zone::grass); ++zone)
     for (int sun = 0; sun <= static_cast<int>(gl::Sun::open); ++sun)
       for (const int filter : {1, 2})
-        EXPECT_EQ(background(kernels(), street, zone, sun, filter), background(plain_kernels(), street, zone, sun, filter))
-            << "zone " << zone << ", sun " << sun << ", filter " << filter;
+        for (const bool near : {false, true})
+          EXPECT_EQ(background(kernels(), street, zone, sun, filter, near),
+                    background(plain_kernels(), street, zone, sun, filter, near))
+              << "zone " << zone << ", sun " << sun << ", filter " << filter << (near ? ", near" : "");
 }
 
 /// Triangles of all sizes and turns before a street's camera, on a grid of samples.
@@ -264,7 +266,7 @@ TEST(Shade, ATileOfOneKindShowsWhatTheWholePatternWould) {
       kernels().background(street.data, street.maps(1), {r.x, r.y, r.width, r.height, static_cast<int>(look.zone), 0, look.near},
                            {part.data(), kWidth});
       for (int y = r.y; y < r.y + r.height; ++y)
-        for (int i = 4 * (y * kWidth + std::max(r.x, 3)); i < 4 * (y * kWidth + r.x + r.width); ++i)
+        for (int i = 4 * (y * kWidth + std::max(r.x, 8)); i < 4 * (y * kWidth + r.x + r.width); ++i)
           // rounding, and the noise that the shader with a horizon adds
           ASSERT_LE(std::abs(part[static_cast<std::size_t>(i)] - whole[static_cast<std::size_t>(i)]), 1)
               << "kind " << static_cast<int>(look.zone) << " at row " << y;
