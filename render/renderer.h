@@ -25,8 +25,7 @@ struct Effort {
 };
 Effort effort_of(Quality, int width, int height);
 
-/// What is kept from frame to frame, and a GL context (OSMesa) from the first skid mark on. Create it in the process that draws,
-/// after any fork. Throws RenderError with what failed.
+/// What is kept from frame to frame.
 class Renderer {
  public:
   Renderer(int width, int height, Quality);

@@ -48,12 +48,12 @@ void widen(const std::uint8_t* from, int width, std::uint8_t* to) {
 }  // namespace
 
 void BackgroundPass::begin(const DrawList& list, const FrameSetup& whole, const DepthPyramid& depth, const shade::Maps& maps,
-                           const shade::Canvas& onto, int height, int step) {
+                           const shade::Canvas& onto, int step) {
   half_ = step == 2 && onto.width % 2 == 0;
-  const int width = half_ ? onto.width / 2 : onto.width;
+  const int width = half_ ? onto.width / 2 : onto.width, height = onto.height;
   const std::size_t bytes = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   if (half_) narrow_.resize(bytes);
-  const shade::Canvas canvas{half_ ? narrow_.data() : onto.pixels, width};
+  const shade::Canvas canvas = half_ ? shade::Canvas{narrow_.data(), width, height, width} : onto;
   const FrameSetup frame = half_ ? of_half_width(whole) : whole;
   data_ = frame_data(frame.block);
   if (picture_ != list.road.picture) {
@@ -63,14 +63,15 @@ void BackgroundPass::begin(const DrawList& list, const FrameSetup& whole, const 
   // kept from the second equal frame on: a moving camera pays for no copy
   if (last_ && same_background(*last_, frame.block) && !(kept_ && same_background(*kept_, frame.block))) {
     bare_.resize(bytes);
-    draw_tiles(lay_tiles(frame, list.road, depth, Shade::none, width, height), data_, maps, {bare_.data(), width}, 0, height,
-               nullptr);
+    draw_tiles(lay_tiles(frame, list.road, depth, Shade::none, width, height), data_, maps, {bare_.data(), width, height, width}, 0,
+               height, nullptr);
     kept_ = frame.block;
   }
   last_ = frame.block;
   tiles_ = lay_tiles(frame, list.road, depth, Shade::cast, width, height);
   if (kept_ && same_background(*kept_, frame.block)) {
-    std::copy_n(bare_.begin(), bytes, canvas.pixels);
+    for (std::ptrdiff_t y = 0; y < height; ++y)
+      std::copy_n(bare_.data() + 4 * y * width, 4 * width, canvas.pixels + 4 * y * canvas.pitch);
     std::erase_if(tiles_, [](const auto& t) { return t.first.sun == Sun::bare; });
   }
 }
@@ -81,8 +82,8 @@ void BackgroundPass::draw(int y0, int y1, const std::uint8_t* covered, const sha
     return;
   }
   const int width = canvas.width / 2;
-  draw_tiles(tiles_, data_, maps, {narrow_.data(), width}, y0, y1, nullptr);
-  for (std::ptrdiff_t y = y0; y < y1; ++y) widen(narrow_.data() + 4 * y * width, width, canvas.pixels + 8 * y * width);
+  draw_tiles(tiles_, data_, maps, {narrow_.data(), width, canvas.height, width}, y0, y1, nullptr);
+  for (std::ptrdiff_t y = y0; y < y1; ++y) widen(narrow_.data() + 4 * y * width, width, canvas.pixels + 4 * y * canvas.pitch);
 }
 
 }  // namespace render::gl

@@ -14,10 +14,9 @@ namespace render::gl {
 
 class BackgroundPass {
  public:
-  /// What is to be drawn on the canvas, `height` pixels high; puts there what is kept of the last frame. `step` 2: every other
+  /// What is to be drawn on the canvas; puts there what is kept of the last frame. `step` 2: every other
   /// pixel of a row is looked at, with twice the footprint, and those between are blended.
-  void begin(const DrawList&, const FrameSetup&, const DepthPyramid&, const shade::Maps&, const shade::Canvas&, int height,
-             int step);
+  void begin(const DrawList&, const FrameSetup&, const DepthPyramid&, const shade::Maps&, const shade::Canvas&, int step);
   /// Its rows from y0 up to y1, but not where `covered` (shade::Tile) says so.
   void draw(int y0, int y1, const std::uint8_t* covered, const shade::Maps&, const shade::Canvas&);
 
@@ -26,7 +25,7 @@ class BackgroundPass {
   std::vector<std::uint8_t> narrow_;  // then, half as wide
   shade::FrameData data_{};
   TileMap tiles_;
-  std::vector<std::uint8_t> bare_;                // RGBA, lowest row first
+  std::vector<std::uint8_t> bare_;                // a canvas, lowest row first
   std::optional<FrameBlock> kept_, last_;         // whose background lies in bare_, and whose was drawn last
   std::shared_ptr<const GroundPicture> picture_;  // that lay on it
 };

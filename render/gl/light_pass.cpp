@@ -22,7 +22,7 @@ bool alike(const shade::Triangle& a, const shade::Triangle& b) {
 void LightPass::draw(const Lighting& lighting, ObjectPass& objects, const Rectangle& r, const shade::Canvas& canvas) {
   if (r.width <= 0 || r.height <= 0) return;
   const std::vector<shade::Triangle>& triangles = objects.sampler().triangles();
-  find_surfaces(lighting, objects, triangles, r, canvas.width);
+  find_surfaces(lighting, objects, triangles, r, canvas.pitch);
   if (count_ == 0) return;
   shade::kernels().surfaces(
       lighting.data, lighting.maps,
@@ -42,7 +42,7 @@ void LightPass::make_room(std::size_t more) {
 }
 
 void LightPass::find_surfaces(const Lighting& lighting, const ObjectPass& objects, const std::vector<shade::Triangle>& triangles,
-                              const Rectangle& r, int width) {
+                              const Rectangle& r, std::ptrdiff_t pitch) {
   count_ = 0;
   const int s = lighting.samples;
   const std::ptrdiff_t w = r.width * s;
@@ -53,8 +53,8 @@ void LightPass::find_surfaces(const Lighting& lighting, const ObjectPass& object
       bool empty = low[0] >= 1;
       if (s == 2) empty = empty && low[1] >= 1 && low[w] >= 1 && low[w + 1] >= 1;
       if (!empty)
-        add_pixel(objects, triangles, s, low - objects.depth(), w, (r.y + y) * width + r.x + x, static_cast<float>(r.x + x),
-                  static_cast<float>(r.y + y));
+        add_pixel(objects, triangles, s, low - objects.depth(), w, static_cast<std::int32_t>((r.y + y) * pitch) + r.x + x,
+                  static_cast<float>(r.x + x), static_cast<float>(r.y + y));
     }
   }
   // what fills up the last eight looks like the last
@@ -122,6 +122,7 @@ void LightPass::lay(const shade::Canvas& canvas) const {
       left -= share_[i++];
     } while (i < count_ && pixel_[i] == pixel);
     for (std::size_t k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>(sum[k] + left * static_cast<float>(out[k]) + 0.5f);
+    out[3] = 255;
   }
 }
 

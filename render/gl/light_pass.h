@@ -23,7 +23,8 @@ class LightPass {
   void draw(const Lighting&, ObjectPass&, const Rectangle& r, const shade::Canvas&);
 
  private:
-  void find_surfaces(const Lighting&, const ObjectPass&, const std::vector<shade::Triangle>&, const Rectangle&, int width);
+  void find_surfaces(const Lighting&, const ObjectPass&, const std::vector<shade::Triangle>&, const Rectangle&,
+                     std::ptrdiff_t pitch);
   void add_pixel(const ObjectPass&, const std::vector<shade::Triangle>&, int samples, std::ptrdiff_t corner, std::ptrdiff_t row,
                  int pixel, float x, float y);
   void make_room(std::size_t more);
@@ -31,7 +32,7 @@ class LightPass {
 
   // a surface in a pixel
   std::size_t count_ = 0;
-  std::vector<int> pixel_;  // of the canvas
+  std::vector<int> pixel_;  // from the canvas's lowest left one
   std::vector<float> share_, x_, y_, z_, red_, green_, blue_;
   std::vector<std::int32_t> triangle_;
 };

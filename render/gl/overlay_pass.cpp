@@ -25,13 +25,12 @@ void narrow(float value, float slope, float low, float high, float& x0, float& x
 
 }  // namespace
 
-void OverlayPass::begin(const DrawList& list, const shade::Canvas& canvas, int height) {
+void OverlayPass::begin(const DrawList& list, const shade::Canvas& canvas) {
   const Mat4 m = from_gl(list.view.eye_to_clip) * from_gl(list.view.world_to_eye);
   for (std::size_t i = 0; i < 16; ++i) clip_[i] = static_cast<float>(m.data()[i]);
   canvas_ = canvas;
-  rows_ = height;
   width_ = static_cast<float>(canvas.width);
-  height_ = static_cast<float>(height);
+  height_ = static_cast<float>(canvas.height);
   scale_ = height_ / 1080 * list.scale;
 }
 
@@ -97,15 +96,14 @@ void OverlayPass::capsule(const Pixel& a, const Pixel& b, float half_a, float ha
                              : std::sqrt(across * across + std::max(beyond, 0.0f) * std::max(beyond, 0.0f)) - half_a;
       const float cover = std::clamp(0.5f - d, 0.0f, 1.0f);
       if (cover <= 0) continue;
-      const std::ptrdiff_t pixel = static_cast<std::ptrdiff_t>(row) * canvas_.width + x;
       if (depth_) {
         const float s = std::clamp(share, 0.0f, 1.0f), off_along = along - s * length;
         const float off_x = dx * off_along - dy * across, off_y = dy * off_along + dx * across;
         const float z = a.z + (b.z - a.z) * s + (a.slope_x + (b.slope_x - a.slope_x) * s) * off_x +
                         (a.slope_y + (b.slope_y - a.slope_y) * s) * off_y;
-        if (std::clamp(z, 0.0f, 1.0f) > depth_[pixel]) continue;
+        if (std::clamp(z, 0.0f, 1.0f) > depth_[static_cast<std::ptrdiff_t>(row) * canvas_.width + x]) continue;
       }
-      std::uint8_t* const out = canvas_.pixels + 4 * pixel;
+      std::uint8_t* const out = canvas_.pixels + 4 * (row * canvas_.pitch + x);
       const float alpha = colour[3] * cover;
       for (std::size_t c = 0; c < 3; ++c)
         out[c] = static_cast<std::uint8_t>(255 * colour[c] * alpha + static_cast<float>(out[c]) * (1 - alpha) + 0.5f);
@@ -144,8 +142,8 @@ void OverlayPass::arrow(const ArrowItem& item, float extra, const Float4& colour
           Ends::square);
 }
 
-void OverlayPass::draw(const DrawList& list, const shade::Canvas& canvas, int height, const float* depth) {
-  begin(list, canvas, height);
+void OverlayPass::draw(const DrawList& list, const shade::Canvas& canvas, const float* depth) {
+  begin(list, canvas);
   for (const bool behind : {true, false}) {
     depth_ = behind ? depth : nullptr;
     for (const LineItem& line : list.lines)

@@ -11,14 +11,14 @@ namespace render::gl {
 class OverlayPass {
  public:
   /// Onto the canvas. Lines that pass behind things are held against `depth`, 0..1 of each pixel; without it they are in front.
-  void draw(const DrawList&, const shade::Canvas&, int height, const float* depth);
+  void draw(const DrawList&, const shade::Canvas&, const float* depth);
 
  private:
   struct Pixel {
     float x, y, z;
     float slope_x = 0, slope_y = 0;  // of the depth over the picture, where a line lies on a surface
   };
-  void begin(const DrawList&, const shade::Canvas&, int height);
+  void begin(const DrawList&, const shade::Canvas&);
   bool project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb) const;
   void lie_on(const Float3& at, const Float3& normal, Pixel&) const;
   enum class Ends { round, square };
@@ -28,7 +28,6 @@ class OverlayPass {
 
   shade::Canvas canvas_{};
   const float* depth_ = nullptr;  // what the lines at hand are held against
-  int rows_ = 0;
   std::array<float, 16> clip_{};
   float width_ = 0, height_ = 0, scale_ = 1;
 };

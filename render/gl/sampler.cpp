@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/gl/cut.h"
 #include "render/matrix.h"
 
 namespace render::gl {
@@ -11,28 +12,7 @@ namespace {
 using Eigen::Vector4d;
 using Rest = Eigen::Matrix<double, 7, 1>;  // normal, height, place in the mesh
 
-constexpr double kSub = 64, kFarthest = 31000;  // of render/shade/raster.h; [samples] within what it draws
 constexpr std::size_t kRoom = 7;
-
-struct Point {
-  Vector4d clip;
-  Rest rest;
-};
-
-/// The part of a polygon where `inside` is not negative; linear over it.
-template <class Inside>
-std::vector<Point> cut_by(const std::vector<Point>& polygon, Inside inside) {
-  std::vector<Point> out;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const double at_a = inside(a.clip), at_b = inside(b.clip);
-    if (at_a >= 0) out.push_back(a);
-    if ((at_a >= 0) == (at_b >= 0)) continue;
-    const double s = at_a / (at_a - at_b);
-    out.push_back({a.clip + s * (b.clip - a.clip), a.rest + s * (b.rest - a.rest)});
-  }
-  return out;
-}
 
 /// Of four samples so many stay as the opacity says, spread evenly.
 unsigned kept_samples(const Piece& piece) {
@@ -107,7 +87,7 @@ void Sampler::draw_run(const View& view, const Piece& piece, const Geometry::Lev
     std::vector<std::int32_t> numbers(to_cut_.begin(), to_cut_.begin() + cut_count);
     std::vector<std::uint32_t> corners;
     for (const std::int32_t t : numbers) {
-      std::vector<Point> polygon;
+      CutPolygon<7> polygon;
       for (int k = 0; k < 3; ++k) {
         const std::size_t v = run.indices[3 * t + k];
         const Eigen::Vector3d p(g.vertices[0][v], g.vertices[1][v], g.vertices[2][v]),
@@ -116,16 +96,9 @@ void Sampler::draw_run(const View& view, const Piece& piece, const Geometry::Lev
         rest << world.topLeftCorner<3, 3>() * n, (world * p.homogeneous()).z() - static_cast<double>(view.ground), p;
         polygon.push_back({clip * p.homogeneous(), rest});
       }
-      polygon = cut_by(polygon, [](const Vector4d& c) { return c[2] + c[3]; });
-      // a little before the eye at the least, and not farther aside than the grid reaches
-      polygon = cut_by(polygon, [](const Vector4d& c) { return c[3] - 1e-5; });
-      const double wide = kFarthest / (view.width / 2) - 1, high = kFarthest / (view.height / 2) - 1;
-      polygon = cut_by(polygon, [wide](const Vector4d& c) { return wide * c[3] - c[0]; });
-      polygon = cut_by(polygon, [wide](const Vector4d& c) { return wide * c[3] + c[0]; });
-      polygon = cut_by(polygon, [high](const Vector4d& c) { return high * c[3] - c[1]; });
-      polygon = cut_by(polygon, [high](const Vector4d& c) { return high * c[3] + c[1]; });
+      polygon = cut_to_grid(polygon, view.width, view.height);
       std::vector<std::uint32_t> names;
-      for (const Point& p : polygon) names.push_back(static_cast<std::uint32_t>(add_vertex(view, p.clip, p.rest)));
+      for (const CutPoint<7>& p : polygon) names.push_back(static_cast<std::uint32_t>(add_vertex(view, p.clip, p.rest)));
       for (std::size_t i = 2; i < names.size(); ++i) corners.insert(corners.end(), {names[0], names[i - 1], names[i]});
     }
     run.indices = corners.data();
@@ -145,11 +118,8 @@ std::int32_t Sampler::add_vertex(const View& view, const Vector4d& clip, const R
   };
   for (auto& list : places_) grow(list);
   for (auto& list : numbers_) grow(list);
-  const auto place = [](double ndc, double size) {
-    return static_cast<std::int32_t>(std::lround((std::clamp((ndc + 1) / 2 * size, -kFarthest, kFarthest)) * kSub));
-  };
-  places_[0][v] = place(clip[0] / clip[3], view.width);
-  places_[1][v] = place(clip[1] / clip[3], view.height);
+  places_[0][v] = sub_sample(clip[0] / clip[3], view.width);
+  places_[1][v] = sub_sample(clip[1] / clip[3], view.height);
   numbers_[0][v] = static_cast<float>(clip[2] / clip[3] * 0.5 + 0.5);
   numbers_[1][v] = static_cast<float>(1 / clip[3]);
   for (std::size_t i = 0; i < 7; ++i) numbers_[2 + i][v] = static_cast<float>(rest[static_cast<Eigen::Index>(i)]);

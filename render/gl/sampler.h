@@ -36,7 +36,6 @@ class Sampler {
  private:
   void project(const View&, const Piece&, What);
   void draw_run(const View&, const Piece&, const Geometry::Level&, const shade::SampleGrid&, shade::Run);
-  void cut(const View&, const shade::SampleGrid&, const shade::Run&, std::size_t count);
   std::int32_t add_vertex(const View&, const Eigen::Vector4d& clip, const Eigen::Matrix<double, 7, 1>& rest);
 
   std::array<std::vector<std::int32_t>, 2> places_;

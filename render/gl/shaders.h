@@ -4,9 +4,5 @@
 namespace render::gl {
 
 extern const char* const kFrameBlock;
-extern const char* const kTileVertex;
-extern const char* const kSeenDepthFragment;
-extern const char* const kStripVertex;
-extern const char* const kStripFragment;
 
 }  // namespace render::gl

@@ -18,16 +18,4 @@ layout(std140) uniform Frame {
 };
 )";
 
-const char* const kTileVertex = R"(
-layout(location = 0) in vec2 corner;   // pixels
-uniform float depth;                   // 0..1
-void main() { gl_Position = vec4(corner * frame.xy - 1.0, depth * 2.0 - 1.0, 1.0); }
-)";
-
-// Depths that were found elsewhere, into the frame buffer.
-const char* const kSeenDepthFragment = R"(
-uniform sampler2D depth_map;
-void main() { gl_FragDepth = texelFetch(depth_map, ivec2(gl_FragCoord.xy), 0).r; }
-)";
-
 }  // namespace render::gl

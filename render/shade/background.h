@@ -177,9 +177,10 @@ void background(const FrameData& frame, const Maps& all_maps, const Tile& one, c
   for (int y = tile.y; y < tile.y + tile.height; ++y) {
     const Ray row = rays_of_row(f, all(static_cast<float>(y) + 0.5f));
     for (int x = tile.x; x < tile.x + tile.width; x += kSpan) {
-      const std::int64_t pixel = static_cast<std::int64_t>(y) * out.width + x;
+      const std::int64_t pixel = y * out.pitch + x;
       const int left = tile.x + tile.width - x;
-      const Span span{x, y, left < kSpan ? left : kSpan, out.pixels + 4 * pixel, tile.covered ? tile.covered + pixel : nullptr};
+      const Span span{x, y, left < kSpan ? left : kSpan, out.pixels + 4 * pixel,
+                      tile.covered ? tile.covered + std::int64_t{y} * out.width + x : nullptr};
       if (tile.zone == sky)
         sky_span(f, row, span);
       else if (tile.near_ground)

@@ -46,13 +46,15 @@ struct Tile {
   int x, y, width, height;
   int zone, sun;
   bool near_ground;
-  const std::uint8_t* covered = nullptr;  // a byte a pixel of the canvas and seven more: not 0 where nothing of it will be seen
+  const std::uint8_t* covered =
+      nullptr;  // a byte a pixel of the canvas, lowest row first, and seven more: not 0 where nothing of it will be seen
 };
 
-/// RGBA8, lowest row first.
+/// RGBA8.
 struct Canvas {
-  std::uint8_t* pixels;
-  int width;  // of a row
+  std::uint8_t* pixels;  // of the lowest row
+  int width, height;
+  std::int64_t pitch;  // [pixels] to the row above; negative where the highest row comes first in memory
 };
 
 /// A mesh, one list a number, room for seven more in each.
@@ -133,6 +135,20 @@ struct Scene {
   bool terrain;   // some may be ground
 };
 
+/// Half of a piece of a mark that a tyre left, counter-clockwise on the canvas.
+struct MarkTriangle {
+  std::int32_t x[3], y[3];       // [1/64 pixel]
+  float depth[3], per_w[3];      // 0..1; one over w
+  float across[3], darkness[3];  // -1..1 from edge to edge; 0..1
+  float place_x[3], place_y[3];  // [m]
+};
+struct Marks {
+  const MarkTriangle* triangles;
+  int count;
+  int from, to;        // rows
+  const float* depth;  // 0..1 of the canvas's pixels, lowest row first, room for seven more; null: nothing hides them
+};
+
 struct Occluders {
   int rounds, boxes;
   const float *round_rows, *box_rows, *box_half;
@@ -143,6 +159,7 @@ struct Kernels {
   void (*surfaces)(const FrameData&, const Maps&, const Scene&, const Surfaces&);
   void (*project)(const Projection&, const Vertices&, const Projected&);
   void (*raster)(const SampleGrid&, const Projected&, const Run&, const Drawn&);
+  void (*marks)(const Maps&, const Marks&, const Canvas&);
   /// How much of the sky is open at each texel of the occlusion map, into `out` with its rim.
   void (*occlusion)(const FrameData&, const Occluders&, int size, float* out);
 };

@@ -1,9 +1,10 @@
 // The same source, compiled for processors with AVX2 (see CMakeLists.txt).
+#include "render/shade/marks.h"
 #include "render/shade/surface.h"
 
 namespace render::shade {
 
 extern const Kernels kAvx2Kernels;
-const Kernels kAvx2Kernels{background, surfaces, project, raster, occlusion};
+const Kernels kAvx2Kernels{background, surfaces, project, raster, marks, occlusion};
 
 }  // namespace render::shade

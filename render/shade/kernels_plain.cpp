@@ -1,9 +1,10 @@
 // For every x86-64 processor, and for others.
+#include "render/shade/marks.h"
 #include "render/shade/surface.h"
 
 namespace render::shade {
 
 extern const Kernels kPlainKernels;
-const Kernels kPlainKernels{background, surfaces, project, raster, occlusion};
+const Kernels kPlainKernels{background, surfaces, project, raster, marks, occlusion};
 
 }  // namespace render::shade

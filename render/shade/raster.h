@@ -240,6 +240,28 @@ LANES float outward(const Run& run, const Projected& from, const std::int32_t* v
   return dot < 0 ? -1.0f : 1.0f;
 }
 
+struct Bounds {
+  int x0, y0, x1, y1;
+};
+/// The samples of a window whose middles lie between a triangle's outermost corners.
+struct Window {
+  int x, y, width, height;
+};
+LANES Bounds bounds_of(const Corner (&c)[3], const Window& in) {
+  const auto least = [](std::int32_t a, std::int32_t b, std::int32_t d) { return a < b ? (a < d ? a : d) : (b < d ? b : d); };
+  const auto largest = [](std::int32_t a, std::int32_t b, std::int32_t d) { return a > b ? (a > d ? a : d) : (b > d ? b : d); };
+  const auto first = [](std::int32_t low, int end) {
+    const int i = (low + kSub - 1 - kHalfSample) >> kSubBits;
+    return i > end ? i : end;
+  };
+  const auto last = [](std::int32_t high, int end) {
+    const int i = ((high - kHalfSample) >> kSubBits) + 1;
+    return i < end ? i : end;
+  };
+  return {first(least(c[0].x, c[1].x, c[2].x), in.x), first(least(c[0].y, c[1].y, c[2].y), in.y),
+          last(largest(c[0].x, c[1].x, c[2].x), in.x + in.width), last(largest(c[0].y, c[1].y, c[2].y), in.y + in.height)};
+}
+
 template <bool kNames>
 LANES void draw_run(const SampleGrid& to, const Projected& vertices, const Run& one, const Drawn& out) {
   const SampleGrid grid = to;
@@ -264,20 +286,8 @@ LANES void draw_run(const SampleGrid& to, const Projected& vertices, const Run& 
       c[1] = c[2];
       c[2] = other;
     }
-    const auto least = [](std::int32_t a, std::int32_t b, std::int32_t d) { return a < b ? (a < d ? a : d) : (b < d ? b : d); };
-    const auto largest = [](std::int32_t a, std::int32_t b, std::int32_t d) { return a > b ? (a > d ? a : d) : (b > d ? b : d); };
-    // the samples whose middles lie between its outermost corners
-    const auto first = [](std::int32_t low, int end) {
-      const int i = (low + kSub - 1 - kHalfSample) >> kSubBits;
-      return i > end ? i : end;
-    };
-    const auto last = [](std::int32_t high, int end) {
-      const int i = ((high - kHalfSample) >> kSubBits) + 1;
-      return i < end ? i : end;
-    };
     const int right = grid.x + grid.width;
-    const int x0 = first(least(c[0].x, c[1].x, c[2].x), grid.x), x1 = last(largest(c[0].x, c[1].x, c[2].x), right);
-    const int y0 = first(least(c[0].y, c[1].y, c[2].y), grid.y), y1 = last(largest(c[0].y, c[1].y, c[2].y), grid.y + grid.height);
+    const auto [x0, y0, x1, y1] = bounds_of(c, {grid.x, grid.y, grid.width, grid.height});
     if (x0 >= x1 || y0 >= y1) continue;
 
     Edge edges[5] = {edge(c[0].x, c[0].y, c[1].x, c[1].y), edge(c[1].x, c[1].y, c[2].x, c[2].y),

@@ -171,9 +171,9 @@ void draw_labels(const DrawList& list, Image& image) {
   require_font();
   const double scale = image.height / 1080.0 * static_cast<double>(list.scale);
   {
-    // cairo counts blue first where the picture has red: the hues are handed over swapped (see paint_with)
+    // cairo counts blue first where the picture has red: the hues are handed over swapped (see paint_with); what is opaque stays so
     const SurfacePtr surface(
-        cairo_image_surface_create_for_data(image.rgba.data(), CAIRO_FORMAT_RGB24, image.width, image.height, 4 * image.width));
+        cairo_image_surface_create_for_data(image.rgba.data(), CAIRO_FORMAT_ARGB32, image.width, image.height, 4 * image.width));
     const CairoPtr cairo(cairo_create(surface.get()));
     for (const ChartItem& chart : list.charts) draw_chart(cairo.get(), chart, image.width, image.height);
     const std::vector<PanelBox> boxes = place_labels(list, image.width, image.height);
@@ -186,7 +186,6 @@ void draw_labels(const DrawList& list, Image& image) {
       if (boxes[i].shown) draw_one(cairo.get(), list.labels[i], boxes[i], scale);
     cairo_surface_flush(surface.get());
   }
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
 }
 
 }  // namespace render

@@ -211,7 +211,7 @@ void PlainRenderer::draw(const DrawList& list, Image& out) {
   out.rgba.resize(row * static_cast<std::size_t>(height_));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, out.rgba.data());
-  overlays_.draw(list, {out.rgba.data(), width_}, height_, nullptr);
+  overlays_.draw(list, {out.rgba.data(), width_, height_, width_}, nullptr);
   for (int y = 0; y < height_ / 2; ++y) {
     std::uint8_t* a = out.rgba.data() + row * static_cast<std::size_t>(y);
     std::swap_ranges(a, a + row, out.rgba.data() + row * static_cast<std::size_t>(height_ - 1 - y));

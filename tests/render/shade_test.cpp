@@ -52,7 +52,8 @@ struct Street {
 
 std::vector<std::uint8_t> background(const Kernels& by, const Street& street, int zone, int sun, int filter, bool near = false) {
   std::vector<std::uint8_t> out(4 * kWidth * kHeight);
-  by.background(street.data, street.maps(filter), {8, 0, kWidth - 8, kHeight, zone, sun, near}, {out.data(), kWidth});
+  by.background(street.data, street.maps(filter), {8, 0, kWidth - 8, kHeight, zone, sun, near},
+                {out.data(), kWidth, kHeight, kWidth});
   return out;
 }
 
@@ -65,6 +66,31 @@ TEST(Shade, BackgroundIsTheSameOnEveryProcessor) {
           EXPECT_EQ(background(kernels(), street, zone, sun, filter, near),
                     background(plain_kernels(), street, zone, sun, filter, near))
               << "zone " << zone << ", sun " << sun << ", filter " << filter << (near ? ", near" : "");
+}
+
+TEST(Shade, MarksAreTheSameOnEveryProcessor) {
+  const Street street;
+  std::mt19937 random(11);
+  std::uniform_int_distribution<std::int32_t> place(-64 * 40, 64 * 240);
+  std::uniform_real_distribution<float> any(0, 1);
+  std::vector<MarkTriangle> triangles(60);
+  for (MarkTriangle& t : triangles)
+    for (int k = 0; k < 3; ++k) {
+      t.x[k] = place(random), t.y[k] = place(random);
+      t.depth[k] = any(random), t.per_w[k] = 0.1f + any(random);
+      t.across[k] = 2 * any(random) - 1, t.darkness[k] = any(random);
+      t.place_x[k] = any(random), t.place_y[k] = any(random);
+    }
+  std::vector<float> depth(kWidth * kHeight + 7);
+  for (float& d : depth) d = any(random);
+  for (const float* held_against : {static_cast<const float*>(nullptr), static_cast<const float*>(depth.data())}) {
+    std::vector<std::uint8_t> wide(4 * kWidth * kHeight, 200), plain = wide;
+    const Marks list{triangles.data(), static_cast<int>(triangles.size()), 5, kHeight - 5, held_against};
+    kernels().marks(street.maps(1), list, {wide.data(), kWidth, kHeight, kWidth});
+    plain_kernels().marks(street.maps(1), list, {plain.data(), kWidth, kHeight, kWidth});
+    EXPECT_EQ(wide, plain);
+    EXPECT_NE(wide, std::vector<std::uint8_t>(wide.size(), 200)) << "nothing drawn";
+  }
 }
 
 /// Triangles of all sizes and turns before a street's camera, on a grid of samples.
@@ -238,7 +264,7 @@ TEST(Shade, APictureLiesOnTheGroundToScale) {
   maps.photograph.sine = 1;
   std::vector<std::uint8_t> out(4 * kWidth * kHeight);
   kernels().background(street.data, maps, {0, 0, kWidth, kHeight, static_cast<int>(gl::Zone::everything), 0, true},
-                       {out.data(), kWidth});
+                       {out.data(), kWidth, kHeight, kWidth});
   // 8 m are kHeight pixels
   const auto dominant = [&out](double x, double y) {
     const int i = static_cast<int>(kWidth / 2.0 + x * kHeight / 8), j = static_cast<int>(kHeight / 2.0 + y * kHeight / 8);
@@ -264,7 +290,7 @@ TEST(Shade, ATileOfOneKindShowsWhatTheWholePatternWould) {
     std::vector<std::uint8_t> part(4 * kWidth * kHeight);
     for (const gl::Rectangle& r : rectangles) {
       kernels().background(street.data, street.maps(1), {r.x, r.y, r.width, r.height, static_cast<int>(look.zone), 0, look.near},
-                           {part.data(), kWidth});
+                           {part.data(), kWidth, kHeight, kWidth});
       for (int y = r.y; y < r.y + r.height; ++y)
         for (int i = 4 * (y * kWidth + std::max(r.x, 8)); i < 4 * (y * kWidth + r.x + r.width); ++i)
           // rounding, and the noise that the shader with a horizon adds
