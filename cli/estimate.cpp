@@ -71,27 +71,24 @@ Estimate of_results(const scenes::Scene& scene, const Probe& probe) {
 }
 
 /// The frames asked for, as far as is known.
-std::vector<render::Moment> frames_known(const scenes::Scene& scene, const Probe& probe, const FilmPlan& plan, int& count) {
-  if (!plan.stills.empty()) {
-    count = static_cast<int>(plan.stills.size());
-    std::vector<render::Moment> moments;
-    for (const double time : plan.stills) moments.push_back(still_of(plan, scene.stage, time));
-    return moments;
+render::Film frames_known(const scenes::Scene& scene, const Probe& probe, const FilmPlan& plan, int& count) {
+  const double known = probe.recording.end_time();
+  if (plan.stills.empty()) {
+    count = frames_of(plan, scene.stage, probe.stretch == 1 ? known : scene.model.settings.duration).size();
+    return frames_of(plan, scene.stage, known);
   }
-  engine::Recording whole;
-  whole.snapshots.resize(2);
-  whole.snapshots.back().time = scene.model.settings.duration;
-  count = static_cast<int>(frames_of(plan, scene.stage, probe.stretch == 1 ? probe.recording : whole).moments.size());
-  return frames_of(plan, scene.stage, probe.recording).moments;
+  std::vector<render::Moment> moments;
+  for (const double time : plan.stills) moments.push_back(still_of(plan, scene.stage, time));
+  count = static_cast<int>(moments.size());
+  return render::Film(moments);
 }
 
-/// Draws some of the moments; what that takes of a process, of the clock and of the disk.
-void draw_a_little(const scenes::Scene& scene, const Probe& probe, const FilmPlan& plan, std::vector<render::Moment> moments,
-                   Estimate& out) {
-  if (moments.empty() || out.frames == 0) return;
-  const std::size_t apart = std::max<std::size_t>(1, moments.size() / kProbeFrames);
+/// Draws some of the frames; what that takes of a process, of the clock and of the disk.
+void draw_a_little(const scenes::Scene& scene, const Probe& probe, const FilmPlan& plan, const render::Film& film, Estimate& out) {
+  if (film.empty() || out.frames == 0) return;
+  const int apart = std::max(1, film.size() / kProbeFrames);
   std::vector<render::Moment> some;
-  for (std::size_t i = 0; i < moments.size() && some.size() < kProbeFrames; i += apart) some.push_back(moments[i]);
+  for (int i = 0; i < film.size() && some.size() < kProbeFrames; i += apart) some.push_back(film[i]);
   std::string pattern = (fs::temp_directory_path() / "crashreel_estimate_XXXXXX").string();
   if (!mkdtemp(pattern.data())) throw MachineError("making a folder in " + fs::temp_directory_path().string());
   const struct Remover {
@@ -105,10 +102,9 @@ void draw_a_little(const scenes::Scene& scene, const Probe& probe, const FilmPla
   job.output = temporary.folder / "frame_%05d.png";
   job.container = render::Container::png_sequence;
   job.workers = 1;
-  job.numbers.clear();
   const double start = clock_seconds();
   double first = 0;
-  render::make_film(scene.stage, probe.recording, some, job, [&](const render::FilmProgress& now) {
+  render::make_film(scene.stage, probe.recording, render::Film(some), job, [&](const render::FilmProgress& now) {
     if (now.frames_done == 1) first = clock_seconds() - start;
   });
   const double all = clock_seconds() - start;
@@ -139,10 +135,10 @@ Estimate estimate_film(const scenes::Scene& scene, const engine::Plan& plan, con
   const Probe probe = simulate_a_little(scene, plan);
   Estimate out = of_results(scene, probe);
   out.disk = 0;
-  const std::vector<render::Moment> moments = frames_known(scene, probe, film, out.frames);
+  const render::Film known = frames_known(scene, probe, film, out.frames);
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   out.workers = std::clamp(film.job.workers > 0 ? film.job.workers : cores, 1, std::max(1, out.frames));
-  draw_a_little(scene, probe, film, moments, out);
+  draw_a_little(scene, probe, film, known, out);
   return out;
 }
 

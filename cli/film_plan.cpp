@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
+#include <optional>
 #include <tuple>
 
 #include "cli/exit.h"
@@ -104,34 +106,35 @@ void choose_times(const FilmArguments& wish, const scenes::Scene& scene, FilmPla
   if (!wish.frames.empty()) plan.frames = parse_frames("--frames", wish.frames);
 }
 
-/// Whether `name` is what the pattern's %0Nd makes of some number.
-bool matches(const std::string& name, const std::string& pattern) {
+/// The number of which the pattern's %0Nd makes `name`; one of no frame, -1, where it is too large.
+std::optional<int> number_in(const std::string& name, const std::string& pattern) {
   const std::size_t percent = pattern.find('%');
   const std::string head = pattern.substr(0, percent);
   const std::string tail = pattern.substr(pattern.find('d', percent) + 1);
-  if (name.size() <= head.size() + tail.size() || !name.starts_with(head) || !name.ends_with(tail)) return false;
+  if (name.size() <= head.size() + tail.size() || !name.starts_with(head) || !name.ends_with(tail)) return std::nullopt;
   const std::string middle = name.substr(head.size(), name.size() - head.size() - tail.size());
-  return middle.find_first_not_of("0123456789") == std::string::npos;
+  if (middle.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
+  int number = -1;
+  std::from_chars(middle.data(), middle.data() + middle.size(), number);
+  return number;
 }
 
 void refuse_existing_frames(const FilmPlan& plan) {
   if (plan.job.overwrite) return;
-  if (const std::vector<fs::path> there = frames_there(plan.job); !there.empty())
-    throw UsageError(fmt::format("{} exists; give --overwrite to replace frames, or another -o", there.front().string()));
+  std::optional<fs::path> first;
+  look_at_frames(plan.job, [&](const fs::path& file, int) { first = first ? std::min(*first, file) : file; });
+  if (first) throw UsageError(fmt::format("{} exists; give --overwrite to replace frames, or another -o", first->string()));
 }
 
 }  // namespace
 
-std::vector<fs::path> frames_there(const render::FilmJob& job) {
+void look_at_frames(const render::FilmJob& job, const std::function<void(const fs::path&, int)>& look) {
   const fs::path folder = job.output.parent_path();
-  std::vector<fs::path> out;
   std::error_code missing;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, missing)) {
     const fs::path name = entry.path().filename();
-    if (matches(name.string(), job.output.filename().string())) out.push_back(folder / name);
+    if (const auto number = number_in(name.string(), job.output.filename().string())) look(folder / name, *number);
   }
-  std::sort(out.begin(), out.end());
-  return out;
 }
 
 void declare_film(Arguments& arguments, FilmArguments& film) {
@@ -173,6 +176,8 @@ FilmPlan plan_film(const FilmArguments& wish, scenes::Scene& scene) {
   if (plan.job.container == Container::png_sequence && !replace) refuse_existing_frames(plan);
   if (render::is_video(plan.job.container)) refuse_existing(plan.job.output, replace);
   for (const double time : plan.stills) refuse_existing(still_file(plan, time), replace);
+  // refuses a film too long for its rate
+  if (plan.stills.empty()) render::Film(scene.stage, scene.model.settings.duration, plan.job.fps);
   return plan;
 }
 
@@ -180,19 +185,19 @@ void prepare_output(const FilmPlan& plan) {
   make_writable_folder(plan.job.output.parent_path());
 }
 
-Selection frames_of(const FilmPlan& plan, const render::Stage& stage, const engine::Recording& recording) {
-  const std::vector<render::Moment> all = render::film(stage, recording, plan.job.fps);
-  constexpr double kRounding = 1e-9;  // [s] frame times are sums of 1/fps
-  Selection out;
-  for (int i = 0; i < static_cast<int>(all.size()); ++i) {
-    const render::Moment& moment = all[static_cast<std::size_t>(i)];
-    const bool listed = plan.frames.empty() || std::any_of(plan.frames.begin(), plan.frames.end(),
-                                                           [i](const FrameRange& range) { return range.holds(i); });
-    if (!listed || moment.time < plan.from - kRounding || moment.time > plan.to + kRounding) continue;
-    out.numbers.push_back(i);
-    out.moments.push_back(moment);
+render::Film frames_of(const FilmPlan& plan, const render::Stage& stage, double end_time) {
+  const render::Film whole(stage, end_time, plan.job.fps);
+  const render::Film shown = whole.between(plan.from, plan.to);
+  if (plan.frames.empty()) return shown;
+  std::vector<render::FrameInterval> listed;
+  for (const FrameRange& range : plan.frames) {
+    const int last = range.last < 0 ? whole.size() - 1 : std::min(range.last, whole.size() - 1);
+    if (range.step == 1 && last >= range.first) listed.push_back({range.first, last});
+    if (range.step == 1) continue;
+    for (long frame = range.first; frame <= last; frame += range.step)
+      listed.push_back({static_cast<int>(frame), static_cast<int>(frame)});
   }
-  return out;
+  return shown.part(std::move(listed));
 }
 
 render::Moment still_of(const FilmPlan&, const render::Stage& stage, double time) {

@@ -1,16 +1,14 @@
 // Which frames a render command asks for, and into which files: worked out and checked before anything is simulated or drawn.
 #pragma once
 
-#include <optional>
+#include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cli/arguments.h"
 #include "cli/parse.h"
-#include "engine/recording.h"
-#include "render/arrange.h"
 #include "render/film.h"
+#include "render/frames.h"
 #include "scenes/scene.h"
 
 namespace cli {
@@ -49,17 +47,11 @@ FilmPlan plan_film(const FilmArguments&, scenes::Scene&);
 /// Makes the folders the film goes into. Throws MachineError when they cannot be written.
 void prepare_output(const FilmPlan&);
 
-/// Files that the job's pattern could have made, whoever made them.
-std::vector<std::filesystem::path> frames_there(const render::FilmJob&);
+/// Shows every file that the job's pattern could have made, whoever made it, with its number.
+void look_at_frames(const render::FilmJob&, const std::function<void(const std::filesystem::path&, int number)>& look);
 
-/// Frames of the whole film, in order, with their numbers in it.
-struct Selection {
-  std::vector<int> numbers;
-  std::vector<render::Moment> moments;
-};
-
-/// The frames asked for.
-Selection frames_of(const FilmPlan&, const render::Stage&, const engine::Recording&);
+/// The frames asked for, of a run that ends at `end_time` [s].
+render::Film frames_of(const FilmPlan&, const render::Stage&, double end_time);
 
 /// The moment of a still: seen as the film would show that time.
 render::Moment still_of(const FilmPlan&, const render::Stage&, double time);

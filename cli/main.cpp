@@ -9,6 +9,7 @@
 #include "cli/exit.h"
 #include "cli/process.h"
 #include "render/error.h"
+#include "render/frames.h"
 #include "scenes/error.h"
 
 namespace {
@@ -31,6 +32,8 @@ int main(int argc, char** argv) {
     for (const std::string& line : errors.lines) fmt::print(stderr, "{}\n", line);
     return cli::kAuthorErred;
   } catch (const cli::UsageError& error) {
+    return report(error.what(), cli::kAuthorErred);
+  } catch (const render::FilmTooLong& error) {
     return report(error.what(), cli::kAuthorErred);
   } catch (const cli::MachineError& error) {
     return report(error.what(), cli::kMachineFailed);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "cli/exit.h"
 #include "render/error.h"
@@ -38,12 +37,12 @@ render::TextChunks chunks_of(const fs::path& picture) {
 }
 
 /// Files of the job's pattern that are none of its frames.
-std::vector<fs::path> surplus(const Selection& selection, const render::FilmJob& job) {
-  const std::vector<fs::path> there = frames_there(job);
-  std::vector<fs::path> wanted, out;
-  for (const int number : selection.numbers) wanted.push_back(render::frame_path(job, number));
-  std::sort(wanted.begin(), wanted.end());
-  std::set_difference(there.begin(), there.end(), wanted.begin(), wanted.end(), std::back_inserter(out));
+std::vector<fs::path> surplus(const render::Film& film, const render::FilmJob& job) {
+  std::vector<fs::path> out;
+  look_at_frames(job, [&](const fs::path& file, int number) {
+    if (!film.holds(number) || file != render::frame_path(job, number)) out.push_back(file);
+  });
+  std::sort(out.begin(), out.end());
   return out;
 }
 
@@ -69,26 +68,29 @@ bool is_finished(const fs::path& picture, const render::Moment& moment, const re
   return true;
 }
 
-Selection unfinished(const Selection& selection, const render::FilmJob& job) {
-  Selection out;
-  for (std::size_t i = 0; i < selection.moments.size(); ++i) {
-    if (is_finished(render::frame_path(job, selection.numbers[i]), selection.moments[i], job)) continue;
-    out.numbers.push_back(selection.numbers[i]);
-    out.moments.push_back(selection.moments[i]);
+render::Film unfinished(const render::Film& film, const render::FilmJob& job) {
+  std::vector<render::FrameInterval> left;
+  for (int i = 0; i < film.size(); ++i) {
+    const int number = film.number(i);
+    if (is_finished(render::frame_path(job, number), film[i], job)) continue;
+    if (!left.empty() && left.back().last + 1 == number)
+      left.back().last = number;
+    else
+      left.push_back({number, number});
   }
-  return out;
+  return film.part(std::move(left));
 }
 
-void remove_surplus(const Selection& selection, const render::FilmJob& job, bool quiet) {
-  for (const fs::path& file : surplus(selection, job)) {
+void remove_surplus(const render::Film& film, const render::FilmJob& job, bool quiet) {
+  for (const fs::path& file : surplus(film, job)) {
     std::error_code problem;
     if (is_ours(file) && fs::remove(file, problem)) continue;
     if (!quiet) fmt::print(stderr, "crashreel: warning: {} is no frame of this film; it was left among them\n", file.string());
   }
 }
 
-void refuse_surplus(const Selection& selection, const render::FilmJob& job) {
-  const std::vector<fs::path> others = surplus(selection, job);
+void refuse_surplus(const render::Film& film, const render::FilmJob& job) {
+  const std::vector<fs::path> others = surplus(film, job);
   if (!others.empty()) refuse(others.front());
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
 #include "cli/film_plan.h"
 
@@ -13,14 +12,14 @@ namespace cli {
 /// else's.
 bool is_finished(const std::filesystem::path& picture, const render::Moment&, const render::FilmJob&);
 
-/// The selection without the frames that are finished.
-Selection unfinished(const Selection&, const render::FilmJob&);
+/// The film without the frames that are finished.
+render::Film unfinished(const render::Film&, const render::FilmJob&);
 
 /// Frames of an earlier, longer run, which would go on where a whole film replaces it: those this program made are removed, others
 /// are told of and left.
-void remove_surplus(const Selection&, const render::FilmJob&, bool quiet);
+void remove_surplus(const render::Film&, const render::FilmJob&, bool quiet);
 /// The same before --resume, which replaces nothing: throws UsageError when there is one.
-void refuse_surplus(const Selection&, const render::FilmJob&);
+void refuse_surplus(const render::Film&, const render::FilmJob&);
 
 /// Whether the film is there, whole, with the job's fingerprint. Throws UsageError when it is another film.
 bool film_is_finished(const render::FilmJob&);

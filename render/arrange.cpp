@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <numbers>
 
 #include "render/cameras.h"
@@ -12,8 +11,6 @@
 
 namespace render {
 namespace {
-
-constexpr double kLastPicture = 0.7;  // [s] of film
 
 const Camera& camera_named(const Stage& stage, const std::string& name) {
   if (name.empty()) return stage.cameras.front();
@@ -72,42 +69,6 @@ bool wanted(const Overlay& overlay, Layer layer, const Camera& camera) {
 }
 
 }  // namespace
-
-std::vector<Moment> film(const Stage& stage, const engine::Recording& recording, double fps) {
-  std::vector<Shot> shots = stage.shots;
-  if (shots.empty()) shots.push_back({stage.cameras.front().name, 0, recording.end_time(), 1, 0});
-  std::vector<Moment> moments;
-  double left_over = 0;  // [s] of film between the last frame and the end of its shot: cuts do not move the clock
-  int number = 0;
-  auto append = [&](double length, auto moment_at) {
-    double at = left_over;
-    for (; at < length - 1e-9; at += 1 / fps) {
-      moments.push_back(moment_at(at));
-      moments.back().shot = number;
-    }
-    left_over = at - length;
-    ++number;
-  };
-  auto cards = [&](bool at_end) {
-    for (std::size_t c = 0; c < stage.cards.size(); ++c) {
-      if (stage.cards[c].at_end != at_end) continue;
-      const double time = at_end ? recording.end_time() : 0;
-      append(stage.cards[c].hold,
-             [&](double) { return Moment{time, shots.front().camera, 0, Layout::single, "", static_cast<int>(c)}; });
-    }
-  };
-  cards(false);
-  for (Shot& shot : shots) {
-    // a run that came to rest early is not drawn out: the last picture stands for a moment, then the shot is over
-    shot.to = std::min(shot.to, std::max(shot.from, recording.end_time() + kLastPicture * shot.speed));
-    const double length = shot.speed == 0 ? shot.hold : (shot.to - shot.from) / shot.speed;
-    append(length, [&](double at) {
-      return Moment{shot.speed == 0 ? shot.from : shot.from + at * shot.speed, shot.camera, shot.speed, shot.layout, shot.second};
-    });
-  }
-  cards(true);
-  return moments;
-}
 
 DrawList arrange(const Stage& stage, const engine::Recording& recording, const Moment& moment, double aspect, Layer layer) {
   const Camera& camera = camera_named(stage, moment.camera);

@@ -78,15 +78,10 @@ class SharedMemory {
   std::size_t size_ = 0;
 };
 
-/// Number in the whole film of the job's i-th moment.
-int number_of(const FilmJob& job, int i) {
-  return job.numbers.empty() ? job.first_frame + i : job.numbers[static_cast<std::size_t>(i)];
-}
-
 struct Job {
   const Stage& stage;
   const engine::Recording& recording;
-  const std::vector<Moment>& moments;
+  const Film& film;
   const FilmJob& job;
   int workers, slots;
   std::size_t frame_bytes;
@@ -102,11 +97,11 @@ void hand_over(const Job& j, const Image& image, int i) {
   else if (j.job.container == Container::mkv)
     std::copy(image.rgba.begin(), image.rgba.end(), place);
   else
-    write_png(frame_path(j.job, number_of(j.job, i)), image, frame_metadata(j.job, j.moments[static_cast<std::size_t>(i)]));
+    write_png(frame_path(j.job, j.film.number(i)), image, frame_metadata(j.job, j.film[i]));
 }
 
 FrameCost draw_frame(const Job& j, Painter& painter, Image& image, int i) {
-  painter.paint(j.stage, j.recording, j.moments[static_cast<std::size_t>(i)], image);
+  painter.paint(j.stage, j.recording, j.film[i], image);
   FrameCost cost = painter.cost();
   Stopwatch watch(cost);
   hand_over(j, image, i);
@@ -123,7 +118,7 @@ FrameCost draw_frame(const Job& j, Painter& painter, Image& image, int i) {
   try {
     Painter painter(j.job.width, j.job.height, j.job.quality);
     Image image;
-    for (; at < static_cast<int>(j.moments.size()); at += j.workers) {
+    for (; at < j.film.size(); at += j.workers) {
       Slot& slot = j.ring[at % j.slots];
       while (at >= j.slots && slot.taken.load() < at - j.slots) sleep_on(slot.free);
       slot.cost = draw_frame(j, painter, image, at);
@@ -207,15 +202,13 @@ void prepare(const Stage& stage) {
   in_parallel(all.size(), [&all](std::size_t i) { all[i]->levels(); });
 }
 
-void refuse_existing(const FilmJob& job, const std::vector<Moment>& moments) {
+void refuse_existing(const FilmJob& job, const Film& film) {
   if (job.overwrite) return;
-  std::vector<std::string> paths;
-  if (is_video(job.container))
-    paths.push_back(job.output.string());
-  else
-    for (int i = 0; i < static_cast<int>(moments.size()); ++i) paths.push_back(frame_path(job, number_of(job, i)).string());
-  for (const std::string& path : paths)
-    if (std::filesystem::exists(path)) throw RenderError(path + " exists already: remove it or add --overwrite");
+  const int files = is_video(job.container) ? 1 : film.size();
+  for (int i = 0; i < files; ++i) {
+    const std::filesystem::path path = is_video(job.container) ? job.output : frame_path(job, film.number(i));
+    if (std::filesystem::exists(path)) throw RenderError(path.string() + " exists already: remove it or add --overwrite");
+  }
 }
 
 }  // namespace
@@ -239,12 +232,12 @@ std::map<std::string, std::string> frame_metadata(const FilmJob& job, const Mome
   return out;
 }
 
-FilmCost make_film(const Stage& stage, const engine::Recording& recording, const std::vector<Moment>& moments, const FilmJob& job,
+FilmCost make_film(const Stage& stage, const engine::Recording& recording, const Film& film, const FilmJob& job,
                    const std::function<void(const FilmProgress&)>& progress) {
   const auto start = std::chrono::steady_clock::now();
-  refuse_existing(job, moments);
+  refuse_existing(job, film);
   keep_memory();
-  const int frames = static_cast<int>(moments.size());
+  const int frames = film.size();
   if (frames == 0) throw RenderError("there is no frame to draw: check --from, --to and --frames against the length of the film");
   prepare(stage);
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -260,14 +253,14 @@ FilmCost make_film(const Stage& stage, const engine::Recording& recording, const
   const SharedMemory shared(head + frame_bytes * static_cast<std::size_t>(slots));
   Slot* ring = reinterpret_cast<Slot*>(shared.data());
   for (int s = 0; s < slots; ++s) new (ring + s) Slot;
-  const Job j{stage, recording, moments, job, workers, slots, frame_bytes, ring, shared.data() + head};
+  const Job j{stage, recording, film, job, workers, slots, frame_bytes, ring, shared.data() + head};
   FilmCost cost;
   cost.workers = workers;
   Workers team(j);
   const double parent_ms = processor_ms();
   // after the fork: the encoder brings threads of its own, and a child of a process with threads may inherit a lock they hold
   if (is_video(job.container))
-    encoder.emplace(job.output, job.width, job.height, job.fps, job.metadata, story_of(stage, recording, moments, job.fps));
+    encoder.emplace(job.output, job.width, job.height, job.fps, job.metadata, story_of(stage, recording, film, job.fps));
   for (int i = 0; i < frames; ++i) {
     team.await(i);
     if (encoder) encoder->append(j.pictures + frame_bytes * static_cast<std::size_t>(i % slots));
@@ -283,12 +276,12 @@ FilmCost make_film(const Stage& stage, const engine::Recording& recording, const
   return cost;
 }
 
-void join_film(const Stage& stage, const engine::Recording& recording, const std::vector<Moment>& moments,
-               const std::vector<std::filesystem::path>& pictures, const FilmJob& job) {
-  VideoEncoder encoder(job.output, job.width, job.height, job.fps, job.metadata, story_of(stage, recording, moments, job.fps));
+void join_film(const Stage& stage, const engine::Recording& recording, const Film& film, const FilmJob& drawn, const FilmJob& job) {
+  VideoEncoder encoder(job.output, job.width, job.height, job.fps, job.metadata, story_of(stage, recording, film, job.fps));
   std::vector<std::uint8_t> i420(static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height) * 3 / 2);
-  for (const std::filesystem::path& picture : pictures) {
+  for (int i = 0; i < film.size(); ++i) {
     if (job.look_around) job.look_around();
+    const std::filesystem::path picture = frame_path(drawn, film.number(i));
     const Image image = read_png(picture);
     if (image.width != job.width || image.height != job.height)
       throw RenderError(

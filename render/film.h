@@ -1,4 +1,4 @@
-// Moments -> files: one forked worker a core draws, the parent encodes in order. Sub-ranges, stills and whole films use this one
+// Frames -> files: one forked worker a core draws, the parent encodes in order. Sub-ranges, stills and whole films use this one
 // path.
 #pragma once
 
@@ -6,11 +6,10 @@
 #include <functional>
 #include <map>
 #include <string>
-#include <vector>
 
 #include "engine/recording.h"
-#include "render/arrange.h"
 #include "render/cost.h"
+#include "render/frames.h"
 #include "render/renderer.h"
 #include "render/stage.h"
 
@@ -28,8 +27,6 @@ struct FilmJob {
   int width = 1280;
   int height = 720;
   double fps = 30;
-  int first_frame = 0;       // number of moments[0] in the whole film; a sub-range never moves the clock
-  std::vector<int> numbers;  // of each moment in the whole film, where they do not follow one another; empty: first_frame + i
   Quality quality = Quality::standard;
   int workers = 0;  // 0: one a core
   bool overwrite = false;
@@ -47,12 +44,11 @@ std::filesystem::path frame_path(const FilmJob&, int number);
 /// What a picture of this job says of itself.
 std::map<std::string, std::string> frame_metadata(const FilmJob&, const Moment&);
 
-/// Draws every moment and writes the files under temporary names, renamed when whole. Throws RenderError.
-FilmCost make_film(const Stage&, const engine::Recording&, const std::vector<Moment>&, const FilmJob&,
+/// Draws every frame and writes the files under temporary names, renamed when whole. Throws RenderError.
+FilmCost make_film(const Stage&, const engine::Recording&, const Film&, const FilmJob&,
                    const std::function<void(const FilmProgress&)>& progress = {});
 
-/// The film of pictures drawn before, the same to the byte as if it had been drawn at once. Throws RenderError.
-void join_film(const Stage&, const engine::Recording&, const std::vector<Moment>&,
-               const std::vector<std::filesystem::path>& pictures, const FilmJob&);
+/// The film of the pictures that `drawn` made, the same to the byte as if it had been drawn at once. Throws RenderError.
+void join_film(const Stage&, const engine::Recording&, const Film&, const FilmJob& drawn, const FilmJob&);
 
 }  // namespace render

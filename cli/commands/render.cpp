@@ -72,37 +72,33 @@ Drawn draw_stills(const FilmPlan& plan, const render::Stage& stage, const engine
     render::FilmJob job = plan.job;
     job.output = still_file(plan, time);
     const render::Moment moment = still_of(plan, stage, time);
-    if (!plan.resume || !is_finished(job.output, moment, job)) add(render::make_film(stage, recording, {moment}, job), drawn.cost);
+    if (!plan.resume || !is_finished(job.output, moment, job))
+      add(render::make_film(stage, recording, render::Film({moment}), job), drawn.cost);
     drawn.files.push_back(job.output.string());
     ++drawn.frames;
   }
   return drawn;
 }
 
-render::FilmCost draw_selection(const Selection& selection, const render::FilmJob& whole, const render::Stage& stage,
-                                const engine::Recording& recording, ShowProgress show) {
-  if (selection.moments.empty()) return {};  // all of it was there
-  const int frames = static_cast<int>(selection.moments.size());
-  Progress progress("draw", "frames", frames, show);
-  render::FilmJob job = whole;
-  job.numbers = selection.numbers;
-  const render::FilmCost cost = render::make_film(stage, recording, selection.moments, job,
-                                                  [&](const render::FilmProgress& now) { progress.at(now.frames_done); });
-  progress.finish(frames);
+render::FilmCost draw_frames(const render::Film& film, const render::FilmJob& job, const render::Stage& stage,
+                             const engine::Recording& recording, ShowProgress show) {
+  if (film.empty()) return {};  // all of it was there
+  Progress progress("draw", "frames", film.size(), show);
+  const render::FilmCost cost =
+      render::make_film(stage, recording, film, job, [&](const render::FilmProgress& now) { progress.at(now.frames_done); });
+  progress.finish(film.size());
   return cost;
 }
 
 /// --resume: every frame goes to the disk first and stays there until the film of them is whole.
-render::FilmCost draw_film_by_frames(const Selection& selection, const FilmPlan& plan, const render::Stage& stage,
+render::FilmCost draw_film_by_frames(const render::Film& film, const FilmPlan& plan, const render::Stage& stage,
                                      const engine::Recording& recording, ShowProgress show) {
   const render::FilmJob frames = frames_job(plan.job);
   render::FilmCost cost;
   if (!film_is_finished(plan.job)) {
     make_writable_folder(frames.output.parent_path());
-    cost = draw_selection(unfinished(selection, frames), frames, stage, recording, show);
-    std::vector<std::filesystem::path> pictures;
-    for (const int number : selection.numbers) pictures.push_back(render::frame_path(frames, number));
-    render::join_film(stage, recording, selection.moments, pictures, plan.job);
+    cost = draw_frames(unfinished(film, frames), frames, stage, recording, show);
+    render::join_film(stage, recording, film, frames, plan.job);
   }
   std::error_code kept;
   std::filesystem::remove_all(frames.output.parent_path(), kept);
@@ -110,19 +106,19 @@ render::FilmCost draw_film_by_frames(const Selection& selection, const FilmPlan&
 }
 
 Drawn draw_film(const FilmPlan& plan, const render::Stage& stage, const engine::Recording& recording, ShowProgress show) {
-  const Selection selection = frames_of(plan, stage, recording);
-  if (selection.moments.empty()) {
+  const render::Film film = frames_of(plan, stage, recording.end_time());
+  if (film.empty()) {
     throw UsageError(fmt::format("no frame lies in the part asked for; the run ends at {:.3f} s and its film has {} frames",
-                                 recording.end_time(), render::film(stage, recording, plan.job.fps).size()));
+                                 recording.end_time(), render::Film(stage, recording.end_time(), plan.job.fps).size()));
   }
-  Drawn drawn{{plan.job.output.string()}, static_cast<int>(selection.moments.size())};
+  Drawn drawn{{plan.job.output.string()}, film.size()};
   const bool sequence = !render::is_video(plan.job.container);
-  if (sequence && plan.resume && plan.whole) refuse_surplus(selection, plan.job);
+  if (sequence && plan.resume && plan.whole) refuse_surplus(film, plan.job);
   if (!sequence && plan.resume)
-    drawn.cost = draw_film_by_frames(selection, plan, stage, recording, show);
+    drawn.cost = draw_film_by_frames(film, plan, stage, recording, show);
   else
-    drawn.cost = draw_selection(plan.resume ? unfinished(selection, plan.job) : selection, plan.job, stage, recording, show);
-  if (sequence && plan.whole && plan.job.overwrite) remove_surplus(selection, plan.job, show == ShowProgress::never);
+    drawn.cost = draw_frames(plan.resume ? unfinished(film, plan.job) : film, plan.job, stage, recording, show);
+  if (sequence && plan.whole && plan.job.overwrite) remove_surplus(film, plan.job, show == ShowProgress::never);
   return drawn;
 }
 

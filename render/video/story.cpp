@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <ranges>
 
 #include "render/overlays/overlay.h"
 
@@ -35,28 +37,26 @@ std::string event_text(const engine::Recording& recording, const engine::Event& 
 
 }  // namespace
 
-Story story_of(const Stage& stage, const engine::Recording& recording, const std::vector<Moment>& moments, double fps) {
+Story story_of(const Stage& stage, const engine::Recording& recording, const Film& film, double fps) {
   Story story;
-  for (std::size_t i = 0; i < moments.size(); ++i) {
-    const Moment& m = moments[i];
-    const double at = static_cast<double>(i) / fps;
-    const bool cut = i == 0 || m.shot != moments[i - 1].shot || m.camera != moments[i - 1].camera;
-    if (cut) {
-      if (!story.chapters.empty()) story.chapters.back().to = at;
-      story.chapters.push_back({at, at, chapter_title(stage, m)});
+  for (const auto [first, last] : film.shots()) {
+    const Moment opening = film[first];
+    story.chapters.push_back({first / fps, (last + 1) / fps, chapter_title(stage, opening)});
+    if (opening.card >= 0) continue;
+    std::map<int, std::string> texts;  // by the frame that passes the event; several in one are told together
+    for (const engine::Event& e : recording.events) {
+      if (e.kind == "release" || e.time <= opening.time || e.time > film[last].time) continue;
+      std::string& text =
+          texts[*std::ranges::partition_point(std::views::iota(first, last), [&](int i) { return film[i].time < e.time; })];
+      text += (text.empty() ? "" : "\n") + event_text(recording, e);
     }
-    if (cut || m.card >= 0) continue;
-    std::string text;  // several events in one frame are told together
-    for (const engine::Event& e : recording.events)
-      if (e.kind != "release" && e.time > moments[i - 1].time && e.time <= m.time)
-        text += (text.empty() ? "" : "\n") + event_text(recording, e);
-    if (text.empty()) continue;
-    if (!story.subtitles.empty()) story.subtitles.back().to = std::min(story.subtitles.back().to, at);
-    story.subtitles.push_back({at, at + kReading, text});
+    for (auto& [frame, text] : texts) {
+      const double at = frame / fps;
+      if (!story.subtitles.empty()) story.subtitles.back().to = std::min(story.subtitles.back().to, at);
+      story.subtitles.push_back({at, at + kReading, std::move(text)});
+    }
   }
-  const double end = static_cast<double>(moments.size()) / fps;
-  if (!story.chapters.empty()) story.chapters.back().to = end;
-  if (!story.subtitles.empty()) story.subtitles.back().to = std::min(story.subtitles.back().to, end);
+  if (!story.subtitles.empty()) story.subtitles.back().to = std::min(story.subtitles.back().to, film.size() / fps);
   return story;
 }
 

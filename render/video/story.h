@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/recording.h"
-#include "render/arrange.h"
+#include "render/frames.h"
 
 namespace render {
 
@@ -22,6 +22,6 @@ struct Story {
 };
 
 /// The story of these frames: a chapter where the shot changes, a subtitle where a recorded event is passed.
-Story story_of(const Stage&, const engine::Recording&, const std::vector<Moment>&, double fps);
+Story story_of(const Stage&, const engine::Recording&, const Film&, double fps);
 
 }  // namespace render

@@ -14,6 +14,7 @@
 
 #include "engine/simulate.h"
 #include "plain_renderer.h"
+#include "render/arrange.h"
 #include "render/error.h"
 #include "render/film.h"
 #include "render/image/png.h"
@@ -53,7 +54,7 @@ double film_rate(const Bench& b, const std::string& camera, int width, int heigh
   job.quality = quality;
   job.workers = workers;
   job.overwrite = true;
-  const double t = seconds([&] { make_film(b.scene.stage, b.run, moments, job); });
+  const double t = seconds([&] { make_film(b.scene.stage, b.run, Film(moments), job); });
   std::filesystem::remove_all(folder);
   return b.frames / t;
 }

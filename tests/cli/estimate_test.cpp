@@ -49,6 +49,26 @@ TEST_F(Estimate, OfAFilmComesTrue) {
   EXPECT_THAT(told.at("memory_bytes").get<double>(), AllOf(Ge(50e6), Le(2e9)));
 }
 
+TEST_F(Estimate, OfASlowMotionIsThatOfAShortFilmInMemory) {
+  const std::string shot = kBall + "[[shot]]\ncamera = \"side\"\nto = \"0.2 s\"\nspeed = ";
+  double bytes[2] = {};
+  for (const int slow : {0, 1}) {
+    folder.write("ball.toml", shot + (slow ? "2e-8\n" : "1\n"));
+    const Json told = Json::parse(run(folder, film({"-o", "a.mp4", "--dry-run", "--json"})).out);
+    EXPECT_EQ(told.at("frames"), slow ? 100'000'000 : 2);
+    bytes[slow] = told.at("memory_bytes").get<double>();
+  }
+  // what processes hold differs by some pages; a hundred million of anything would be hundreds of megabytes
+  EXPECT_NEAR(bytes[1], bytes[0], 20e6);
+
+  folder.write("ball.toml", shot + "1e-12\n");
+  const Result refused = run(folder, film({"-o", "a.mp4"}));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.err,
+            "crashreel: with shot.0 (camera side, speed 1e-12) the film has 2e+12 frames at 10 a second, more than the "
+            "1000000000 there can be; make it shorter or faster, or take fewer frames a second\n");
+}
+
 TEST_F(Estimate, OfResultsComesTrue) {
   const Result dry = run(folder, {"simulate", "ball.toml", "-o", "out", "--dry-run", "--json"});
   ASSERT_EQ(dry.code, 0) << dry.err;

@@ -124,8 +124,16 @@ bool finite(const engine::Recording& recording) {
   return good;
 }
 
-bool finite_film(const scenes::Scene& scene, const engine::Recording& recording, const std::vector<render::Moment>& moments) {
-  for (const render::Moment& moment : moments) {
+/// Looks at some frames of each shot, its first and last among them.
+bool finite_film(const scenes::Scene& scene, const engine::Recording& recording, const render::Film& film) {
+  constexpr int kLooks = 100;
+  std::vector<int> looked_at;
+  for (const auto [first, last] : film.shots()) {
+    for (int i = first; i < last; i += 1 + (last - first) / kLooks) looked_at.push_back(i);
+    looked_at.push_back(last);
+  }
+  for (const int i : looked_at) {
+    const render::Moment moment = film[i];
     if (!std::isfinite(moment.time)) return false;
     for (const render::Camera& camera : scene.stage.cameras) {
       if (camera.name != moment.camera) continue;
@@ -138,11 +146,10 @@ bool finite_film(const scenes::Scene& scene, const engine::Recording& recording,
   return true;
 }
 
-void draw(const scenes::Scene& scene, const engine::Recording& recording, const std::vector<render::Moment>& moments) {
+void draw(const scenes::Scene& scene, const engine::Recording& recording, const render::Film& film) {
   render::Painter painter(64, 48, render::Quality::draft);
   render::Image image;
-  for (std::size_t i = 0; i < moments.size(); i += std::max<std::size_t>(1, moments.size() / 4))
-    painter.paint(scene.stage, recording, moments[i], image);
+  for (int i = 0; i < film.size(); i += std::max(1, film.size() / 4)) painter.paint(scene.stage, recording, film[i], image);
   const fs::path folder = fs::temp_directory_path() / ("crashreel_odd_" + std::to_string(getpid()));
   fs::create_directory(folder);
   render::FigureJob job;
@@ -166,10 +173,14 @@ Outcome run(const odd::OddScene& odd, bool drawn) {
   if (!finite(recording)) return found("recording");
   for (const engine::Metric& metric : engine::measure(scene.model, recording))
     if (!std::isfinite(metric.value)) return found(metric.key.c_str());
-  const std::vector<render::Moment> moments = render::film(scene.stage, recording, 30);
-  render::story_of(scene.stage, recording, moments, 30);
-  if (!finite_film(scene, recording, moments)) return found("film");
-  if (drawn) draw(scene, recording, moments);
+  try {
+    const render::Film film(scene.stage, recording.end_time(), scene.output.fps);
+    render::story_of(scene.stage, recording, film, scene.output.fps);
+    if (!finite_film(scene, recording, film)) return found("film");
+    if (drawn) draw(scene, recording, film);
+  } catch (const render::FilmTooLong&) {
+    // slow motion beyond measure, refused by the name of its shot
+  }
   return recording.failure ? diverged : ran;
 }
 

@@ -106,21 +106,21 @@ TEST(FilmOfShots, CardsFrameTheShotsAndTheClockIsThatOfTheWhole) {
   Stage s = stage();
   s.cards = {{"begin", {}, 0.2, false}, {"end", {}, 0.1, true}};
   s.shots = {{"side", 0, 1, 0.5, 0}, {"side", 0.4, 0.4, 0, 0.3}};
-  const auto moments = film(s, run(), 10);
-  ASSERT_EQ(moments.size(), 2u + 20u + 3u + 1u);
-  EXPECT_EQ(moments[0].card, 0);
-  EXPECT_EQ(moments[2].card, -1);
-  EXPECT_NEAR(moments[3].time, 0.05, 1e-12) << "half speed";
-  EXPECT_EQ(moments[23].speed, 0);
-  EXPECT_NEAR(moments[23].time, 0.4, 1e-12) << "frozen";
-  EXPECT_EQ(moments.back().card, 1);
+  const Film film(s, run().end_time(), 10);
+  ASSERT_EQ(film.size(), 2 + 20 + 3 + 1);
+  EXPECT_EQ(film[0].card, 0);
+  EXPECT_EQ(film[2].card, -1);
+  EXPECT_NEAR(film[3].time, 0.05, 1e-12) << "half speed";
+  EXPECT_EQ(film[23].speed, 0);
+  EXPECT_NEAR(film[23].time, 0.4, 1e-12) << "frozen";
+  EXPECT_EQ(film[25].card, 1);
 }
 
 TEST(StoryOfAFilm, HasAChapterAShotAndASubtitleWhereAnEventIsPassed) {
   Stage s = stage();
   s.shots = {{"side", 0, 1, 1, 0}, {"side", 0, 1, 1, 0}};
   s.shots[0].title = "first look";
-  const Story story = story_of(s, run(), film(s, run(), 10), 10);
+  const Story story = story_of(s, run(), Film(s, run().end_time(), 10), 10);
   ASSERT_EQ(story.chapters.size(), 2u);
   EXPECT_EQ(story.chapters[0].text, "first look");
   EXPECT_EQ(story.chapters[1].text, "side");
@@ -130,6 +130,15 @@ TEST(StoryOfAFilm, HasAChapterAShotAndASubtitleWhereAnEventIsPassed) {
   EXPECT_NEAR(story.subtitles[0].from, 0.5, 0.1 + 1e-9) << "a frame at most from the event";
   EXPECT_LE(story.subtitles[0].to, story.subtitles[1].from);
   EXPECT_NE(story.subtitles[0].text.find("first contact: hips and car, 2.0 m/s"), std::string::npos);
+}
+
+TEST(StoryOfAFilm, OfMillionsOfFramesKnowsItsEvents) {
+  Stage s = stage();
+  s.shots = {{"side", 0, 1, 1, 0}, {"side", 0, 1, 1e-7, 0}};
+  const Story story = story_of(s, run(), Film(s, run().end_time(), 30), 30);
+  ASSERT_EQ(story.subtitles.size(), 2u);
+  EXPECT_NEAR(story.subtitles[1].from, 1 + 0.5e7, 1.0 / 30);
+  EXPECT_NEAR(story.chapters[1].to, 1 + 1e7, 1.0 / 30);
 }
 
 TEST(Panes, LieInTheFrameAndSplitOnesDoNotOverlap) {

@@ -16,7 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using render::Container;
 using render::FilmJob;
-using render::Moment;
 
 constexpr int kFrames = 7;  // no multiple of 3 workers
 
@@ -40,7 +39,7 @@ class Film : public testing::Test {
     render::Camera camera;
     camera.name = "side";
     stage.cameras.push_back(camera);
-    for (int i = 0; i < kFrames; ++i) moments.push_back({0.1 * i, "side", 1});
+    stage.shots.push_back({"side", 0, 0.1 * kFrames, 1, 0});
   }
   ~Film() override { fs::remove_all(folder); }
 
@@ -64,7 +63,7 @@ class Film : public testing::Test {
   fs::path folder;
   render::Stage stage;
   engine::Recording recording;
-  std::vector<Moment> moments;
+  render::Film film() const { return {stage, recording.end_time(), 10}; }
 };
 
 std::string name_of(int frame) {
@@ -72,8 +71,8 @@ std::string name_of(int frame) {
 }
 
 TEST_F(Film, OneAndThreeWorkersWriteTheSameBytes) {
-  make_film(stage, recording, moments, job("one", 1));
-  make_film(stage, recording, moments, job("three", 3));
+  make_film(stage, recording, film(), job("one", 1));
+  make_film(stage, recording, film(), job("three", 3));
   for (int i = 0; i < kFrames; ++i) {
     ASSERT_FALSE(bytes("one/" + name_of(i)).empty()) << i;
     EXPECT_EQ(bytes("one/" + name_of(i)), bytes("three/" + name_of(i))) << i;
@@ -83,22 +82,21 @@ TEST_F(Film, OneAndThreeWorkersWriteTheSameBytes) {
 }
 
 TEST_F(Film, ASubRangeAndAStillAreTheWholeFilmsFrames) {
-  make_film(stage, recording, moments, job("whole", 2));
+  make_film(stage, recording, film(), job("whole", 2));
   FilmJob part = job("part", 2);
-  part.first_frame = 3;
-  make_film(stage, recording, {moments.begin() + 3, moments.begin() + 5}, part);
+  make_film(stage, recording, film().part({{3, 4}}), part);
   EXPECT_EQ(bytes("part/" + name_of(3)), bytes("whole/" + name_of(3)));
   EXPECT_EQ(bytes("part/" + name_of(4)), bytes("whole/" + name_of(4)));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / "part"), fs::directory_iterator()), 2);
   FilmJob still = job("still", 0);
   still.container = Container::single_png;
   still.output = folder / "still" / "s.png";
-  make_film(stage, recording, {moments[3]}, still);
+  make_film(stage, recording, render::Film({film()[3]}), still);
   EXPECT_EQ(bytes("still/s.png"), bytes("whole/" + name_of(3)));
 }
 
 TEST_F(Film, AFrameCarriesItsTimeAndProvenance) {
-  make_film(stage, recording, moments, job("text", 2));
+  make_film(stage, recording, film(), job("text", 2));
   render::TextChunks text;
   render::read_png(folder / "text" / name_of(2), &text);
   EXPECT_EQ(text["time_s"], "0.200000");
@@ -107,16 +105,16 @@ TEST_F(Film, AFrameCarriesItsTimeAndProvenance) {
 
 TEST_F(Film, AnExistingFileIsRefusedUnlessOverwritingIsAsked) {
   FilmJob again = job("again", 1);
-  make_film(stage, recording, moments, again);
-  EXPECT_THROW(make_film(stage, recording, moments, again), render::RenderError);
+  make_film(stage, recording, film(), again);
+  EXPECT_THROW(make_film(stage, recording, film(), again), render::RenderError);
   again.overwrite = true;
-  EXPECT_NO_THROW(make_film(stage, recording, moments, again));
+  EXPECT_NO_THROW(make_film(stage, recording, film(), again));
 }
 
 TEST_F(Film, AWorkersErrorReachesTheCaller) {
   FilmJob nowhere = job("x", 2);
   nowhere.output = folder / "missing" / "f_%03d.png";
-  EXPECT_THROW(make_film(stage, recording, moments, nowhere), render::RenderError);
+  EXPECT_THROW(make_film(stage, recording, film(), nowhere), render::RenderError);
 }
 
 /// Children of this process, from the kernel.
@@ -128,17 +126,17 @@ std::vector<pid_t> children() {
 
 TEST_F(Film, AKilledWorkersFramesAreDrawnAgain) {
   // enough frames that the ring of 2 slots holds the worker back while it is killed from the first progress report
-  FilmJob film = job("killed", 1);
-  film.container = Container::mp4;
-  film.output = folder / "killed" / "film.mp4";
+  FilmJob disturbed = job("killed", 1);
+  disturbed.container = Container::mp4;
+  disturbed.output = folder / "killed" / "film.mp4";
   const FilmJob calm = [&] {
-    FilmJob c = film;
+    FilmJob c = disturbed;
     c.output = folder / "killed" / "calm.mp4";
     return c;
   }();
-  make_film(stage, recording, moments, calm);
+  make_film(stage, recording, film(), calm);
   int killed = 0;
-  make_film(stage, recording, moments, film, [&](const render::FilmProgress& p) {
+  make_film(stage, recording, film(), disturbed, [&](const render::FilmProgress& p) {
     if (p.frames_done != 1) return;
     for (const pid_t child : children()) killed += kill(child, SIGKILL) == 0;
   });
