@@ -63,9 +63,11 @@ const char* name_of(ContactState state) {
 Snapshot Recording::at(double time) const {
   if (time <= snapshots.front().time) return snapshots.front();
   if (time >= snapshots.back().time) return snapshots.back();
+  // a time that was reckoned may fall a rounding behind the snapshot it means, and must not show the contacts of the one after
+  const double rounding = 1e-9 * interval;
   const auto later =
-      std::lower_bound(snapshots.begin(), snapshots.end(), time, [](const Snapshot& s, double t) { return s.time < t; });
-  if (later->time == time) return *later;
+      std::lower_bound(snapshots.begin(), snapshots.end(), time - rounding, [](const Snapshot& s, double t) { return s.time < t; });
+  if (later->time <= time) return *later;
   const Snapshot& a = *(later - 1);
   Snapshot out = *later;
   const double span = later->time - a.time;
