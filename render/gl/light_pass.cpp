@@ -79,7 +79,12 @@ void LightPass::add_pixel(const ObjectPass& objects, const std::vector<shade::Tr
   if (samples == 2) {  // mostly
     const std::int32_t name = names[corner];
     const float farthest = std::max(std::max(depth[at[0]], depth[at[1]]), std::max(depth[at[2]], depth[at[3]]));
-    if (farthest < 1 && names[at[1]] == name && names[at[2]] == name && names[at[3]] == name) {
+    const shade::Triangle& first = triangles[static_cast<std::size_t>(farthest < 1 ? name : 0)];
+    const auto same = [&](std::size_t k) {
+      const std::int32_t other = names[at[k]];
+      return other == name || alike(first, triangles[static_cast<std::size_t>(other)]);
+    };
+    if (farthest < 1 && same(1) && same(2) && same(3)) {
       add(1, 0.5f, 0.5f, (depth[at[0]] + depth[at[1]] + depth[at[2]] + depth[at[3]]) * 0.25f, name);
       return;
     }
@@ -114,6 +119,13 @@ void LightPass::lay(const shade::Canvas& canvas) const {
   for (std::size_t i = 0; i < count_;) {
     const int pixel = pixel_[i];
     std::uint8_t* out = canvas.pixels + 4 * static_cast<std::ptrdiff_t>(pixel);
+    out[3] = 255;
+    if (share_[i] == 1) {  // mostly
+      for (const std::size_t k : {0u, 1u, 2u})
+        out[k] = static_cast<std::uint8_t>(255 * std::clamp((k == 0 ? red_ : k == 1 ? green_ : blue_)[i], 0.0f, 1.0f) + 0.5f);
+      ++i;
+      continue;
+    }
     float left = 1;
     std::array<float, 3> sum{};
     do {
@@ -122,7 +134,6 @@ void LightPass::lay(const shade::Canvas& canvas) const {
       left -= share_[i++];
     } while (i < count_ && pixel_[i] == pixel);
     for (std::size_t k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>(sum[k] + left * static_cast<float>(out[k]) + 0.5f);
-    out[3] = 255;
   }
 }
 

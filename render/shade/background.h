@@ -140,7 +140,7 @@ LANES void sky_span(const FrameData& f, const Ray& row, const Span& span) {
   const F firsts = count_up(0) * kLanes + (static_cast<float>(span.x) + 0.5f), y = all(static_cast<float>(span.y) + 0.5f);
   const V3 from = colour(firsts), to = colour(firsts + kLanes);
   const Course red = course(from.x, to.x), green = course(from.y, to.y), blue = course(from.z, to.z);
-  each_eight(span, [&](int k, F x) { return V3{along(red, k), along(green, k), along(blue, k)} + dither(x, y); });
+  each_eight(span, [&](int k, F x) LANES_BODY { return V3{along(red, k), along(green, k), along(blue, k)} + dither(x, y); });
 }
 
 LANES void near_span(const FrameData& f, const Maps& maps, const Tile& tile, const Ray& row, const Span& span) {
@@ -152,7 +152,7 @@ LANES void near_span(const FrameData& f, const Maps& maps, const Tile& tile, con
   const Air from = air_at(firsts), to = air_at(firsts + kLanes);
   const Course clear = course(from.clear, to.clear), shine = course(from.shine, to.shine),
                width_x = course(from.width_x, to.width_x), width_y = course(from.width_y, to.width_y);
-  each_eight(span, [&](int k, F x) {
+  each_eight(span, [&](int k, F x) LANES_BODY {
     const Air air{along(clear, k), along(shine, k), along(width_x, k), along(width_y, k), all(0.0f)};
     return to_screen(ground_light(f, maps, tile, meet(f, ray_at(row, x)).p, air, x, y));
   });
@@ -160,7 +160,7 @@ LANES void near_span(const FrameData& f, const Maps& maps, const Tile& tile, con
 
 LANES void far_span(const FrameData& f, const Maps& maps, const Tile& tile, const Ray& row, const Span& span) {
   const F y = all(static_cast<float>(span.y) + 0.5f);
-  each_eight(span, [&](int, F x) {
+  each_eight(span, [&](int, F x) LANES_BODY {
     const Ray ray = ray_at(row, x);
     const Meeting at = meet(f, ray);
     const Air air = air_of(f, ray, at);

@@ -160,6 +160,9 @@ struct Kernels {
   void (*project)(const Projection&, const Vertices&, const Projected&);
   void (*raster)(const SampleGrid&, const Projected&, const Run&, const Drawn&);
   void (*marks)(const Maps&, const Marks&, const Canvas&);
+  /// A picture, highest row first, in BT.709 limited range: 4:2:0, three planes one after the other;
+  /// an odd row or column at the end has no colours of its own.
+  void (*i420)(const std::uint8_t* rgba, int width, int height, std::uint8_t* out);
   /// How much of the sky is open at each texel of the occlusion map, into `out` with its rim.
   void (*occlusion)(const FrameData&, const Occluders&, int size, float* out);
 };

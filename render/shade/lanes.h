@@ -9,6 +9,7 @@
 #endif
 
 #define LANES inline __attribute__((always_inline))
+#define LANES_BODY __attribute__((always_inline))  // of a lambda
 
 namespace render::shade {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "render/error.h"
 #include "render/publish.h"
+#include "render/shade/kernels.h"
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -143,25 +144,7 @@ void remux(const std::string& from, const std::string& to, std::int64_t frames, 
 }  // namespace
 
 void rgba_to_i420(const Image& image, std::uint8_t* out) {
-  const int w = image.width, h = image.height;
-  std::uint8_t* Y = out;
-  std::uint8_t* U = out + w * h;
-  std::uint8_t* V = U + (w / 2) * (h / 2);
-  // BT.709 limited range in 16-bit fixed point: 219/255 * (0.2126, 0.7152, 0.0722)
-  for (int y = 0; y < h; ++y) {
-    const std::uint8_t* p = image.rgba.data() + static_cast<std::size_t>(4 * w) * static_cast<std::size_t>(y);
-    for (int x = 0; x < w; ++x, p += 4)
-      *Y++ = static_cast<std::uint8_t>((11966 * p[0] + 40254 * p[1] + 4064 * p[2] + 32768) / 65536 + 16);
-  }
-  for (int y = 0; y + 1 < h; y += 2) {
-    const std::uint8_t* a = image.rgba.data() + static_cast<std::size_t>(4 * w) * static_cast<std::size_t>(y);
-    const std::uint8_t* b = a + 4 * w;
-    for (int x = 0; x + 1 < w; x += 2, a += 8, b += 8) {
-      const int r = a[0] + a[4] + b[0] + b[4], g = a[1] + a[5] + b[1] + b[5], u = a[2] + a[6] + b[2] + b[6];
-      *U++ = static_cast<std::uint8_t>((-6596 * r - 22189 * g + 28785 * u + 4 * 65536 * 128 + 2 * 65536) / (4 * 65536));
-      *V++ = static_cast<std::uint8_t>((28785 * r - 26145 * g - 2640 * u + 4 * 65536 * 128 + 2 * 65536) / (4 * 65536));
-    }
-  }
+  shade::kernels().i420(image.rgba.data(), image.width, image.height, out);
 }
 
 struct VideoEncoder::Impl {
