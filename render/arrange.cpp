@@ -34,7 +34,22 @@ void add_ellipsoid(DrawList& list, const engine::HyperEllipsoid& shape, const Po
   list.ellipsoids.push_back({shape, to_gl(rigid(X)), material, raster, static_cast<std::uint32_t>(list.ellipsoids.size())});
 }
 
+/// Three balls along each segment: where a label would hide a person.
+void add_limbs(DrawList& list, const PersonActor& person, const engine::Snapshot& now) {
+  for (const PersonActor::Segment& s : person.segments) {
+    const Pose& X_WB = now.bodies[static_cast<std::size_t>(s.body)].X_WB;
+    Eigen::Index longest = 0;
+    const double length = s.shape.semi_axes.maxCoeff(&longest), least = s.shape.semi_axes.minCoeff();
+    const double radius = s.shape.semi_axes.sum() - length - least;  // the middle one
+    for (const int side : {-1, 0, 1}) {
+      const Float3 p = to_float(X_WB * Vec3(side * (length - radius) * Vec3::Unit(longest)));
+      list.limbs.push_back({p[0], p[1], p[2], static_cast<float>(radius)});
+    }
+  }
+}
+
 void add_person(DrawList& list, const PersonActor& person, const engine::Snapshot& now) {
+  add_limbs(list, person, now);
   if (person.look == PersonLook::skin) {
     list.skins.push_back(bent_skin(person, now));
     return;

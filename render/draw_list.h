@@ -89,7 +89,7 @@ struct LabelItem {
   std::array<float, 2> anchor{0, 0};  // where in the frame
   std::array<float, 2> pivot{0, 0};   // which point of the panel sits there
   bool plate = true;                  // translucent plate behind
-  bool leader = false;                // a line to the world point where the panel had to stand away from it
+  bool leader = false;                // a line to the world point; the panel stands away from it, and from the limbs
 };
 
 /// A small diagram over time, drawn up to now.
@@ -122,6 +122,7 @@ struct DrawList {
   std::vector<MarkerItem> markers;
   std::vector<LabelItem> labels;
   std::vector<ChartItem> charts;
+  std::vector<Float4> limbs;                   // x, y, z, radius [m]: balls that persons lie within
   float scale = 1;                             // of text and lines: a pane's are as large as the whole picture's
   std::vector<std::array<float, 4>> reserved;  // x, y, width, height in 0..1 of the frame: no label may lie there
 };

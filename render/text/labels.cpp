@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "render/matrix.h"
 #include "render/text/charts.h"
@@ -78,6 +79,41 @@ bool anchor_of(const DrawList& list, const LabelItem& label, int width, int heig
   return x > -0.1 * width && x < 1.1 * width && y > -0.1 * height && y < 1.1 * height;
 }
 
+/// Around each of the limbs before the camera.
+std::vector<PanelBox> limbs_of(const DrawList& list, int width, int height) {
+  const Mat4 world_to_clip = from_gl(list.view.eye_to_clip) * from_gl(list.view.world_to_eye);
+  std::vector<PanelBox> out;
+  for (const Float4& ball : list.limbs) {
+    const Eigen::Vector4d p = world_to_clip * Eigen::Vector4d(ball[0], ball[1], ball[2], 1);
+    if (p.w() <= 0.05) continue;
+    const double radius = static_cast<double>(ball[3] * list.view.eye_to_clip[5]) / p.w() * height / 2;
+    out.push_back(
+        {(p.x() / p.w() * 0.5 + 0.5) * width - radius, (0.5 - p.y() / p.w() * 0.5) * height - radius, 2 * radius, 2 * radius});
+  }
+  return out;
+}
+
+/// Moves a panel step by step up and down until nothing of `taken` lies underneath, and nothing of `spared` if there is such a
+/// place nearby. Not shown where there is none.
+void find_room(PanelBox& box, const std::vector<PanelBox>& taken, const std::vector<PanelBox>& spared, int width, int height) {
+  constexpr int kNearby = 24, kAttempts = 40;
+  const auto lies_over = [&box](const std::vector<PanelBox>& others) {
+    return std::any_of(others.begin(), others.end(), [&](const PanelBox& b) { return overlap(b, box); });
+  };
+  const double wanted_y = box.y;
+  std::optional<PanelBox> second_best;
+  for (int attempt = 0; attempt <= (second_best ? kNearby : kAttempts); ++attempt) {
+    const double step = (attempt + 1) / 2 * 0.35 * box.height;
+    box.x = std::clamp(box.x, 0.0, width - box.width);
+    box.y = std::clamp(wanted_y + (attempt % 2 ? -step : step), 0.0, height - box.height);
+    if (lies_over(taken)) continue;
+    if (!lies_over(spared)) return;
+    if (!second_best) second_best = box;
+  }
+  box = second_best.value_or(box);
+  box.shown = second_best.has_value();
+}
+
 CairoPtr scratch() {
   const SurfacePtr surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, 1, 1));
   return CairoPtr(cairo_create(surface.get()));
@@ -141,6 +177,7 @@ std::vector<PanelBox> place_labels(const DrawList& list, int width, int height) 
   for (const auto& [x, y, w, h] : list.reserved)
     taken.push_back({static_cast<double>(x) * width, static_cast<double>(y) * height, static_cast<double>(w) * width,
                      static_cast<double>(h) * height});
+  const std::vector<PanelBox> limbs = limbs_of(list, width, height), nothing;
   std::vector<PanelBox> boxes;
   for (const LabelItem& label : list.labels) {
     PanelBox box = measure(cairo.get(), label, scale);
@@ -148,18 +185,7 @@ std::vector<PanelBox> place_labels(const DrawList& list, int width, int height) 
     box.shown = anchor_of(list, label, width, height, x, y) && box.width <= width && box.height <= height;
     box.x = x - label.pivot[0] * box.width;
     box.y = y - label.pivot[1] * box.height;
-    const double wanted_y = box.y;
-    // inside the frame, then step by step up and down until nothing lies underneath
-    for (int attempt = 0; box.shown; ++attempt) {
-      box.x = std::clamp(box.x, 0.0, width - box.width);
-      box.y = std::clamp(box.y, 0.0, height - box.height);
-      const bool free = std::none_of(taken.begin(), taken.end(), [&](const PanelBox& b) { return overlap(b, box); });
-      if (free) break;
-      if (attempt == 40) box.shown = false;
-      const int steps = attempt / 2 + 1;
-      const double step = steps * 0.35 * box.height;
-      box.y = wanted_y + (attempt % 2 ? step : -step);
-    }
+    if (box.shown) find_room(box, taken, label.leader ? limbs : nothing, width, height);
     if (box.shown) taken.push_back(box);
     boxes.push_back(box);
   }

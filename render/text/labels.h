@@ -14,7 +14,8 @@ struct PanelBox {
   bool shown = true;
 };
 
-/// Where every label goes: kept inside the frame, moved aside from those before it, left out if there is no room. Pure numbers.
+/// Where every label goes: kept inside the frame, moved aside from those before it, left out if there is no room; one with a leader
+/// keeps off persons too where it can. Pure numbers.
 std::vector<PanelBox> place_labels(const DrawList&, int width, int height);
 
 /// Draws them, on translucent plates where they want one.

@@ -256,6 +256,35 @@ TEST(Labels, NeverCoverEachOtherNorLeaveTheFrame) {
   }
 }
 
+TEST(Labels, ThatHaveALeaderKeepOffPersonsWhereThereIsRoom) {
+  constexpr int kWidth = 1280, kHeight = 720;
+  DrawList list;
+  list.view.world_to_eye = list.view.eye_to_clip = to_gl(Mat4::Identity());  // one to a half of the frame
+  LabelItem label;
+  label.lines = {"left foot / sedan"};
+  label.sizes = {20};
+  label.colours = {{1, 1, 1, 1}};
+  label.at_world_point = true;
+  label.pivot = {0.5f, 0.5f};
+  list.labels = {label};
+  const auto place = [&] { return place_labels(list, kWidth, kHeight)[0]; };
+  const PanelBox first = place();
+  list.limbs = {{0, 0, 0, 0.05f}};
+  EXPECT_EQ(place().y, first.y) << "beside what it speaks of";
+  list.labels[0].leader = true;
+  const PanelBox aside = place();
+  EXPECT_TRUE(aside.shown);
+  // the ball is 0.05 of 360 pixels high to either side of the middle
+  EXPECT_LE(aside.y + aside.height, 360 - 18);
+  EXPECT_GE(aside.y + aside.height, 360 - 18 - 0.35 * aside.height) << "no farther than it must";
+  list.limbs = {{0, 0, 0, 1}};
+  EXPECT_EQ(place().y, first.y) << "no room nearby";
+  list.reserved = {{0.4f, 0.4f, 0.2f, 0.2f}};
+  const PanelBox over = place();
+  EXPECT_TRUE(over.shown);
+  EXPECT_TRUE(over.y + over.height <= 0.4 * kHeight || over.y >= 0.6 * kHeight) << "rather over a person than over another panel";
+}
+
 TEST(ColourRamp, OnlyGetsLighter) {
   double last = 0;
   for (int i = 0; i <= 50; ++i) {
