@@ -25,6 +25,7 @@ class Stepper {
   void warn_of_overlaps(World&) const;
   void choose_trees(World&, const State&);
   double attempt(World&, State&, double h);
+  static double stop(World&, const State&, int body, const char* effect, const char* message);
   double integrate(World&, const State&, double h);
   bool locate_contact_event(World&, const State&, double& taken, CompliantContacts::Crossing&);
   void find_contacts(World&, const State&, std::vector<Constraint>& found);
@@ -79,6 +80,7 @@ class Stepper {
   std::vector<double> weight_;  // per constraint: share of the step its displacement acts
   double turning_ = 0;          // [rad/s] of the fastest body
   int cuts_ = 0;                // of the step under way
+  int events_ = 0;              // of compliant contacts placed in it
   bool locating_ = false;       // impacts are still placed inside this step
 };
 

@@ -83,8 +83,13 @@ void CompliantContacts::begin(const World& world, const State& state, bool keep_
     const Touch* before = known(c.key);
     // what a located event has decided stands; what is new or was not watched is told from where it is
     next_touches_.push_back({c.key, keep_phases && before ? before->phase : phase_now(c, speed), c.gap, speed});
-    if (next_touches_.back().phase != ContactPhase::open)
-      fastest_spring_ = std::max(fastest_spring_, std::sqrt(c.stiffness * free_response(world, state, c, c.frame.col(0))));
+    if (next_touches_.back().phase == ContactPhase::open) continue;
+    const double rate = std::sqrt(c.stiffness * free_response(world, state, c, c.frame.col(0)));
+    if (!(rate > fastest_spring_)) continue;
+    fastest_spring_ = rate;
+    const bool first = c.body_b < 0 || (c.body_a >= 0 && carried_[c.body_a] <= carried_[c.body_b]);
+    sprung_body_ = first ? c.body_a : c.body_b;
+    sprung_by_ = c.effect;
   }
   std::sort(next_touches_.begin(), next_touches_.end(), [](const Touch& a, const Touch& b) { return a.key < b.key; });
   touches_.swap(next_touches_);

@@ -46,6 +46,9 @@ class CompliantContacts {
 
   /// Largest angular frequency [rad/s] of a contact's spring on its bodies, of those present at the last look.
   double fastest_spring() const { return fastest_spring_; }
+  /// The lighter of those bodies, and the effect whose contact it is.
+  int sprung_body() const { return sprung_body_; }
+  int sprung_by() const { return sprung_by_; }
 
  private:
   struct Touch {
@@ -74,6 +77,7 @@ class CompliantContacts {
   bool keep_phases_ = true;
   double rest_speed_ = 0, smoothing_ = 0;
   double fastest_spring_ = 0;
+  int sprung_body_ = -1, sprung_by_ = -1;
 };
 
 }  // namespace engine

@@ -46,7 +46,7 @@ SmoothMotion::SmoothMotion(const Model& model)
   for (const Joint& joint : model.joints) {
     const double child = swing_per_force(model.bodies[joint.child], joint.X_CF.p);
     const double parent = joint.parent < 0 ? 0 : swing_per_force(model.bodies[joint.parent], joint.X_PF.p);
-    swing_per_force_.push_back(std::max(child, parent));
+    swinging_.push_back(child >= parent ? Swinging{joint.child, child} : Swinging{joint.parent, parent});
   }
 }
 
@@ -115,6 +115,7 @@ void SmoothMotion::advance(World& world, const State& state, double h, std::vect
 /// gives.
 void SmoothMotion::measure_swing(const World& world) {
   double largest = 0;
+  swinging_body_ = -1;
   for (const int tree : world.active_trees) {
     const Topology::Tree& range = world.topology.trees[tree];
     if (range.end - range.begin == 1 && world.topology.links[range.begin].joint < 0) continue;
@@ -127,7 +128,11 @@ void SmoothMotion::measure_swing(const World& world) {
       T += body.mass * stages_[0].a[link.body].head<3>() - applied_[link.body];
       if (link.parent >= 0) joint_force_[link.parent] += T;
       // the other end of a link is pulled as hard
-      largest = std::max(largest, 2 * T.norm() * swing_per_force_[static_cast<std::size_t>(link.joint)]);
+      const Swinging& swinging = swinging_[static_cast<std::size_t>(link.joint)];
+      if (const double square = 2 * T.norm() * swinging.per_force; square > largest) {
+        largest = square;
+        swinging_body_ = swinging.body;
+      }
     }
   }
   fastest_swing_ = std::sqrt(largest);

@@ -23,6 +23,8 @@ class SmoothMotion {
   /// Rate [rad/s] of the fastest swing that the joint forces of the last step make a body capable of: T r / I, as in a chain of
   /// light links pulled taut by heavy ends. Runge-Kutta 4 blows up above 2.8 over the step.
   double fastest_swing() const { return fastest_swing_; }
+  /// The body capable of it; -1: none.
+  int swinging_body() const { return swinging_body_; }
 
  private:
   struct Stage {
@@ -38,8 +40,13 @@ class SmoothMotion {
   std::vector<Pose> X_;
   std::vector<Vec6> force_;
   std::vector<Vec3> applied_, joint_force_;  // [N] per body: of the first stage, without joints; through its parent joint
-  std::vector<double> swing_per_force_;      // [1/(kg m)] per joint: of its two bodies the larger
+  struct Swinging {
+    int body = 0;          // of the joint's two the one that swings faster
+    double per_force = 0;  // [1/(kg m)]
+  };
+  std::vector<Swinging> swinging_;  // per joint
   double fastest_swing_ = 0;
+  int swinging_body_ = -1;
 };
 
 /// Takes the drift out of joints after a step: Newton on C(q) = 0 in the mass metric, then J V = 0 (eq. (63) with F = 0).
