@@ -47,7 +47,8 @@ Film::Film(const Stage& stage, double end_time, double fps) : fps_(fps) {
   };
   cards(false);
   std::vector<Shot> shots = stage.shots;
-  if (shots.empty()) shots.push_back({opening, 0, end_time, 1, 0});
+  // a run that diverged in its first step has one picture to show
+  if (shots.empty()) shots.push_back({opening, 0, std::max(end_time, 1 / fps), 1, 0});
   for (std::size_t s = 0; s < shots.size(); ++s) {
     const Shot& shot = shots[s];
     // a run that came to rest early is not drawn out: the last picture stands for a moment, then the shot is over

@@ -59,6 +59,13 @@ TEST(FramesOfAFilm, MoreThanCanBeCountedAreRefusedByTheNameOfTheShot) {
   EXPECT_EQ(Film(stage({{"side", 0, 1, 5e-8, 0}}), 1, 30).size(), 600'000'000);
 }
 
+TEST(FramesOfAFilm, OfARunThatEndedAtOnceAreOne) {
+  const Film film(stage({}), 0, 30);
+  ASSERT_EQ(film.size(), 1);
+  EXPECT_EQ(film[0].time, 0);
+  EXPECT_EQ(Film(stage({}), 0.1, 30).size(), 3);
+}
+
 TEST(PartOfAFilm, HasEachFrameOnceInOrderWithItsNumber) {
   const Film film(stage({{"side", 0, 1, 1, 0}, {"side", 0.5, 1, 0.5, 0}}), 1, 10);
   ASSERT_EQ(film.size(), 20);
