@@ -1,5 +1,7 @@
 // Joint resistance and the impulses of all conditions over a step: from the smooth motion to its end.
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "engine/effects/effect.h"
@@ -258,6 +260,20 @@ void Stepper::push_apart(World& world, const std::vector<int>& island, double h)
   if (any) world.solver.push_apart(world.constraints, island, allowed_);
 }
 
+namespace {
+
+/// Angular velocity [rad/s] of a free body that impulses turned on from q to `turned`: its angular momentum keeps its direction and
+/// its rotation its energy. Left as it was, it would give energy where a spinning body with unequal moments is pushed out of
+/// another.
+Vec3 carried_on(const Body& body, const Quat& q, const Quat& turned, const Vec3& w) {
+  const Vec3 L = q * (body.inertia_B * (q.conjugate() * w));
+  const Vec3 w_turned = turned * (body.inertia_B.inverse() * (turned.conjugate() * L));
+  const double before = w.dot(L), after = w_turned.dot(L);
+  return after > 0 ? Vec3(w_turned * std::sqrt(before / after)) : w;
+}
+
+}  // namespace
+
 void Stepper::apply(World& world, double h) {
   // velocities take the whole impulse, displacements its weighted share
   auto push = [&](bool displacement) {
@@ -284,11 +300,15 @@ void Stepper::apply(World& world, double h) {
       V_[b].w += result_[b].tail<3>();
     }
   push(true);
-  for (const int tree : world.active_trees)
-    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+  for (const int tree : world.active_trees) {
+    const Topology::Tree& range = world.topology.trees[tree];
+    for (int l = range.begin; l < range.end; ++l) {
       const int b = world.topology.links[l].body;
+      const Quat q = X_[b].q;
       displace(X_[b], result_[b].head<3>(), result_[b].tail<3>());
+      if (range.end - range.begin == 1) V_[b].w = carried_on(world.model.bodies[b], q, X_[b].q, V_[b].w);
     }
+  }
 }
 
 void Stepper::keep_impulses(const World& world, State& state) const {
