@@ -40,7 +40,8 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
     const Meter::Span span(world.meter, Phase::recording);
     recorder.tally(world, time, duration);
   };
-  for (long k = 0; k < steps; ++k) {
+  recording.failure = watch.look(world, state);  // at such a speed the first step alone would take minutes
+  for (long k = 0; k < steps && !recording.failure; ++k) {
     double left = h;
     while (left > 1e-9 * h && !recording.failure) {
       left -= stepper.advance(world, state, left);
