@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector4d;
 using Rest = Eigen::Matrix<double, 7, 1>;  // normal, height, place in the mesh
 
-constexpr std::size_t kRoom = 7;
+constexpr std::size_t kRoom = 7, kRecord = 8;  // [numbers]
 
 /// Of four samples so many stay as the opacity says, spread evenly.
 unsigned kept_samples(const Piece& piece) {
@@ -34,7 +34,7 @@ void Sampler::clear() {
 
 shade::Projected Sampler::vertices() {
   const auto at = [this](std::size_t i) { return numbers_[i].data(); };
-  return {places_[0].data(), places_[1].data(), at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8)};
+  return {places_[0].data(), places_[1].data(), at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8), records_.data()};
 }
 
 void Sampler::project(const View& view, const Piece& piece, What what) {
@@ -50,6 +50,7 @@ void Sampler::project(const View& view, const Piece& piece, What what) {
   };
   for (auto& list : places_) grow(list);
   for (auto& list : numbers_) grow(list);
+  if (records_.size() < kRecord * room) records_.resize(std::max(kRecord * room, 2 * records_.size()));
   shade::Projection p{};
   const Matrix4 clip = to_gl(view.world_to_clip * from_gl(piece.model));
   std::copy(clip.begin(), clip.end(), p.model_to_clip);
@@ -63,6 +64,7 @@ void Sampler::project(const View& view, const Piece& piece, What what) {
   for (float** list :
        {&out.depth, &out.per_w, &out.normal_x, &out.normal_y, &out.normal_z, &out.height, &out.model_x, &out.model_y, &out.model_z})
     *list += first_vertex_;
+  out.records += kRecord * first_vertex_;
   if (what == What::depth) out.normal_x = nullptr;
   shade::kernels().project(p, g.list(), out);
 }
@@ -77,7 +79,7 @@ void Sampler::draw_run(const View& view, const Piece& piece, const Geometry::Lev
   std::copy(piece.model.begin(), piece.model.end(), run.model_to_world);
   const std::size_t most = static_cast<std::size_t>(run.triangles);
   if (to_cut_.size() < most) to_cut_.resize(most);
-  const std::size_t room = static_cast<std::size_t>(triangle_count_) + most;
+  const std::size_t room = static_cast<std::size_t>(triangle_count_) + most + 1;
   if (grid.names && triangles_.size() < room) triangles_.resize(std::max(room, 2 * triangles_.size()));
   int cut_count = 0;
   shade::kernels().raster(grid, vertices(), run, {triangles_.data(), &triangle_count_, to_cut_.data(), &cut_count});
@@ -104,7 +106,7 @@ void Sampler::draw_run(const View& view, const Piece& piece, const Geometry::Lev
     run.indices = corners.data();
     run.triangles = static_cast<int>(corners.size() / 3);
     run.first_vertex = 0;
-    const std::size_t more = static_cast<std::size_t>(triangle_count_ + run.triangles);
+    const std::size_t more = static_cast<std::size_t>(triangle_count_ + run.triangles) + 1;
     if (grid.names && triangles_.size() < more) triangles_.resize(std::max(more, 2 * triangles_.size()));
     if (to_cut_.size() < corners.size()) to_cut_.resize(corners.size());
     shade::kernels().raster(grid, vertices(), run, {triangles_.data(), &triangle_count_, to_cut_.data(), &cut_count});
@@ -123,6 +125,10 @@ std::int32_t Sampler::add_vertex(const View& view, const Vector4d& clip, const R
   numbers_[0][v] = static_cast<float>(clip[2] / clip[3] * 0.5 + 0.5);
   numbers_[1][v] = static_cast<float>(1 / clip[3]);
   for (std::size_t i = 0; i < 7; ++i) numbers_[2 + i][v] = static_cast<float>(rest[static_cast<Eigen::Index>(i)]);
+  if (records_.size() < kRecord * room) records_.resize(std::max(kRecord * room, 2 * records_.size()));
+  float* const record = records_.data() + kRecord * v;
+  for (std::size_t i = 0; i < 2; ++i) record[i] = static_cast<float>(places_[i][v] / kSub);
+  for (std::size_t i = 0; i < 4; ++i) record[2 + i] = numbers_[1 + i][v];
   return static_cast<std::int32_t>(v);
 }
 

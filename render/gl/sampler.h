@@ -40,6 +40,7 @@ class Sampler {
 
   std::array<std::vector<std::int32_t>, 2> places_;
   std::array<std::vector<float>, 9> numbers_;  // as shade::Projected names them
+  std::vector<float> records_;                 // as there
   std::size_t vertex_count_ = 0, first_vertex_ = 0;
   const Geometry* last_geometry_ = nullptr;  // whose vertices are the last that were projected
   Matrix4 last_model_{};

@@ -76,6 +76,7 @@ struct Projected {
   float *depth, *per_w;  // 0..1; one over w, nought where the vertex lies before the near plane or far outside
   float *normal_x, *normal_y, *normal_z, *height;  // in the world; [m] above the ground
   float *model_x, *model_y, *model_z;              // as they were
+  float* records;  // eight numbers a vertex: x, y [samples], per_w, normal, and two that mean nothing
 };
 
 /// Samples x .. x + width, y .. y + height of the picture. Room for seven more behind the last row; beyond `width` no sample is
@@ -128,8 +129,8 @@ struct Surfaces {
   float *red, *green, *blue;     // out: 0..1 as on the screen
 };
 struct Scene {
-  const float* materials;  // sixteen numbers a row
-  const Triangle* triangles;
+  const float* materials;     // sixteen numbers a row
+  const Triangle* triangles;  // room for one more
   Projected vertices;
   float samples;  // a side to a pixel
   bool terrain;   // some may be ground

@@ -55,6 +55,16 @@ void project(const Projection& to, const Vertices& in, const Projected& out) {
     store(x, out.model_x + i);
     store(y, out.model_y + i);
     store(z, out.model_z + i);
+    F records[kLanes] = {to_float(load_int(out.x + i)) * (1.0f / kSub),
+                         to_float(load_int(out.y + i)) * (1.0f / kSub),
+                         load(out.per_w + i),
+                         load(out.normal_x + i),
+                         load(out.normal_y + i),
+                         load(out.normal_z + i),
+                         all(0.0f),
+                         all(0.0f)};
+    turn(records);
+    for (int k = 0; k < kLanes; ++k) store(records[k], out.records + kLanes * (i + k));
   }
 }
 

@@ -127,13 +127,13 @@ struct Heap {
   struct Seen {
     std::vector<float> depth = std::vector<float>(kWidth * kSamples * kHeight * kSamples + 7, 1.0f);
     std::vector<std::int32_t> names = std::vector<std::int32_t>(depth.size()), places = std::vector<std::int32_t>(2 * kRoom);
-    std::vector<float> numbers = std::vector<float>(9 * kRoom);
-    std::vector<Triangle> triangles = std::vector<Triangle>(kTriangles);
+    std::vector<float> numbers = std::vector<float>(9 * kRoom), records = std::vector<float>(8 * kRoom);
+    std::vector<Triangle> triangles = std::vector<Triangle>(kTriangles + 1);
     std::vector<std::int32_t> cut = std::vector<std::int32_t>(kTriangles);
     int count = 0, cut_count = 0;
     Projected vertices() {
       const auto n = [this](int i) { return numbers.data() + i * kRoom; };
-      return {places.data(), places.data() + kRoom, n(0), n(1), n(2), n(3), n(4), n(5), n(6), n(7), n(8)};
+      return {places.data(), places.data() + kRoom, n(0), n(1), n(2), n(3), n(4), n(5), n(6), n(7), n(8), records.data()};
     }
   };
   Seen seen(const Kernels& by) const {
@@ -160,6 +160,7 @@ TEST(Shade, TrianglesAreTheSameOnEveryProcessor) {
     EXPECT_EQ(a.names, b.names);
     EXPECT_EQ(a.places, b.places);
     EXPECT_EQ(a.numbers, b.numbers);
+    EXPECT_EQ(a.records, b.records);
     EXPECT_EQ(a.cut, b.cut);
     ASSERT_EQ(a.count, b.count);
     EXPECT_GT(a.count, Heap::kTriangles / 3);
