@@ -17,12 +17,28 @@ struct MaterialRows {
   F broad, broad_exponent, sharp, sharp_exponent;  // tinted and white highlight
   F wrap, sheen, grain, terrain;                   // terrain: 1 ground, -1 ribs of a lamp
 };
+
+/// What stands in each lane's record of `size` numbers from `from` on, of which eight are read; the loads of eight whole records
+/// take a sixth of what as many gathers do.
+LANES void records_at(const float* from, int size, I at, F* out) {
+  F eight[kLanes];
+  for (int i = 0; i < kLanes; ++i) eight[i] = load(from + static_cast<std::int64_t>(at[i]) * size);
+  turn(eight);
+  for (int k = 0; k < kLanes; ++k) out[k] = eight[k];
+}
+
 LANES MaterialRows rows_of(const float* table, I row) {
-  const I at = row * kMaterialNumbers;
-  const bool one = !any(row != row[0]);  // mostly
-  const float* only = table + at[0];
-  const auto n = [&](int i) { return one ? all(only[i]) : gather(table + i, at); };
-  return {{n(0), n(1), n(2)}, n(3), n(4), n(5), n(6), n(7), n(8), n(9), n(10), n(11), n(12), n(13), n(14), n(15)};
+  F numbers[kMaterialNumbers];
+  if (!any(row != row[0])) {  // mostly
+    for (int k = 0; k < kMaterialNumbers; ++k) numbers[k] = all(table[row[0] * kMaterialNumbers + k]);
+  } else {
+    records_at(table, kMaterialNumbers, row, numbers);
+    records_at(table + kLanes, kMaterialNumbers, row, numbers + kLanes);
+  }
+  MaterialRows out;
+  static_assert(sizeof out == sizeof numbers);
+  __builtin_memcpy(&out, numbers, sizeof out);
+  return out;
 }
 
 LANES V3 place_of(const FrameData& f, F x, F y, F depth) {
@@ -48,10 +64,17 @@ LANES F shine(F cosine, F exponent) {
   return (exponent + 8.0f) * (1 / 25.13f) * pow(cosine, exponent);
 }
 
-LANES V3 surface_light(const FrameData& f, const Maps& maps, const float* materials, bool terrain, const V3& p, const V3& n, I id,
-                       F grain, F x, F y) {
-  const I inside = id >= 32768;
-  const MaterialRows m = rows_of(materials, inside ? id - 32768 : id);
+/// What the corners of its triangle make of a surface.
+struct Look {
+  V3 normal;
+  F grain;
+  I inside;  // of a body
+  MaterialRows material;
+};
+
+LANES V3 surface_light(const FrameData& f, const Maps& maps, bool terrain, const V3& p, const Look& look, F x, F y) {
+  const V3& n = look.normal;
+  const MaterialRows& m = look.material;
   const V3 to_sun = three(f.sun);
   const V3 v = f.eye[3] > 0.5f ? three(-f.forward[0], -f.forward[1], -f.forward[2]) : normalize(three(f.eye) - p);
   const F toward = dot(n, to_sun), ndl = max(toward, 0.0f), ndv = saturate(dot(n, v));
@@ -65,7 +88,7 @@ LANES V3 surface_light(const FrameData& f, const Maps& maps, const float* materi
   const V3 mirror = surroundings(f, r) * shade;
   const F away = 1.0f - ndv, fresnel = away * away * away * away * away;
   const F reflects = m.straight + m.grazing * fresnel;
-  V3 paint = m.base * (1.0f + m.grain * (grain - 0.5f));
+  V3 paint = m.base * (1.0f + m.grain * (look.grain - 0.5f));
   if (terrain && any(m.terrain > 0.0f)) {
     const Footprint w = footprint(f, x, y, p, n);
     paint = mix(paint, ground_colour(f, maps, everything, p.x, p.y, w), max(m.terrain, 0.0f));
@@ -83,17 +106,10 @@ LANES V3 surface_light(const FrameData& f, const Maps& maps, const float* materi
     c = c + three(kSunLight) * (paint * (m.broad * shine(half_cosine, m.broad_exponent)) + sharp) * sun;
   }
   const V3 within = paint * sky * 0.25f + all(0.006f);
-  c = {inside ? within.x : c.x, inside ? within.y : c.y, inside ? within.z : c.z};
+  c = {look.inside ? within.x : c.x, look.inside ? within.y : c.y, look.inside ? within.z : c.z};
   const F far_m = f.eye[3] > 0.5f ? all(0.0f) : length(p - three(f.eye));
   return to_screen(mix(c, haze_colour(f), haze_at(f, far_m)));
 }
-
-/// What the corners of its triangle make of a surface.
-struct Look {
-  V3 normal;
-  F grain;
-  I row;
-};
 
 LANES F sine(F x) {
   return sine_of_turn(x * 0.15915494f);
@@ -102,13 +118,6 @@ LANES F sine(F x) {
 /// The weave of cloth.
 LANES F weave(const V3& p) {
   return 0.5f + 0.25f * sine(p.x * 31.0f + 2.0f * sine(p.z * 23.0f)) * sine(p.y * 37.0f + 2.0f * sine(p.x * 17.0f + p.z * 9.0f));
-}
-
-/// What stands in each lane's record of `size` numbers from `from` on, of which eight are read; the loads of eight whole records
-/// take a sixth of what as many gathers do.
-LANES void records_at(const float* from, int size, I at, F (&out)[kLanes]) {
-  for (int i = 0; i < kLanes; ++i) out[i] = load(from + static_cast<std::int64_t>(at[i]) * size);
-  turn(out);
 }
 
 LANES Look look_of(const Scene& s, const float* materials, I triangle, F x, F y) {
@@ -146,12 +155,11 @@ LANES Look look_of(const Scene& s, const float* materials, I triangle, F x, F y)
   };
   const F sx = x * s.samples, sy = y * s.samples;
   const Weights w = place(sx, sy, within);
-  Look out{normal[0] * w.of[0] + normal[1] * w.of[1] + normal[2] * w.of[2], all(0.5f), row};
+  Look out{normal[0] * w.of[0] + normal[1] * w.of[1] + normal[2] * w.of[2], all(0.5f), row >= 32768,
+           rows_of(materials, row & 32767)};
   const F length2 = dot(out.normal, out.normal);
   out.normal = out.normal * (side / sqrt(max(length2, 1e-20f)));
-  const I at_row = (row & 32767) * kMaterialNumbers;
-  const F ribs = gather(materials + 15, at_row), grain = gather(materials + 14, at_row);
-  const I ribbed = ribs<0.0f, woven = grain> 0.0f;
+  const I ribbed = out.material.terrain<0.0f, woven = out.material.grain> 0.0f;
   if (any(woven)) {
     const V3 p{blend(from.model_x, w), blend(from.model_y, w), blend(from.model_z, w)};
     out.grain = woven ? weave(p) : out.grain;
@@ -188,7 +196,7 @@ void surfaces(const FrameData& frame, const Maps& all_maps, const Scene& scene, 
     const F x = load(list.x + i), y = load(list.y + i);
     const V3 p = place_of(f, x, y, load(list.depth + i));
     const Look look = look_of(s, s.materials, load_int(list.triangle + i), x, y);
-    const V3 c = surface_light(f, maps, s.materials, s.terrain, p, look.normal, look.row, look.grain, x, y);
+    const V3 c = surface_light(f, maps, s.terrain, p, look, x, y);
     store(c.x, list.red + i);
     store(c.y, list.green + i);
     store(c.z, list.blue + i);
