@@ -163,17 +163,17 @@ LANES I gather(const std::int32_t* from, I at) {
 LANES void turn(F (&eight)[kLanes]) {
   F a[kLanes], b[kLanes];
   for (int i = 0; i < kLanes; i += 2) {
-    a[i] = __builtin_shuffle(eight[i], eight[i + 1], I{0, 8, 1, 9, 4, 12, 5, 13});
-    a[i + 1] = __builtin_shuffle(eight[i], eight[i + 1], I{2, 10, 3, 11, 6, 14, 7, 15});
+    a[i] = __builtin_shufflevector(eight[i], eight[i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+    a[i + 1] = __builtin_shufflevector(eight[i], eight[i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
   }
   for (int i = 0; i < kLanes; i += 4)
     for (int k = 0; k < 2; ++k) {
-      b[i + 2 * k] = __builtin_shuffle(a[i + k], a[i + k + 2], I{0, 1, 8, 9, 4, 5, 12, 13});
-      b[i + 2 * k + 1] = __builtin_shuffle(a[i + k], a[i + k + 2], I{2, 3, 10, 11, 6, 7, 14, 15});
+      b[i + 2 * k] = __builtin_shufflevector(a[i + k], a[i + k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+      b[i + 2 * k + 1] = __builtin_shufflevector(a[i + k], a[i + k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
     }
   for (int k = 0; k < 4; ++k) {
-    eight[k] = __builtin_shuffle(b[k], b[k + 4], I{0, 1, 2, 3, 8, 9, 10, 11});
-    eight[k + 4] = __builtin_shuffle(b[k], b[k + 4], I{4, 5, 6, 7, 12, 13, 14, 15});
+    eight[k] = __builtin_shufflevector(b[k], b[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+    eight[k + 4] = __builtin_shufflevector(b[k], b[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
   }
 }
 
