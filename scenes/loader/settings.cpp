@@ -45,7 +45,7 @@ const Key kKeys[] = {
      between(-kRightAngle, kRightAngle)},
     {"solver_tolerance", Type::number, Dimension::speed, "'0.01 mm/s'", "Residual at which the contact solver stops.", kPositive},
     {"contacts_per_pair", Type::integer, Dimension::none, "10",
-     "Points at most at which two meshes, or a mesh and the ground, hold each other at a time.", between(3, 1000)},
+     "Points at most at which two meshes, or a mesh and the ground, hold each other at a time.", between(3, 100)},
     {"locate_events", Type::boolean, Dimension::none, "true",
      "Place impacts (and with rk4 touch, turn and separation of compliant contacts) inside the step."},
     {"sleep", Type::boolean, Dimension::none, "false",
