@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "engine/divergence.h"
 #include "engine/effects/effect.h"
@@ -185,16 +186,20 @@ double Stepper::integrate(World& world, const State& state, double h) {
   const double for_turning = std::pow(turning_ * h / kSmoothTurn, 2.0);
   const double wanted = std::max(for_turning, smooth_.fastest_swing() / kSmoothSwing * h);
   const int parts = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, kMostParts));
+  Articulation* at_start = nullptr;
   auto advance_over = [&](double length) {
     if (compliant) compliant->next_part(length / parts);
-    for (int k = 0; k < parts; ++k) smooth_.advance(world, end_, length / parts, X_, V_, compliant);
+    for (int k = 0; k < parts; ++k)
+      smooth_.advance(world, end_, length / parts, X_, V_, compliant, std::exchange(at_start, nullptr));
   };
   auto begin = [&] {
     end_ = state;
     end_.time = state.time + h;
     world.time = state.time;
+    at_start = &world.impulse;
     if (compliant) compliant->restart(h);
   };
+  factor_for_impulses(world, state, nullptr);  // the first stage stands where impulses act
   begin();
   advance_over(h);
   if (world.model.settings.scheme != Scheme::adaptive) return 0;

@@ -46,8 +46,10 @@ bool Stepper::exchange_over_step(World& world, State& state, double h, double& r
     V_smooth_ = V_;
   }
   for (int pass = 0;; ++pass) {
-    factor_for_impulses(world, state, world.any_damper ? &world.dampers : nullptr);
-    if (world.any_damper) apply_resistance(world, h);
+    if (world.any_damper) {
+      factor_for_impulses(world, state, &world.dampers);
+      apply_resistance(world, h);
+    }
     for (Constraint& c : world.constraints) c.u_free = row_velocity(c, V_);
     if (pass == 0) form_islands(world);
     set_targets(world, h);
