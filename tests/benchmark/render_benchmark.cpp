@@ -2,6 +2,7 @@
 //   benchmark_render SCENE.toml [FRAMES [ROWS]]     ROWS: part of the names of the rows to be measured, "1080p"
 // Rates depend on the machine and on what else it does; ratios to the yardstick (plain_renderer.h) in the same run do so less.
 #include <fmt/format.h>
+#include <sched.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,7 +11,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
-#include <thread>
 
 #include "engine/simulate.h"
 #include "plain_renderer.h"
@@ -141,10 +141,16 @@ void heavy_mesh() {
                static_cast<double>(use.ru_maxrss) / 1024);
 }
 
+/// That this process may use: taskset leaves it fewer.
+int cores_at_hand() {
+  cpu_set_t set;
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+}
+
 /// The targets of one machine with four cores at rest, or two of them (taskset), as absolute figures; elsewhere the multiples of
 /// the yardstick count.
 void table(const Bench& b, const std::string& fixed, const std::string& moving, const std::string& wanted) {
-  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int cores = cores_at_hand();
   fmt::print("{:22} {:>9} {:>9} {:>7} {:>9} {:>8} {:>12}\n", "frames/s, end to end", "1 worker", fmt::format("{} workers", cores),
              "ratio", "yardstick", "times it", fmt::format("must, {} idle", cores == 2 ? 2 : 4));
   struct Row {
