@@ -18,8 +18,8 @@ struct Constraint {
   int rows = 3;
   int body_a = -1;  // -1: the world
   int body_b = -1;
-  Eigen::Matrix<double, 3, 6> J_a = Eigen::Matrix<double, 3, 6>::Zero();  // first `rows` rows
-  Eigen::Matrix<double, 3, 6> J_b = Eigen::Matrix<double, 3, 6>::Zero();
+  Eigen::Matrix<double, 3, 6, Eigen::RowMajor> J_a = Eigen::Matrix<double, 3, 6>::Zero();  // first `rows` rows
+  Eigen::Matrix<double, 3, 6, Eigen::RowMajor> J_b = Eigen::Matrix<double, 3, 6>::Zero();
   Vec3 point = Vec3::Zero();      // [m] world
   Mat3 frame = Mat3::Identity();  // columns: normal, t1, t2 (contacts and wheels)
   double gap = 0;                 // [m] or [rad]; negative: penetration, beyond the limit

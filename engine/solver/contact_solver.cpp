@@ -70,21 +70,22 @@ void ContactSolver::assemble(const Topology& topology, const Response& response,
     const Constraint& ci = all[members[i]];
     name_until(ci.body_a);
     name_until(ci.body_b);
-    // Y_t = rows of i through the joints to body t
+    // Y_t = rows of i through the joints to body t, as columns
     for (std::size_t n = 0; n < named; ++n) {
       const int t = bodies[n];
       const int tree = topology.tree_of_body[t];
       const bool via_a = ci.body_a >= 0 && topology.tree_of_body[ci.body_a] == tree;
       const bool via_b = ci.body_b >= 0 && topology.tree_of_body[ci.body_b] == tree;
-      Y_[t].setZero();
-      if (via_a) Y_[t].noalias() += ci.J_a * response.between(topology, ci.body_a, t);
-      if (via_b) Y_[t].noalias() += ci.J_b * response.between(topology, ci.body_b, t);
+      if (via_a) Y_[t].noalias() = response.between(topology, t, ci.body_a) * ci.J_a.transpose();
+      if (via_a && via_b) Y_[t].noalias() += response.between(topology, t, ci.body_b) * ci.J_b.transpose();
+      if (!via_a && via_b) Y_[t].noalias() = response.between(topology, t, ci.body_b) * ci.J_b.transpose();
+      if (!via_a && !via_b) Y_[t].setZero();
     }
     for (int k = 0; k <= i; ++k) {
       const Constraint& ck = all[members[k]];
       Mat3 g = Mat3::Zero();
-      if (ck.body_a >= 0) g.noalias() += Y_[ck.body_a] * ck.J_a.transpose();
-      if (ck.body_b >= 0) g.noalias() += Y_[ck.body_b] * ck.J_b.transpose();
+      if (ck.body_a >= 0) g.noalias() += Y_[ck.body_a].transpose() * ck.J_a.transpose();
+      if (ck.body_b >= 0) g.noalias() += Y_[ck.body_b].transpose() * ck.J_b.transpose();
       for (int r = 0; r < ci.rows; ++r)
         for (int q = 0; q < ck.rows; ++q) {
           G_[static_cast<std::size_t>(offset_[k] + q) * size_ + offset_[i] + r] = g(r, q);

@@ -88,7 +88,7 @@ class ContactSolver {
   std::vector<Row> factored_rule_;  // of the matrix in newton_
   std::vector<double> L_, u_kept_, L_kept_, u_start_;
   std::vector<Vec3> L_start_;
-  std::vector<Eigen::Matrix<double, 3, 6>> Y_;
+  std::vector<Eigen::Matrix<double, 6, 3>> Y_;
 };
 
 }  // namespace engine

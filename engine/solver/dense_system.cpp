@@ -54,6 +54,23 @@ bool factor_in_place(double* A, std::size_t n, std::size_t* pivots) {
   return true;
 }
 
+#if defined(__x86_64__)
+__attribute__((target_clones("avx2", "default")))
+#endif
+void substitute(const double* A, std::size_t n, double* b) {
+  for (std::size_t k = 0; k < n; ++k) {
+    const double* column = A + k * n;
+    const double factor = b[k];
+    for (std::size_t i = k + 1; i < n; ++i) b[i] -= column[i] * factor;
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    const double* column = A + k * n;
+    b[k] /= column[k];
+    const double factor = b[k];
+    for (std::size_t i = 0; i < k; ++i) b[i] -= column[i] * factor;
+  }
+}
+
 }  // namespace
 
 bool DenseSystem::factor() {
@@ -63,16 +80,7 @@ bool DenseSystem::factor() {
 void DenseSystem::solve() {
   for (std::size_t k = 0; k < n_; ++k)
     if (pivot_[k] != k) std::swap(b_[k], b_[pivot_[k]]);
-  for (std::size_t k = 0; k < n_; ++k) {
-    const double* column = A_.data() + k * n_;
-    const double factor = b_[k];
-    for (std::size_t i = k + 1; i < n_; ++i) b_[i] -= column[i] * factor;
-  }
-  for (std::size_t k = n_; k-- > 0;) {
-    const double* column = A_.data() + k * n_;
-    b_[k] /= column[k];
-    for (std::size_t i = 0; i < k; ++i) b_[i] -= column[i] * b_[k];
-  }
+  substitute(A_.data(), n_, b_.data());
 }
 
 }  // namespace engine
