@@ -103,7 +103,8 @@ void find_room(PanelBox& box, const std::vector<PanelBox>& taken, const std::vec
   const double wanted_y = box.y;
   std::optional<PanelBox> second_best;
   for (int attempt = 0; attempt <= (second_best ? kNearby : kAttempts); ++attempt) {
-    const double step = (attempt + 1) / 2 * 0.35 * box.height;
+    const int steps = (attempt + 1) / 2;
+    const double step = steps * 0.35 * box.height;
     box.x = std::clamp(box.x, 0.0, width - box.width);
     box.y = std::clamp(wanted_y + (attempt % 2 ? -step : step), 0.0, height - box.height);
     if (lies_over(taken)) continue;
