@@ -304,11 +304,12 @@ void Stepper::apply(World& world, double h) {
   push(true);
   for (const int tree : world.active_trees) {
     const Topology::Tree& range = world.topology.trees[tree];
+    const bool free = range.end - range.begin == 1 && world.topology.links[range.begin].joint < 0;
     for (int l = range.begin; l < range.end; ++l) {
       const int b = world.topology.links[l].body;
       const Quat q = X_[b].q;
       displace(X_[b], result_[b].head<3>(), result_[b].tail<3>());
-      if (range.end - range.begin == 1) V_[b].w = carried_on(world.model.bodies[b], q, X_[b].q, V_[b].w);
+      if (free) V_[b].w = carried_on(world.model.bodies[b], q, X_[b].q, V_[b].w);
     }
   }
 }
