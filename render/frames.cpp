@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 namespace render {
 namespace {
@@ -122,8 +121,7 @@ Film Film::between(double from, double to) const {
   for (std::size_t s = 0; s < stretches_.size(); ++s) {
     const auto [first, last] = numbers_of(s);
     const auto first_not_before = [&, begin = first, end = last + 1](auto before) {
-      return *std::ranges::partition_point(std::views::iota(begin, end),
-                                           [&](int number) { return before(time_of(stretches_[s], number)); });
+      return first_without(begin, end, [&](int number) { return before(time_of(stretches_[s], number)); });
     };
     inside.push_back({first_not_before([&](double time) { return time < from - kRounding; }),
                       first_not_before([&](double time) { return time <= to + kRounding; }) - 1});

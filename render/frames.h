@@ -83,4 +83,17 @@ class Film {
   int size_ = 0;
 };
 
+/// The first of begin..end-1 without a property that only those before it have; `end` if all have it. By halves.
+template <class Property>
+int first_without(int begin, int end, Property has) {
+  while (begin < end) {
+    const int middle = begin + (end - begin) / 2;
+    if (has(middle))
+      begin = middle + 1;
+    else
+      end = middle;
+  }
+  return begin;
+}
+
 }  // namespace render

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
 
 #include "render/overlays/overlay.h"
 
@@ -46,8 +45,7 @@ Story story_of(const Stage& stage, const engine::Recording& recording, const Fil
     std::map<int, std::string> texts;  // by the frame that passes the event; several in one are told together
     for (const engine::Event& e : recording.events) {
       if (e.kind == "release" || e.time <= opening.time || e.time > film[last].time) continue;
-      std::string& text =
-          texts[*std::ranges::partition_point(std::views::iota(first, last), [&](int i) { return film[i].time < e.time; })];
+      std::string& text = texts[first_without(first, last, [&](int i) { return film[i].time < e.time; })];
       text += (text.empty() ? "" : "\n") + event_text(recording, e);
     }
     for (auto& [frame, text] : texts) {
