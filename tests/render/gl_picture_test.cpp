@@ -49,17 +49,6 @@ Image draw_with(Renderer& renderer, const DrawList& list) {
   return out;
 }
 
-// beside the road and above it nothing but plain ground: no marking is near
-DrawList plain(const View& view) {
-  DrawList list;
-  list.view = view;
-  list.road.road = true;
-  list.road.width = 400;
-  list.road.lanes = 1;
-  list.sky.haze = 0;
-  return list;
-}
-
 TEST(Silhouette, OfABallHasTheWidthAndPlaceOfItsTangentCone) {
   // seen from the middle of its height, a ball of radius r at lateral offset x and depth d: its horizontal section is a circle,
   // whose tangents from the eye make the angles atan(x / d) +- asin(r / sqrt(x^2 + d^2))

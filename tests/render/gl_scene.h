@@ -40,4 +40,15 @@ inline EllipsoidItem ball(const Float3& at, double radius) {
   return item;
 }
 
+/// Nothing but plain ground beside the road and above it: no marking is near.
+inline DrawList plain(const View& view) {
+  DrawList list;
+  list.view = view;
+  list.road.road = true;
+  list.road.width = 400;
+  list.road.lanes = 1;
+  list.sky.haze = 0;
+  return list;
+}
+
 }  // namespace render::test

@@ -30,12 +30,7 @@ StripItem mark(const Float3& from, const Float3& to, int pieces) {
 }
 
 Image drawn(const View& view, const std::vector<StripItem>& strips, const std::vector<EllipsoidItem>& balls = {}) {
-  DrawList list;
-  list.view = view;
-  list.road.road = true;
-  list.road.width = 400;
-  list.road.lanes = 1;
-  list.sky.haze = 0;
+  DrawList list = plain(view);
   list.strips = strips;
   list.ellipsoids = balls;
   Renderer renderer(kWidth, kHeight, Quality::standard);
