@@ -65,6 +65,13 @@ struct PairRun {
   std::size_t begin = 0, end = 0;
 };
 
+/// One more pair of these trees, the `at`-th of its list, joins the last run if it is of the same kind.
+inline void add_to_runs(std::vector<PairRun>& runs, int effect, int tree_a, int tree_b, std::size_t at) {
+  if (runs.empty() || runs.back().effect != effect || runs.back().tree_a != tree_a || runs.back().tree_b != tree_b)
+    runs.push_back({effect, tree_a, tree_b, at, at});
+  runs.back().end = at + 1;
+}
+
 /// Which trees of bodies have anything to do with each other in a step: spheres about them, with the way they can go in it.
 class Nearness {
  public:

@@ -85,12 +85,8 @@ void add_pairs(World& world, std::vector<BodyPair> pairs) {
   world.body_pairs.reserve(world.body_pairs.size() + pairs.size());
   for (const BodyPair& pair : pairs) {
     const auto [tree_a, tree_b] = trees(pair);
-    const auto at = world.body_pairs.size();
-    if (world.body_pair_runs.empty() || world.body_pair_runs.back().effect != pair.effect ||
-        world.body_pair_runs.back().tree_a != tree_a || world.body_pair_runs.back().tree_b != tree_b)
-      world.body_pair_runs.push_back({pair.effect, tree_a, tree_b, at, at});
+    add_to_runs(world.body_pair_runs, pair.effect, tree_a, tree_b, world.body_pairs.size());
     world.body_pairs.push_back(pair);
-    ++world.body_pair_runs.back().end;
   }
 }
 

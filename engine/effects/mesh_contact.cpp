@@ -39,12 +39,8 @@ void begin(World& world, const State&, int self) {
   for (int m = 0; m < static_cast<int>(bodies.size()); ++m)
     for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
       if (can_meet(bodies[b], bodies[m])) {
-        const std::size_t at = world.mesh_pairs.size();
-        std::vector<PairRun>& runs = world.mesh_pair_runs;
-        if (runs.empty() || runs.back().tree_a != tree[b] || runs.back().tree_b != tree[m])
-          runs.push_back({self, tree[b], tree[m], at, at});
+        add_to_runs(world.mesh_pair_runs, self, tree[b], tree[m], world.mesh_pairs.size());
         world.mesh_pairs.push_back({self, b, m, std::get<MeshShape>(bodies[m].shape).mesh.get(), {}});
-        ++runs.back().end;
       }
   for (const MeshPair& pair : world.mesh_pairs) reserve(world.mesh_scratch, *pair.mesh);
 }

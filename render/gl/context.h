@@ -1,5 +1,5 @@
 // An off-screen OpenGL 3.3 core context. OSMesa today; whoever replaces it changes this pair of files. Pictures are drawn by our
-// own kernels (shade/), three times as fast and with the same bytes whatever Mesa is installed; OpenGL is the second method they
+// own kernels (shade/), faster and with the same bytes whatever Mesa is installed; OpenGL is the second method they
 // are held against (tests/snapshots/second_renderer_test.cpp) and the yardstick of the benchmark.
 #pragma once
 
