@@ -18,6 +18,8 @@ struct Builder {
   std::filesystem::path folder;  // of the scene file
   MeshShelf meshes;              // by path: ten cars load one mesh
   MeshShelf* shelf = nullptr;    // of mesh files that other loads have brought in
+  // by surface and tolerance [m], for contact: ten cars coarsen one mesh and touch the same triangles
+  std::map<std::pair<std::shared_ptr<const engine::TriangleMesh>, double>, std::shared_ptr<const engine::TriangleMesh>> coarse;
 
   std::string assets;  // hashes of the library files and meshes read, in order
 

@@ -374,7 +374,9 @@ void read_vehicle(Builder& builder, Reader scene) {
   const double heading = r.number("heading");
   const engine::Pose X_WM = mesh_pose(builder, r, meshes, heading);
   const double tolerance = r.number("mesh_tolerance");
-  body.shape = engine::MeshShape{decimate(meshes.collision->solid, tolerance), X_BM, tolerance};
+  auto& coarse = builder.coarse[{meshes.collision->solid, tolerance}];
+  if (!coarse) coarse = decimate(meshes.collision->solid, tolerance);
+  body.shape = engine::MeshShape{coarse, X_BM, tolerance};
   body.X_WB = {X_WM * cg, X_WM.q.normalized()};
   if (r.has("velocity") && r.has("speed")) r.fail("velocity", "must not be given together with speed");
   body.V_WB.v = r.vector_if("velocity").value_or(r.number("speed") * engine::Vec3(std::cos(heading), std::sin(heading), 0));

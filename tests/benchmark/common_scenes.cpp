@@ -131,13 +131,18 @@ void set_flying(Model& model) {
   }
 }
 
-void add_car(Model& model, int triangles, const Vec3& at) {
-  const Vec3 half(2.0, 0.9, 0.35);
+constexpr double kCarLength = 4.0, kCarWidth = 1.8, kCarHeight = 0.7;  // [m] of the comparison's car
+
+std::shared_ptr<const engine::TriangleMesh> car_mesh(int triangles) {
+  return box_mesh(0.5 * Vec3(kCarLength, kCarWidth, kCarHeight), triangles);
+}
+
+void add_car(Model& model, const std::shared_ptr<const engine::TriangleMesh>& mesh, const Vec3& at) {
   Body body;
   body.name = "car";
   body.mass = 1500;
   body.inertia_B = Vec3::Constant(1e9).asDiagonal();  // the comparison's car moves along x alone
-  body.shape = engine::MeshShape{box_mesh(half, triangles), {}};
+  body.shape = engine::MeshShape{mesh, {}};
   body.X_WB.p = at;
   body.V_WB.v = {11, 0, 0};
   body.surface.friction_body = 0.6;
@@ -222,7 +227,7 @@ Model common_scene(const std::string& name, double step, double shift) {
   }
   if (name == "vehicle") {
     add_figure(model, turned(0, Vec3::UnitX(), 90 * deg, {0, shift + 0.05, 0}));
-    add_car(model, 20000, {-2.6, 0, 0.6});
+    add_car(model, car_mesh(20000), {-2.6, 0, 0.6});
     return model;
   }
   const bool thrown = name == "throw";
@@ -240,11 +245,12 @@ Model common_scene(const std::string& name, double step, double shift) {
 Model crowd(const std::string& what, int count, double step) {
   const double deg = std::numbers::pi / 180;
   Model model = empty(1.0, step);
+  const auto mesh = car_mesh(1000);  // one for all, as a scene has it whose cars name the same file
   for (int k = 0; k < count; ++k) {
     const Vec3 place(0, 5.0 * k, 0);
     if (what == "struck") {
       add_figure(model, turned(0, Vec3::UnitX(), 90 * deg, place + Vec3(0, 0.05, 0)));
-      add_car(model, 1000, place + Vec3(-2.6, 0, 0.6));
+      add_car(model, mesh, place + Vec3(-2.6, 0, 0.6));
       continue;
     }
     add_figure(model, turned((what == "lying" ? 89 : -70) * deg, Vec3::UnitY(), 0.3, place));
@@ -259,7 +265,7 @@ Model crowd(const std::string& what, int count, double step) {
 Model struck_by_mesh(int triangles, double step) {
   Model model = empty(1.0, step);
   add_figure(model, turned(0, Vec3::UnitX(), std::numbers::pi / 2, {0, 0.05, 0}));
-  add_car(model, triangles, {-2.6, 0, 0.6});
+  add_car(model, car_mesh(triangles), {-2.6, 0, 0.6});
   return model;
 }
 

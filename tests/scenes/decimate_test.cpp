@@ -8,6 +8,7 @@
 
 #include "engine/geometry/point_mesh.h"
 #include "scenes/scene.h"
+#include "tests/scenes/scene_file.h"
 
 namespace scenes {
 namespace {
@@ -84,6 +85,16 @@ TEST(Decimate, ThinsOutTheMeshOfAVehicle) {
   EXPECT_EQ(mesh_of(coarse).tolerance, 0.01);
   EXPECT_LT(5 * mesh_of(coarse).mesh->triangles().size(), 4 * mesh_of(full).mesh->triangles().size());
   EXPECT_LE(sampled_distance(*mesh_of(full).mesh, *mesh_of(coarse).mesh), 0.01);
+}
+
+TEST(Decimate, GivesCarsOfOneKindTheSameTriangles) {
+  const auto car = [](const std::string& name, const std::string& tolerance) {
+    return "[[vehicle]]\nname = \"" + name + "\"\nmodel = \"sedan\"\nmesh_tolerance = \"" + tolerance + "\"\n";
+  };
+  const Scene scene = testing::SceneFolder().load(car("first", "10 mm") + car("second", "10 mm") + car("fine", "5 mm"));
+  const auto mesh_of = [&](int body) { return std::get<engine::MeshShape>(scene.model.bodies[body].shape).mesh; };
+  EXPECT_EQ(mesh_of(0), mesh_of(1));
+  EXPECT_NE(mesh_of(0), mesh_of(2));
 }
 
 }  // namespace
