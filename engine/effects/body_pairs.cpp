@@ -1,6 +1,7 @@
 #include "engine/effects/body_pairs.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "engine/geometry/hyper_ellipsoid_pair.h"
@@ -81,9 +82,12 @@ void add_pairs(World& world, std::vector<BodyPair> pairs) {
   const auto trees = [&world](const BodyPair& pair) {
     return std::pair(world.topology.tree_of_body[pair.a], world.topology.tree_of_body[pair.b]);
   };
-  std::stable_sort(pairs.begin(), pairs.end(), [&](const BodyPair& x, const BodyPair& y) { return trees(x) < trees(y); });
+  std::vector<std::size_t> order(pairs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) { return trees(pairs[x]) < trees(pairs[y]); });
   world.body_pairs.reserve(world.body_pairs.size() + pairs.size());
-  for (const BodyPair& pair : pairs) {
+  for (const std::size_t i : order) {
+    const BodyPair& pair = pairs[i];
     const auto [tree_a, tree_b] = trees(pair);
     add_to_runs(world.body_pair_runs, pair.effect, tree_a, tree_b, world.body_pairs.size());
     world.body_pairs.push_back(pair);

@@ -22,7 +22,7 @@ Mat6 inverse_spd(const Mat6& A) {
 
 /// M skew(r), without the products with its zeros.
 template <int N>
-Eigen::Matrix<double, N, 3> times_skew(const Eigen::Matrix<double, N, 3>& M, const Vec3& r) {
+[[gnu::always_inline]] inline Eigen::Matrix<double, N, 3> times_skew(const Eigen::Matrix<double, N, 3>& M, const Vec3& r) {
   Eigen::Matrix<double, N, 3> out;
   out.col(0) = r.z() * M.col(1) - r.y() * M.col(2);
   out.col(1) = r.x() * M.col(2) - r.z() * M.col(0);
@@ -32,7 +32,7 @@ Eigen::Matrix<double, N, 3> times_skew(const Eigen::Matrix<double, N, 3>& M, con
 
 /// skew(r) M.
 template <int N>
-Eigen::Matrix<double, 3, N> skew_times(const Vec3& r, const Eigen::Matrix<double, 3, N>& M) {
+[[gnu::always_inline]] inline Eigen::Matrix<double, 3, N> skew_times(const Vec3& r, const Eigen::Matrix<double, 3, N>& M) {
   Eigen::Matrix<double, 3, N> out;
   out.row(0) = r.y() * M.row(2) - r.z() * M.row(1);
   out.row(1) = r.z() * M.row(0) - r.x() * M.row(2);
@@ -227,7 +227,12 @@ void Articulation::solve(const Topology& topology, int tree, std::vector<Vec6>& 
   for (int l = range.begin; l < range.end; ++l) {
     const Topology::Link& link = topology.links[l];
     const Factor& f = factors_[l];
-    if (bias == Bias::from_rows && link.joint >= 0) {
+    if (bias == Bias::from_rows && f.rows.count == 3) {
+      // a shared point: no turning is asked for
+      const Vec3 c = (link.body_is_joint_child ? -1 : 1) * f.rows.bias.head<3>();
+      a[link.body] << c, Vec3::Zero();
+      force[link.body].noalias() -= H_[link.body].leftCols<3>() * c;
+    } else if (bias == Bias::from_rows && link.joint >= 0) {
       a[link.body] = particular(f.rows, link.body_is_joint_child, link.body_is_joint_child ? f.rows.r_C : f.rows.r_P);
       force[link.body].noalias() -= H_[link.body] * a[link.body];
     } else {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/solver/one_contact.h"
+#include "engine/solver/wide_products.h"
 
 namespace engine {
 namespace {
@@ -43,6 +44,7 @@ void ContactSolver::reserve(std::size_t constraints, std::size_t bodies) {
   Y_.reserve(bodies);
   for (std::vector<double>* list : {&u_, &L_, &u_kept_, &L_kept_, &u_start_, &bound_}) list->reserve(rows);
   for (std::vector<int>* list : {&offset_, &unknown_}) list->reserve(rows);
+  runs_.reserve(rows);
 }
 
 void ContactSolver::assemble(const Topology& topology, const Response& response, const std::vector<Constraint>& all,
@@ -118,11 +120,12 @@ void ContactSolver::soften_dead_centres(const std::vector<Constraint>& all, cons
 }
 
 void ContactSolver::add_to_velocity(int column, int rows, const Vec3& change) {
-  for (int q = 0; q < rows; ++q) {
-    const double d = change[q];
-    if (d == 0) continue;
-    const double* g = G_.data() + static_cast<std::size_t>(column + q) * size_;
-    for (int r = 0; r < size_; ++r) u_[r] += g[r] * d;
+  const auto size = static_cast<std::size_t>(size_);
+  const double* g = G_.data() + static_cast<std::size_t>(column) * size;
+  if (rows == 3) {
+    add_three_columns(g, change.data(), u_.data(), size);
+  } else {  // limits and closed loops
+    for (std::size_t r = 0; r < size; ++r) u_[r] += g[r] * change[0];
   }
 }
 
@@ -234,10 +237,19 @@ bool ContactSolver::factor_linearised(const std::vector<Constraint>& all, const 
   const int n = static_cast<int>(unknown_.size());
   factored_rule_.clear();
   newton_.resize(n);
+  // neighbours among the rows are copied together
+  runs_.clear();
+  for (const int row : unknown_) {
+    if (!runs_.empty() && row == runs_.back().first + runs_.back().length) {
+      ++runs_.back().length;
+    } else {
+      runs_.push_back({row, 1});
+    }
+  }
   for (int m = 0; m < n; ++m) {
     const double* response = G_.data() + static_cast<std::size_t>(unknown_[m]) * static_cast<std::size_t>(size_);
     double* column = newton_.column(m);
-    for (int k = 0; k < n; ++k) column[k] = response[unknown_[k]];
+    for (const Run& run : runs_) column = std::copy_n(response + run.first, run.length, column);
   }
   for (int k = 0; k < n; ++k) {
     const auto [kind, member, r] = rule_[k];

@@ -82,8 +82,12 @@ class ContactSolver {
   std::vector<int> offset_;  // per member
   std::vector<double> G_;    // column-major size_ x size_
   std::vector<double> u_;
-  DenseSystem newton_;              // of the rows that can change
-  std::vector<int> unknown_;        // row of G per unknown
+  DenseSystem newton_;        // of the rows that can change
+  std::vector<int> unknown_;  // row of G per unknown
+  struct Run {
+    int first, length;
+  };
+  std::vector<Run> runs_;           // of neighbours in unknown_
   std::vector<Row> rule_;           // per unknown
   std::vector<Row> factored_rule_;  // of the matrix in newton_
   std::vector<double> L_, u_kept_, L_kept_, u_start_;

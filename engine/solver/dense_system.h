@@ -7,12 +7,12 @@ namespace engine {
 
 class DenseSystem {
  public:
-  void reserve(std::size_t n) { A_.reserve(n * n), b_.reserve(n), pivot_.reserve(n); }
-  /// All zero.
+  void reserve(std::size_t n) { A_.reserve(stride_of(n) * n), b_.reserve(stride_of(n)), pivot_.reserve(n); }
+  /// A and b are to be written whole.
   void resize(int n);
   int size() const { return static_cast<int>(n_); }
-  double& A(int row, int column) { return A_[static_cast<std::size_t>(column) * n_ + static_cast<std::size_t>(row)]; }
-  double* column(int column) { return A_.data() + static_cast<std::size_t>(column) * n_; }
+  double& A(int row, int column) { return A_[static_cast<std::size_t>(column) * stride_ + static_cast<std::size_t>(row)]; }
+  double* column(int column) { return A_.data() + static_cast<std::size_t>(column) * stride_; }
   double& b(int row) { return b_[static_cast<std::size_t>(row)]; }
 
   /// Gaussian elimination with partial pivoting; A is used up. False if a pivot vanishes.
@@ -21,7 +21,10 @@ class DenseSystem {
   void solve();
 
  private:
-  std::size_t n_ = 0;
+  /// Columns are filled up with zeros to whole vectors of four.
+  static std::size_t stride_of(std::size_t n) { return (n + 3) / 4 * 4; }
+
+  std::size_t n_ = 0, stride_ = 0;
   std::vector<double> A_;  // column-major
   std::vector<double> b_;
   std::vector<std::size_t> pivot_;  // row that changed places with row k

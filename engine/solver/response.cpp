@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/solver/wide_products.h"
+
 namespace engine {
 
 void Response::reset(const Topology& topology) {
@@ -66,10 +68,8 @@ void Response::compute(const Topology& topology, const Articulation& articulatio
         continue;
       }
       const int p = slot_of_body_[parent];
-      for (int j = 0; j < i; ++j) {
-        W[i * n + j].noalias() = f.X * W[p * n + j];
-        W[j * n + i] = W[i * n + j].transpose();
-      }
+      multiply_by_six(f.X.data(), W[p * n].data(), W[i * n].data(), static_cast<std::size_t>(6 * i));
+      for (int j = 0; j < i; ++j) W[j * n + i] = W[i * n + j].transpose();
       own.noalias() += W[i * n + p] * f.X.transpose();
     }
   }

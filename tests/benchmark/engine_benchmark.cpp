@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -144,18 +145,30 @@ void ensemble() {
   std::printf("\n\n");
 }
 
+/// One person fifty times is as much work as fifty at once; of each the quickest of some rounds, as other work only ever adds.
 void persons() {
+  constexpr int kMost = 50, kRounds = 5;
+  constexpr int kCounts[] = {1, 2, 5, 20, kMost};
   std::printf("Cost of a step against the number of persons [microseconds a person]\n%-8s", "");
-  for (const int count : {1, 2, 5, 20, 50}) std::printf(" %7d", count);
-  std::printf("\n");
+  for (const int count : kCounts) std::printf(" %7d", count);
+  std::printf("   largest over smallest\n");
   for (const std::string what : {"lying", "thrown", "struck"}) {
+    double costs[std::size(kCounts)];
+    std::fill(std::begin(costs), std::end(costs), std::numeric_limits<double>::infinity());
+    for (int round = 0; round < kRounds; ++round)
+      for (std::size_t i = 0; i < std::size(kCounts); ++i) {
+        const Model model = benchmark::crowd(what, kCounts[i], 1e-3);
+        const double start = now();
+        double steps = 0;
+        for (int done = 0; done < kMost; done += kCounts[i])
+          steps += kCounts[i] * static_cast<double>(engine::simulate(model).steps);
+        costs[i] = std::min(costs[i], 1e6 * (now() - start) / steps);
+      }
     std::printf("%-8s", what.c_str());
-    for (const int count : {1, 2, 5, 20, 50}) {
-      const Timed t = timed(benchmark::crowd(what, count, 1e-3), count > 5 ? 1 : 3);
-      std::printf(" %7.1f", 1e6 * t.wall_s / static_cast<double>(t.run.steps) / count);
-      std::fflush(stdout);
-    }
-    std::printf("\n");
+    for (const double cost : costs) std::printf(" %7.1f", cost);
+    const auto [least, most] = std::minmax_element(std::begin(costs), std::end(costs));
+    std::printf("   %.2f\n", *most / *least);
+    std::fflush(stdout);
   }
   std::printf("\n");
 }
