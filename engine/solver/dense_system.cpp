@@ -9,11 +9,11 @@ namespace engine {
 void DenseSystem::resize(int n) {
   n_ = static_cast<std::size_t>(n);
   stride_ = stride_of(n_);
-  A_.resize(stride_ * n_);
-  b_.resize(stride_);
-  pivot_.resize(n_);
+  if (A_.size() < stride_ * n_) A_.resize(stride_ * n_);  // never smaller: growing again would write zeros for nothing
+  if (b_.size() < stride_) b_.resize(stride_);
+  if (pivot_.size() < n_) pivot_.resize(n_);
   for (std::size_t c = 0; c < n_; ++c) std::fill(A_.data() + c * stride_ + n_, A_.data() + (c + 1) * stride_, 0.0);
-  std::fill(b_.begin() + static_cast<std::ptrdiff_t>(n_), b_.end(), 0.0);
+  std::fill(b_.data() + n_, b_.data() + stride_, 0.0);
 }
 
 namespace {

@@ -48,6 +48,10 @@ Timed timed(const Model& model, int repetitions) {
   return out;
 }
 
+Model pedestrian_case() {
+  return scenes::load(scenes::home_folder() / "scenes/cases/sedan_pedestrian_40kmh.toml").model;
+}
+
 engine::Vec3 centre_of_figure(const Model& model, const Recording& run) {
   engine::Vec3 sum = engine::Vec3::Zero();
   double mass = 0;
@@ -103,21 +107,30 @@ struct Spread {
   double mean, deviation;  // [m]
 };
 
-/// Where the figure ends, along x, over so many starts from 0 to 19 micrometres aside; `change` is made to each.
-template <class Change>
-Spread spread(const std::string& scene, double step, int starts, const Change& change) {
+/// Where the first person ends, along x, over so many starts; start(shift) is the model of one from 0 to 19 micrometres aside.
+template <class Start>
+Spread spread_of(int starts, const Start& start) {
   double sum = 0, squares = 0;
   for (int k = 0; k < starts; ++k) {
-    Model model = benchmark::common_scene(scene, step, 19e-6 * k / (starts - 1));
-    for (engine::Joint& joint : model.joints)
-      for (engine::ArticulationAngle& angle : joint.angles) angle.damping = 0.1;
-    change(model);
+    const Model model = start(19e-6 * k / (starts - 1));
     const double x = centre_of_figure(model, engine::simulate(model)).x();
     sum += x;
     squares += x * x;
   }
   const double mean = sum / starts;
   return {mean, std::sqrt(std::max(0.0, squares / starts - mean * mean))};
+}
+
+/// Of a common scene with joints damped as in the comparison; `change` is made to each start.
+template <class Change>
+Spread spread(const std::string& scene, double step, int starts, const Change& change) {
+  return spread_of(starts, [&](double shift) {
+    Model model = benchmark::common_scene(scene, step, shift);
+    for (engine::Joint& joint : model.joints)
+      for (engine::ArticulationAngle& angle : joint.angles) angle.damping = 0.1;
+    change(model);
+    return model;
+  });
 }
 
 void ensemble() {
@@ -134,15 +147,35 @@ void ensemble() {
   std::printf("vehicle, solver tolerance 1e-8 m/s: %.2f mm\n", 1e3 * spread("vehicle", 1e-3, 20, tight).deviation);
   const auto apart = [](Model& m) { m.settings.effects["self_contact"] = engine::Force::off; };
   std::printf("vehicle, no contact between the figure's own parts: %.2f mm\n", 1e3 * spread("vehicle", 1e-3, 20, apart).deviation);
-  std::printf("vehicle at other speeds, five starts:");
-  for (const double speed : {8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0}) {
-    const auto at_speed = [speed](Model& m) {
-      for (engine::Body& body : m.bodies)
-        if (body.vehicle >= 0) body.V_WB.v.x() = speed;
+  const auto damped = [](double damping) {
+    return [damping](Model& m) {
+      for (engine::Joint& joint : m.joints)
+        for (engine::ArticulationAngle& angle : joint.angles) angle.damping = damping;
     };
-    std::printf(" %g m/s %.0f mm", speed, 1e3 * spread("vehicle", 1e-3, 5, at_speed).deviation);
+  };
+  for (const double damping : {0.5, 2.0})
+    std::printf("vehicle, joints damped by %g N m s/rad: %.2f mm\n", damping,
+                1e3 * spread("vehicle", 1e-3, 20, damped(damping)).deviation);
+  for (const double damping : {0.1, 2.0}) {
+    std::printf("vehicle at other speeds, joints damped by %g N m s/rad, five starts:", damping);
+    for (const double speed : {8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0}) {
+      const auto at_speed = [&](Model& m) {
+        damped(damping)(m);
+        for (engine::Body& body : m.bodies)
+          if (body.vehicle >= 0) body.V_WB.v.x() = speed;
+      };
+      std::printf(" %g m/s %.1f mm", speed, 1e3 * spread("vehicle", 1e-3, 5, at_speed).deviation);
+    }
+    std::printf("\n");
   }
-  std::printf("\n\n");
+  const Model pedestrian = pedestrian_case();
+  const Spread s = spread_of(20, [&](double shift) {
+    Model model = pedestrian;
+    for (const int b : model.persons.front().bodies) model.bodies[b].X_WB.p.y() += shift;
+    return model;
+  });
+  std::printf("sedan_pedestrian_40kmh: mean %.4f m, standard deviation %.2f mm\n", s.mean, 1e3 * s.deviation);
+  std::printf("\n");
 }
 
 /// One person fifty times is as much work as fifty at once; of each the quickest of some rounds, as other work only ever adds.
@@ -199,7 +232,7 @@ void plan() {
   waiting.bodies.pop_back();  // the car
   waiting.vehicles.clear();
   const Model contact = benchmark::common_scene("vehicle", 1e-3);
-  const Model flagship = scenes::load(scenes::home_folder() / "scenes/cases/sedan_pedestrian_40kmh.toml").model;
+  const Model flagship = pedestrian_case();
   auto cost = [](const Timed& t) { return 1e6 * t.wall_s / static_cast<double>(t.run.steps); };
   const double one = cost(timed(ball, 9)), idle = cost(timed(waiting, 9)), full = cost(timed(contact, 5));
   const double whole = cost(timed(flagship, 5));
