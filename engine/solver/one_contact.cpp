@@ -39,6 +39,17 @@ Eigen::Vector2d slip_impulse(const Eigen::Matrix2d& S, const Eigen::Vector2d& q,
   return t;
 }
 
+/// Tangential impulse no larger than `bound` that stops the slip, or opposes what is left of it; `u` is the slip with `old`.
+Eigen::Vector2d bounded_tangents(const Eigen::Matrix2d& S, const Eigen::Vector2d& u, const Eigen::Vector2d& old, double bound) {
+  const Eigen::Vector2d q = u - S * old;
+  const Eigen::Vector2d stop = -S.inverse() * q;
+  if (stop.norm() <= bound) return stop;
+  if (!(bound > 0)) return Eigen::Vector2d::Zero();
+  const double last = old.norm();
+  return slip_impulse(S, q, last > 0 ? u.norm() / last : S.trace(),
+                      [&](const auto&, const auto&) { return std::pair(bound, 0.0); });
+}
+
 }  // namespace
 
 Eigen::Vector2d shortened(const Eigen::Vector2d& t, double most) {
@@ -50,32 +61,25 @@ Vec3 solve_wheel(const Mat3& A, const Vec3& u, const Vec3& old, const Constraint
   // normal first, then the ground plane: rolling direction bounded by brake and engine, both by the friction circle
   const double normal = std::max(0.0, old[0] + (c.target - u[0] - c.softness * old[0]) / (A(0, 0) + c.softness));
   const Vec3 u1 = u + A.col(0) * (normal - old[0]);
-  double x = 0, y = 0;
-  bool rolls = false;
-  auto hold = [&](double soft) {
-    const double a22 = A(2, 2) + soft, v = u1[2] + soft * old[2];
-    const double det = A(1, 1) * a22 - A(1, 2) * A(2, 1);
-    x = old[1] - (a22 * u1[1] - A(1, 2) * v) / det;
-    y = old[2] - (A(1, 1) * v - A(2, 1) * u1[1]) / det;
-    rolls = std::abs(x - c.rolling_drive) > c.rolling_bound;
-    if (!rolls) return;
-    x = c.rolling_drive + std::copysign(c.rolling_bound, x - c.rolling_drive);
-    y = old[2] - (v + A(2, 1) * (x - old[1])) / a22;
-  };
-  hold(c.grip_softness);
   const double most = c.friction * normal;
-  // a locked wheel slides like a block: it has no slip angle
-  if (!rolls && c.grip_softness > 0 && length_of(x, y) > most) hold(0);
-  const double length = length_of(x, y);
-  if (length > most && rolls && std::abs(x) < most) {
-    // brake and engine have their share first: a rolling wheel keeps turning, what grip is left holds sideways
-    y = std::copysign(std::sqrt(most * most - x * x), y);
-  } else if (length > most) {
-    const double scale = most / length;
-    x *= scale;
-    y *= scale;
-  }
-  return {normal, x, y};
+  const double soft = c.grip_softness;
+  const auto brake_holds = [&](double x) { return std::abs(x - c.rolling_drive) <= c.rolling_bound; };
+  // the tyre grips: the impulse that stops its contact, but for the slip angle
+  const double a22 = A(2, 2) + soft, v = u1[2] + soft * old[2];
+  const double det = A(1, 1) * a22 - A(1, 2) * A(2, 1);
+  const Eigen::Vector2d grip(old[1] - (a22 * u1[1] - A(1, 2) * v) / det, old[2] - (A(1, 1) * v - A(2, 1) * u1[1]) / det);
+  if (brake_holds(grip[0]) && grip.norm() <= most) return {normal, grip[0], grip[1]};
+  // a locked wheel slides like a block, against its slip; it has no slip angle. Locked it is as long as the brake bears what of
+  // that lies along the wheel: a car that slides sideways with its brakes on is slowed sideways
+  const Eigen::Vector2d block = bounded_tangents(A.bottomRightCorner<2, 2>(), u1.tail<2>(), old.tail<2>(), most);
+  if (brake_holds(block[0])) return {normal, block[0], block[1]};
+  // it turns: brake and engine have their share first, what grip is left holds sideways
+  const double x = c.rolling_drive + std::copysign(c.rolling_bound, grip[0] - c.rolling_drive);
+  const double y = old[2] - (u1[2] + soft * old[2] + A(2, 1) * (x - old[1])) / (A(2, 2) + soft);
+  if (length_of(x, y) <= most) return {normal, x, y};
+  if (std::abs(x) < most) return {normal, x, std::copysign(std::sqrt(most * most - x * x), y)};
+  const double scale = most / length_of(x, y);
+  return {normal, scale * x, scale * y};
 }
 
 double natural_residual(const Constraint& c, const Vec3& u, const Mat3& A, double bound) {
@@ -135,16 +139,8 @@ Vec3 solve_one_contact(const Mat3& A, const Vec3& b, double target, double mu, c
 Vec3 solve_bounded_contact(const Mat3& A, const Vec3& u, double target, double softness, double bound, const Vec3& old) {
   Vec3 next = old;
   next[0] = std::max(0.0, old[0] + (target - u[0] - softness * old[0]) / (A(0, 0) + softness));
-  const Eigen::Matrix2d S = A.bottomRightCorner<2, 2>();
-  const Eigen::Vector2d q = u.tail<2>() + A.block<2, 1>(1, 0) * (next[0] - old[0]) - S * old.tail<2>();
-  Eigen::Vector2d t = -S.inverse() * q;
-  if (t.norm() > bound) {
-    const double last = old.tail<2>().norm();
-    t = bound > 0 ? slip_impulse(S, q, last > 0 ? u.tail<2>().norm() / last : S.trace(),
-                                 [&](const auto&, const auto&) { return std::pair(bound, 0.0); })
-                  : Eigen::Vector2d::Zero();
-  }
-  next.tail<2>() = t;
+  next.tail<2>() =
+      bounded_tangents(A.bottomRightCorner<2, 2>(), u.tail<2>() + A.block<2, 1>(1, 0) * (next[0] - old[0]), old.tail<2>(), bound);
   return next;
 }
 

@@ -237,6 +237,28 @@ TEST(Braking, ByTheLoadsReachesTheLimitOfAllWheelsTogetherWhateverTheCar) {
   }
 }
 
+TEST(Braking, OfACarThatSlidesAskewIsWhatOpposesItsWay) {
+  // A wheel is locked while the brake bears what lies along it of the friction that opposes the slip; a weaker brake gives what it
+  // can, and the rest of the friction circle acts sideways. The two meet where the brake is just strong enough.
+  const double mu = 0.76;
+  for (const double askew : {45 * kDegree, 88 * kDegree})
+    for (const double brake : {0.3, 0.9, 0.999, 1.0, 1.001, 1.5}) {  // of the friction of all wheels
+      Model model = on_ground(0.4);
+      add_reference_car(model, 0, 0);
+      model.bodies[0].V_WB.v = 15 * Vec3(std::cos(askew), std::sin(askew), 0);
+      for (Wheel& wheel : model.vehicles[0].wheels) wheel.friction = mu;
+      model.vehicles[0].brake_balance = BrakeBalance::loads;
+      model.vehicles[0].sequence = {braking(0, brake * mu * 1495.95 * kGravity)};
+      const Recording run = simulate(model);
+      const Vec3 lost = (run.at(0.1).bodies[0].V_WB.v - run.at(0.4).bodies[0].V_WB.v) / (0.3 * mu * kGravity);
+      const double along = std::min(brake, std::cos(askew));
+      // it begins to roll and to turn a little, which moves a few per cent from one direction to the other
+      EXPECT_NEAR(lost.x(), along, 0.04) << askew << " " << brake;
+      EXPECT_NEAR(lost.y(), std::sqrt(1 - along * along), 0.04) << askew << " " << brake;
+      EXPECT_LE(run.diagnostics.max_solver_residual, 1e-5) << askew << " " << brake;
+    }
+}
+
 TEST(Braking, MovesLoadToTheFrontAxle) {
   Model model = on_ground(3);
   add_reference_car(model, 0, 30);
