@@ -42,7 +42,7 @@ void ContactSolver::reserve(std::size_t constraints, std::size_t bodies) {
   for (std::vector<Row>* list : {&rule_, &factored_rule_}) list->reserve(rows);
   L_start_.reserve(constraints);
   Y_.reserve(bodies);
-  for (std::vector<double>* list : {&u_, &L_, &u_kept_, &L_kept_, &u_start_, &bound_}) list->reserve(rows);
+  for (std::vector<double>* list : {&u_, &L_, &u_kept_, &L_kept_, &u_start_, &bound_, &softened_}) list->reserve(rows);
   for (std::vector<int>* list : {&offset_, &unknown_}) list->reserve(rows);
   runs_.reserve(rows);
 }
@@ -103,6 +103,7 @@ void ContactSolver::assemble(const Topology& topology, const Response& response,
 /// a second would ask for the impulse of a crash. Such a contact yields a little: it answers no stiffer than a stated multiple of
 /// its bodies' mass. Contacts that are not at a dead centre are not touched.
 void ContactSolver::soften_dead_centres(const std::vector<Constraint>& all, const std::vector<int>& members) {
+  softened_.assign(members.size(), 0.0);
   for (int i = 0; i < static_cast<int>(members.size()); ++i) {
     const Constraint& c = all[members[i]];
     if (c.kind != ConstraintKind::contact) continue;
@@ -114,8 +115,8 @@ void ContactSolver::soften_dead_centres(const std::vector<Constraint>& all, cons
     // not the closed form of the roots: it is good to 1e-8 of the largest, which would come back as noise in the impulse
     const double smallest = Eigen::SelfAdjointEigenSolver<Mat3>(A, Eigen::EigenvaluesOnly).eigenvalues()[0];
     if (smallest >= least) continue;
-    for (int r = 0; r < 3; ++r)
-      G_[static_cast<std::size_t>(offset_[i] + r) * static_cast<std::size_t>(size_ + 1)] += least - smallest;
+    softened_[i] = least - smallest;
+    for (int r = 0; r < 3; ++r) G_[static_cast<std::size_t>(offset_[i] + r) * static_cast<std::size_t>(size_ + 1)] += softened_[i];
   }
 }
 
@@ -456,7 +457,10 @@ SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector
     for (int i = 0; i < count; ++i) all[members[i]].impulse = L_start_[i];
     follow_bounds(all, members, tolerance, report);
   }
-  for (int i = 0; i < count; ++i) all[members[i]].u_after = velocity(i, all[members[i]].rows);
+  for (int i = 0; i < count; ++i) {
+    Constraint& c = all[members[i]];
+    c.u_after = velocity(i, c.rows) - softened_[i] * c.impulse;  // what the bodies do, as the books have it
+  }
   return report;
 }
 

@@ -76,8 +76,9 @@ class ContactSolver {
   Slip slipping(const Constraint&, int member) const;
 
   double regular_ = 0;
-  bool bounded_ = false;       // friction bounds are held at bound_
-  std::vector<double> bound_;  // [N s] per member
+  bool bounded_ = false;          // friction bounds are held at bound_
+  std::vector<double> bound_;     // [N s] per member
+  std::vector<double> softened_;  // [1/kg] per member: by which it answers more than its bodies do
   int size_ = 0;
   std::vector<int> offset_;  // per member
   std::vector<double> G_;    // column-major size_ x size_
