@@ -1,8 +1,10 @@
 #include "render/text/fonts.h"
 
 #include <cairo/cairo.h>
+#include <fontconfig/fontconfig.h>
 #include <pango/pangocairo.h>
 
+#include <new>
 #include <string>
 
 #include "render/error.h"
@@ -10,7 +12,15 @@
 namespace render {
 namespace {
 
+/// Pango has fontconfig load its lists in a thread of its own, which tries again for ever where memory does not suffice. Here it is
+/// tried once.
+void load_font_lists() {
+  FcConfig* lists = FcInitLoadConfigAndFonts();
+  if (!lists || !FcConfigSetCurrent(lists)) throw std::bad_alloc();
+}
+
 bool letters_can_be_drawn() {
+  load_font_lists();
   cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
   cairo_t* cairo = cairo_create(surface);
   PangoLayout* layout = pango_cairo_create_layout(cairo);
