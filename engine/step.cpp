@@ -83,14 +83,8 @@ void Stepper::reserve(const World& world) {
 
 /// What stands inside something else before anything has moved.
 void Stepper::warn_of_overlaps(World& world) const {
-  constexpr double kTold = 1e-3;  // [m]
-  for (const Constraint& c : contacts_) {
-    if (c.kind != ConstraintKind::contact || c.gap > -kTold || is_compliant(c)) continue;
-    auto name = [&](int body) { return body >= 0 ? world.model.bodies[body].name : std::string("the ground"); };
-    world.diagnostics.warnings.push_back(name(c.record_a) + " and " + name(c.record_b) + " overlap by " +
-                                         std::to_string(std::lround(-c.gap * 1e3)) +
-                                         " mm at the start; they are moved apart gently");
-  }
+  for (const Constraint& c : contacts_)
+    if (c.kind == ConstraintKind::contact && !is_compliant(c)) warn_of_overlap(world, c.record_a, c.record_b, c.gap);
 }
 
 void Stepper::choose_trees(World& world, const State& state) {

@@ -49,6 +49,7 @@ class Stepper {
   void keep_impulses(const World&, State&) const;
   void apply(World&, double h);
   void book(World&);
+  void note_turning(World&, Vec3 Resistance::*when) const;
   void apply_resistance(World&, double h);
   double resistance_work(const World&, int joint, double h) const;
   void book_resistance(World&, double h);

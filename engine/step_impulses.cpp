@@ -55,7 +55,9 @@ bool Stepper::exchange_over_step(World& world, State& state, double h, double& r
     set_targets(world, h);
     residual = solve_islands(world, state, h);
     apply(world, h);
-    if (!world.any_damper || pass == kMostPasses || !friction_gave_way(world)) return true;
+    if (!world.any_damper) return true;
+    note_turning(world, &Resistance::w_after);
+    if (pass == kMostPasses || !friction_gave_way(world)) return true;
     X_ = X_smooth_;
     V_ = V_smooth_;
   }
@@ -90,8 +92,21 @@ void Stepper::prepare_resistance(World& world, const State& state, double h) {
   call(world, &Effect::resist, state);
 }
 
+/// How fast the joints that resist turn now.
+void Stepper::note_turning(World& world, Vec3 Resistance::*when) const {
+  for (const int tree : world.active_trees)
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      const int j = world.topology.links[l].joint;
+      if (j < 0 || !world.dampers[j].present) continue;
+      const Joint& joint = world.model.joints[j];
+      const Vec3 w_P = joint.parent < 0 ? Vec3(Vec3::Zero()) : V_[joint.parent].w;
+      world.resistances[j].*when = V_[joint.child].w - w_P;
+    }
+}
+
 /// Springs, dampers and dry friction of the joints, linearly implicit: their work goes to the books at once.
 void Stepper::apply_resistance(World& world, double h) {
+  note_turning(world, &Resistance::w_before);
   const Topology& topology = world.topology;
   for (const int tree : world.active_trees) {
     const Topology::Tree& range = topology.trees[tree];
@@ -100,10 +115,7 @@ void Stepper::apply_resistance(World& world, double h) {
       const int j = topology.links[l].joint;
       if (j < 0 || !world.dampers[j].present) continue;
       const Joint& joint = world.model.joints[j];
-      Vec3 w_PC = V_[joint.child].w;
-      if (joint.parent >= 0) w_PC -= V_[joint.parent].w;
-      world.resistances[j].w_PC = w_PC;
-      const Vec3 twist = world.resistances[j].torque_W * h - world.dampers[j].matrix * w_PC;
+      const Vec3 twist = world.resistances[j].torque_W * h - world.dampers[j].matrix * world.resistances[j].w_before;
       force_[joint.child].tail<3>() += twist;
       if (joint.parent >= 0) force_[joint.parent].tail<3>() -= twist;
     }
@@ -340,12 +352,9 @@ void Stepper::book(World& world) {
 
 /// Work [J] of a joint's resistance over the step on the two bodies it joins, once the velocities at its end are known.
 double Stepper::resistance_work(const World& world, int j, double h) const {
-  const Joint& joint = world.model.joints[j];
   const Resistance& resistance = world.resistances[j];
-  Vec3 w_PC = V_[joint.child].w;
-  if (joint.parent >= 0) w_PC -= V_[joint.parent].w;
-  const Vec3 twist = resistance.torque_W * h - world.dampers[j].matrix * w_PC;
-  return 0.5 * twist.dot(w_PC + resistance.w_PC);
+  const Vec3 twist = resistance.torque_W * h - world.dampers[j].matrix * resistance.w_after;
+  return 0.5 * twist.dot(resistance.w_before + resistance.w_after);
 }
 
 void Stepper::book_resistance(World& world, double h) {

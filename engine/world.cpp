@@ -86,6 +86,14 @@ double pair_margin(const World& world, const State& state, int a, int b) {
   return kSpare + world.step * ((state.V_WB[a].v - state.V_WB[b].v).norm() + turning + g * world.step);
 }
 
+void warn_of_overlap(World& world, int a, int b, double gap) {
+  constexpr double kTold = 1e-3;  // [m]
+  if (gap > -kTold) return;
+  auto name = [&](int body) { return body >= 0 ? world.model.bodies[body].name : std::string("the ground"); };
+  world.diagnostics.warnings.push_back(name(a) + " and " + name(b) + " overlap by " + std::to_string(std::lround(-gap * 1e3)) +
+                                       " mm at the start; they are moved apart gently");
+}
+
 void add_contact(World& world, const State& state, const SurfaceContact& touch, int a, int b, int effect, ContactKind kind,
                  double friction, double restitution) {
   Constraint c;

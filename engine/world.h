@@ -26,16 +26,18 @@ namespace engine {
 /// What is known of the distance between two bodies: at least `least` when the second stood at `X` in the frame of the first.
 /// Spares a pair its narrow phase for as long as it cannot matter; a bound, not a guess.
 struct Clearance {
-  double least = 0;  // [m]
+  double least = -std::numeric_limits<double>::infinity();  // [m] not known yet; negative: as deep as they met
   Pose X;
 
   /// Farther apart than `margin` still, wherever the second body has gone since? Its points lie within `reach` of its centre [m].
-  bool beyond(double margin, const Pose& X_now, double reach) const {
-    if (least <= margin) return false;
+  bool beyond(double margin, const Pose& X_now, double reach) const { return least > margin && by_now(X_now, reach) > margin; }
+
+  /// The least distance [m] they can have now that the second body stands at X_now.
+  double by_now(const Pose& X_now, double reach) const {
     // |dq| = 2 sin(angle/4), so 2 |dq| bounds the chord 2 sin(angle/2) of a point at distance one
     const double dq =
         std::sqrt(std::min((X_now.q.coeffs() - X.q.coeffs()).squaredNorm(), (X_now.q.coeffs() + X.q.coeffs()).squaredNorm()));
-    return least - (X_now.p - X.p).norm() - 2 * dq * reach > margin;
+    return least - (X_now.p - X.p).norm() - 2 * dq * reach;
   }
 };
 
@@ -135,7 +137,8 @@ struct Sleep {
 /// What a joint's resistance does over one step.
 struct Resistance {
   Vec3 torque_W = Vec3::Zero();  // [N m] on the child at the start of the step, for springs
-  Vec3 w_PC = Vec3::Zero();      // [rad/s] relative angular velocity under smooth forces alone
+  Vec3 w_before = Vec3::Zero();  // [rad/s] relative angular velocity under smooth forces alone
+  Vec3 w_after = Vec3::Zero();   // [rad/s] with all impulses, before what they displaced turns the joint's axes
   Mat3 axes_W = Mat3::Zero();    // of the articulation angles, columns
   // of dry friction, per articulation angle
   Vec3 rate = Vec3::Zero();       // [rad/s] at the start of the step
@@ -212,6 +215,9 @@ double contact_margin(const World&, const State&, int body);
 
 /// The same between two bodies, from their relative motion.
 double pair_margin(const World&, const State&, int a, int b);
+
+/// Told of what stands inside something else before anything has moved: two bodies (-1: the ground) and their gap [m].
+void warn_of_overlap(World&, int a, int b, double gap);
 
 /// Appends a contact of body `a` with `b` (-1: the ground), rows and all. `b` may be a fixed body.
 void add_contact(World&, const State&, const SurfaceContact&, int a, int b, int effect, ContactKind, double friction,

@@ -56,8 +56,8 @@ void find_contacts_of(World& world, const State& state, const PairRun& run, Cont
     const double margin = pair_margin(world, state, pair.body, pair.mesh_body);
     const Pose X_MA = X_WM.inverse() * state.X_WB[pair.body];
     if (pair.clearance.beyond(margin, X_MA, world.reach[pair.body])) continue;
-    contacts_with_mesh(std::get<HyperEllipsoid>(round.shape), state.X_WB[pair.body], *pair.mesh, X_WM, margin, world.mesh_scratch,
-                       touches);
+    contacts_with_mesh(std::get<HyperEllipsoid>(round.shape), state.X_WB[pair.body], *pair.mesh, X_WM, margin,
+                       pair.clearance.by_now(X_MA, world.reach[pair.body]), world.mesh_scratch, touches);
     pair.clearance = {world.mesh_scratch.apart, X_MA};
     const double mu = std::min(round.surface.friction_body.at(state.time), mesh.surface.friction_body.at(state.time));
     const double e = std::max(round.surface.restitution_body.at(state.time), mesh.surface.restitution_body.at(state.time));

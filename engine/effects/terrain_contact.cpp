@@ -34,7 +34,8 @@ void find(World& world, const State& state, int self) {
     const auto& shape = std::get<HyperEllipsoid>(body.shape);
     const double margin = contact_margin(world, state, pair.body);
     if (pair.clearance.beyond(margin, state.X_WB[pair.body], world.reach[pair.body])) continue;
-    contacts_with_mesh(shape, state.X_WB[pair.body], *pair.mesh, Pose{}, margin, world.mesh_scratch, touches);
+    contacts_with_mesh(shape, state.X_WB[pair.body], *pair.mesh, Pose{}, margin,
+                       pair.clearance.by_now(state.X_WB[pair.body], world.reach[pair.body]), world.mesh_scratch, touches);
     pair.clearance = {world.mesh_scratch.apart, state.X_WB[pair.body]};
     const Ground& ground = world.model.ground;
     const double t = state.time;

@@ -59,16 +59,23 @@ void watch_mounts(World& world, State& state) {
 void before_step(World& world, State& state, int) {
   if (std::all_of(state.released.begin(), state.released.end(), [](char r) { return r != 0; })) return;
   watch_mounts(world, state);
+  const bool rigid = world.model.settings.contact_law != ContactLaw::compliant;
   ContactPoints found;
   for (MeshPair& pair : world.mesh_pairs) {
     if (pair.mesh_body < 0 || !waits(world, state, pair.body)) continue;
     if (world.model.bodies[pair.mesh_body].person == world.model.bodies[pair.body].person) continue;  // what it rides
     const auto& mesh = std::get<MeshShape>(world.model.bodies[pair.mesh_body].shape);
-    contacts_with_mesh(std::get<HyperEllipsoid>(world.model.bodies[pair.body].shape), state.X_WB[pair.body], *pair.mesh,
-                       state.X_WB[pair.mesh_body] * mesh.X_BM, pair_margin(world, state, pair.body, pair.mesh_body),
-                       world.mesh_scratch, found);
+    const Pose X_WM = state.X_WB[pair.mesh_body] * mesh.X_BM;
+    const Pose X_MA = X_WM.inverse() * state.X_WB[pair.body];
+    const double margin = pair_margin(world, state, pair.body, pair.mesh_body), reach = world.reach[pair.body];
+    if (pair.clearance.beyond(margin, X_MA, reach)) continue;
+    contacts_with_mesh(std::get<HyperEllipsoid>(world.model.bodies[pair.body].shape), state.X_WB[pair.body], *pair.mesh, X_WM,
+                       margin, pair.clearance.by_now(X_MA, reach), world.mesh_scratch, found);
+    pair.clearance = {world.mesh_scratch.apart, X_MA};
     for (const SurfaceContact& touch : found)
       if (touches(world, state, touch, pair.body, pair.mesh_body)) release(world, state, pair.body, pair.mesh_body, touch.p_a);
+    if (state.time == 0 && rigid && waits(world, state, pair.body))
+      for (const SurfaceContact& touch : found) warn_of_overlap(world, pair.body, pair.mesh_body, touch.gap);
   }
   for (BodyPair& pair : world.body_pairs) {
     if (world.model.bodies[pair.a].person >= 0 && world.model.bodies[pair.a].person == world.model.bodies[pair.b].person) continue;
@@ -78,7 +85,11 @@ void before_step(World& world, State& state, int) {
     const auto touch =
         contact_of_pair(std::get<HyperEllipsoid>(world.model.bodies[pair.a].shape), state.X_WB[pair.a],
                         std::get<HyperEllipsoid>(world.model.bodies[pair.b].shape), state.X_WB[pair.b], margin, pair.normal_W);
-    if (!touch || !touches(world, state, *touch, pair.a, pair.b)) continue;
+    if (!touch) continue;
+    if (!touches(world, state, *touch, pair.a, pair.b)) {
+      if (state.time == 0 && rigid) warn_of_overlap(world, pair.a, pair.b, touch->gap);
+      continue;
+    }
     if (waits(world, state, pair.a)) release(world, state, pair.a, pair.b, touch->p_a);
     if (waits(world, state, pair.b)) release(world, state, pair.b, pair.a, touch->p_b);
   }

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kLookAhead = 0.15;  // [m] how far beyond the margin a free neighbourhood is told
 
+constexpr double kPassed = 0.25;       // [-] of the body: farther through it is not this side that is met
 constexpr double kBorder = 1e-6;       // [-] barycentric tolerance: on the border counts as inside
 constexpr double kCluster = 0.985;     // [-] cosine of 10 degrees
 constexpr int kKeep = 4;               // contacts of one body with one mesh; one more where a flat side's deepest point counts
@@ -27,6 +28,7 @@ struct Scene {
   Pose X_MA;  // body in the mesh frame
   const TriangleMesh& mesh;
   double margin;
+  double least;                           // [m] smallest gap that can be of this side
   std::vector<SurfaceContact>& out;       // in the mesh frame
   SmallVector<Vec3, 5> last_points = {};  // [m] mesh frame
   Vec3 last_normal = Vec3::Zero();
@@ -60,7 +62,7 @@ void touch_face(Scene& s, int triangle) {
   std::uint32_t rank = kDeepest;  // first, then the corners
   for (const Vec3& p : s.points_against(n)) {
     const double gap = n.dot(p) - offset;
-    if (gap < s.margin && inside(s.mesh, triangle, p - gap * n)) s.out.push_back({p, p - gap * n, n, gap, rank});
+    if (gap < s.margin && gap >= s.least && inside(s.mesh, triangle, p - gap * n)) s.out.push_back({p, p - gap * n, n, gap, rank});
     rank = rank == kDeepest ? 1 : rank + 1;
   }
 }
@@ -75,7 +77,7 @@ bool point_contact(const Scene& s, const Vec3& p, SurfaceContact& c) {
   c.normal = s.X_MA.q * m_A;
   c.p_b = p;
   c.p_a = p + c.gap * c.normal;
-  return c.gap < s.margin;
+  return c.gap < s.margin && c.gap >= s.least;
 }
 
 /// Parameter of the edge point with the least gauge: convex, so safeguarded Newton cannot fail.
@@ -202,7 +204,7 @@ void reserve(MeshContactScratch& scratch, const TriangleMesh& mesh) {
 }
 
 void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const TriangleMesh& mesh, const Pose& X_WM, double margin,
-                        MeshContactScratch& scratch, ContactPoints& out) {
+                        double least, MeshContactScratch& scratch, ContactPoints& out) {
   out.clear();
   const Pose X_MA = X_WM.inverse() * X_WA;
   // the sphere around the body first: most pairs are far apart
@@ -214,7 +216,7 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
   // in the middle of a panel only the triangles count that one of the points lies above that touch_face will look at
   constexpr double kSlack = 1e-5;  // [m] for normals that agree to rounding
   bool passed = false;
-  Scene scene{shape, X_MA, mesh, margin, scratch.candidates};
+  Scene scene{shape, X_MA, mesh, margin, least - kPassed * shape.semi_axes.minCoeff(), scratch.candidates};
   auto pass = [&](const Vec3& n, double offset, const Aabb& branch) {
     for (const Vec3& p : scene.points_against(n)) {
       const Vec3 on_plane = p - (n.dot(p) - offset) * n;
@@ -247,7 +249,7 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
       last_normal = n;
       h = support_value(shape, R_AM * n);
     }
-    return height - h > margin || height < -0.25 * h;
+    return height - h > margin || height < -kPassed * h;
   });
   if (scratch.seen.size() < mesh.triangles().size()) scratch.seen.resize(mesh.triangles().size(), 0);
   if (++scratch.call == 0) {  // after four thousand million calls
@@ -284,6 +286,7 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
     });
   std::uint32_t used = 0;
   for (SurfaceContact& c : out) {
+    scratch.apart = std::min(scratch.apart, c.gap);
     c.key = key_of(c, X_MA, shape.exponent) + 64 * used++;
     c.p_a = X_WM * c.p_a;
     c.p_b = X_WM * c.p_b;

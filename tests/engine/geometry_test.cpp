@@ -142,7 +142,7 @@ TEST_P(Exponent, SheetOfTrianglesActsLikeAPlane) {
     Pose X{{place(random), place(random), 0}, random_attitude(random)};
     X.p.z() = support_value(shape, X.q.conjugate() * Vec3::UnitZ()) - 0.003;
     contacts_with_plane(shape, X, Vec3::UnitZ(), 0, 0.001, plane);
-    contacts_with_mesh(shape, X, mesh, {}, 0.001, scratch, found);
+    contacts_with_mesh(shape, X, mesh, {}, 0.001, -1, scratch, found);
     ASSERT_FALSE(found.empty());
     double deepest = 1, on_plane = 1;
     for (const SurfaceContact& c : found) {
@@ -171,12 +171,29 @@ TEST(SphereAndBox, TouchAtTheNearestPointOfFaceEdgeOrCorner) {
     const double distance = (c - nearest).norm();
     if (distance < 0.02 || distance > 0.12) continue;
     ++tried;
-    contacts_with_mesh(sphere, {c, random_attitude(random)}, mesh, {}, 0.03, scratch, found);
+    contacts_with_mesh(sphere, {c, random_attitude(random)}, mesh, {}, 0.03, -1, scratch, found);
     ASSERT_FALSE(found.empty()) << c.transpose();
     EXPECT_NEAR(found[0].gap, distance - 0.1, 1e-9) << c.transpose();
     EXPECT_LT((found[0].normal - (c - nearest) / distance).norm(), 1e-7) << c.transpose();
   }
   EXPECT_GT(tried, 1000);
+}
+
+TEST(MeshContact, IsNotFeltThroughTheBodyFromBehind) {
+  // a floor, and above the sphere's centre a scrap that faces down, as a fold of a bonnet's edge faces the inside of a car
+  std::vector<Vec3> vertices = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {-1, -1, 0.11}, {1, -1, 0.11}, {0, 1, 0.11}};
+  const TriangleMesh mesh(vertices, {{0, 1, 2}, {3, 5, 4}});
+  const HyperEllipsoid sphere{{0.1, 0.1, 0.1}, 2};
+  const Pose X{{0, 0, 0.0995}, Quat::Identity()};
+  MeshContactScratch scratch;
+  ContactPoints found;
+  contacts_with_mesh(sphere, X, mesh, {}, 0.01, -1, scratch, found);  // nothing known: both
+  ASSERT_EQ(found.size(), 2);
+  EXPECT_NEAR(scratch.apart, -0.0895, 1e-12);
+  contacts_with_mesh(sphere, X, mesh, {}, 0.01, -0.001, scratch, found);  // a millimetre at most was seen
+  ASSERT_EQ(found.size(), 1);
+  EXPECT_NEAR(found[0].normal.z(), 1, 1e-12);
+  EXPECT_NEAR(scratch.apart, -0.0005, 1e-12);
 }
 
 TEST(Pair, SpheresAreExact) {
