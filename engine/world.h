@@ -91,8 +91,14 @@ class Nearness {
 
 /// A point that stands for a body's mesh, or for one of its wheels, where it meets other surfaces.
 struct SurfacePoint {
-  Vec3 p_B = Vec3::Zero();  // [m]
-  bool wheel = false;
+  Vec3 p_B = Vec3::Zero();  // [m] of a wheel at static ride
+  int wheel = -1;           // of World::wheels, -1: of the body
+};
+
+/// Two meshes whose points may meet the other's surface.
+struct BodyworkPair {
+  int a = 0, b = 0;
+  Clearance clearance[2];  // of b in the frame of a: points of a on b, points of b on a
 };
 
 /// Two meshes that collide by Kudlich-Slibar.
@@ -109,6 +115,7 @@ struct WheelState {
   int vehicle = 0, wheel = 0;
   double static_load = 0;       // [N]
   double compression = 0;       // [m] from static ride, positive: compressed
+  double lift = 0;              // [m] of the hub from static ride: no more than the stops let it
   double brake = 0;             // [N] asked for now
   Vec3 contact = Vec3::Zero();  // [m] world
   Vec3 hub = Vec3::Zero();      // [m] world
@@ -176,7 +183,8 @@ struct World {
   std::vector<WheelState> wheels;
   std::vector<Vec3> joint_load;                           // [N] on the child, per joint; of those that can break
   std::vector<std::vector<SurfacePoint>> surface_points;  // per body with a mesh, for meshes against others
-  std::vector<SurfaceContact> point_contacts;             // scratch of those
+  std::vector<BodyworkPair> bodywork_pairs;
+  std::vector<SurfaceContact> point_contacts;  // scratch of those
   std::vector<int> point_scratch;
   MeshContactScratch mesh_scratch;
   std::vector<double> path_steer;  // [rad] per vehicle that follows a path

@@ -4,7 +4,9 @@
 // the vehicle has turned over, touches its rim and flanks here.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 #include "engine/effects/bodywork_contact.h"
 #include "engine/effects/effects.h"
@@ -15,10 +17,12 @@
 namespace engine {
 namespace {
 
-constexpr double kSpacing = 0.10;     // [m] between the points that stand for a mesh
-constexpr double kDeepest = 0.15;     // [m] a point farther behind a surface has come from its other side
-constexpr int kRing = 24;             // points round a wheel
-constexpr double kUnderWheel = 0.75;  // [-] cosine to the vehicle's up axis: surfaces nearer to level belong to the suspension
+constexpr double kSpacing = 0.10;  // [m] between the points that stand for a mesh
+constexpr double kDeepest = 0.15;  // [m] a point farther behind a surface has come from its other side,
+constexpr double kFarther = 0.01;  // [m] and one that is so much deeper than the last look and the way since allow
+constexpr double kNotKnown = -std::numeric_limits<double>::infinity();
+constexpr int kRing = 24;             // points round a wheel, in the middle and on either flank
+constexpr double kUnderWheel = 0.75;  // [-] cosine to the vehicle's up axis: other meshes nearer to level carry no wheel
 
 bool can_meet(const Model& model, int a, int b) {
   const Body& A = model.bodies[a];
@@ -57,19 +61,32 @@ void reserve_scratch(World& world) {
 void begin(World& world, const State&, int) {
   const auto& bodies = world.model.bodies;
   world.surface_points.assign(bodies.size(), {});
+  std::vector<int> first_wheel;  // of each vehicle, as in World::wheels
+  int wheels = 0;
+  for (const Vehicle& vehicle : world.model.vehicles) {
+    first_wheel.push_back(wheels);
+    wheels += static_cast<int>(vehicle.wheels.size());
+  }
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (!is_mesh(bodies[b])) continue;
     const auto& shape = std::get<MeshShape>(bodies[b].shape);
-    for (const Vec3& p : representative_points(*shape.mesh, kSpacing)) world.surface_points[b].push_back({shape.X_BM * p, false});
+    for (const Vec3& p : representative_points(*shape.mesh, kSpacing)) world.surface_points[b].push_back({shape.X_BM * p});
     if (bodies[b].vehicle < 0) continue;
-    for (const Wheel& wheel : world.model.vehicles[bodies[b].vehicle].wheels)
-      for (const double side : {-0.5, 0.5})
+    int index = first_wheel[bodies[b].vehicle];
+    for (const Wheel& wheel : world.model.vehicles[bodies[b].vehicle].wheels) {
+      for (const double side : {-1.0, 0.0, 1.0})
         for (int i = 0; i < kRing; ++i) {
           const double angle = 2 * std::numbers::pi * i / kRing;
-          const Vec3 spoke(wheel.radius * std::cos(angle), side * wheel.width, wheel.radius * std::sin(angle));
-          world.surface_points[b].push_back({wheel.hub_B + spoke, true});
+          const double radius = wheel.radius - (side == 0 ? 0 : crown_radius(wheel));
+          const Vec3 spoke(radius * std::cos(angle), 0.5 * side * wheel.width, radius * std::sin(angle));
+          world.surface_points[b].push_back({wheel.hub_B + spoke, index});
         }
+      ++index;
+    }
   }
+  for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
+    for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b)
+      if (can_meet(world.model, a, b)) world.bodywork_pairs.push_back({a, b, {}});
   reserve_scratch(world);
 }
 
@@ -80,16 +97,17 @@ Aabb box_of(const World& world, const State& state, int body) {
   if (const int v = world.model.bodies[body].vehicle; v >= 0)
     for (const Wheel& wheel : world.model.vehicles[v].wheels) {
       const Vec3 hub = state.X_WB[body] * wheel.hub_B;
-      const double r = std::hypot(wheel.radius, 0.5 * wheel.width);
+      const double r = std::hypot(wheel.radius, 0.5 * wheel.width) + 2 * wheel.travel;
       box.lower = box.lower.cwiseMin((hub.array() - r).matrix());
       box.upper = box.upper.cwiseMax((hub.array() + r).matrix());
     }
   return box;
 }
 
-/// Contacts of a body's points with a mesh at a pose, or with the plane z = height where there is none.
+/// Contacts of a body's points with a mesh at a pose, or with the plane z = height where there is none. Of its wheels only with
+/// what is steeper to its up axis than `rolls` [-] says: the rest is under them. What has a gap below `least` [m] is not met.
 void touch(World& world, const State& state, int body, const TriangleMesh* mesh, const Pose& X_WM, double height, double margin,
-           const Aabb& within) {
+           const Aabb& within, double rolls, double least) {
   std::vector<SurfaceContact>& out = world.point_contacts;
   out.clear();
   const Pose& X = state.X_WB[body];
@@ -97,14 +115,15 @@ void touch(World& world, const State& state, int body, const TriangleMesh* mesh,
   const Pose X_MW = X_WM.inverse();
   const auto& points = world.surface_points[body];
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3 p = X * points[i].p_B;
+    Vec3 p = X * points[i].p_B;
+    if (points[i].wheel >= 0 && !world.wheels.empty()) p += world.wheels[points[i].wheel].lift * up;
     if ((p.array() < within.lower.array() - margin).any() || (p.array() > within.upper.array() + margin).any()) continue;
     SurfaceContact c;
     c.p_a = p;
     c.key = static_cast<std::uint32_t>(i);
     if (mesh) {
       const auto surface = nearest_surface(*mesh, X_MW * p, std::max(margin, kDeepest), world.point_scratch);
-      if (!surface || surface->gap >= margin) continue;
+      if (!surface || surface->gap >= margin || surface->gap < least) continue;
       c.p_b = X_WM * surface->point;
       c.normal = X_WM.q * surface->normal;
       c.gap = surface->gap;
@@ -113,7 +132,7 @@ void touch(World& world, const State& state, int body, const TriangleMesh* mesh,
       if (c.gap >= margin) continue;
       c.p_b = p - c.gap * Vec3::UnitZ();
     }
-    if (points[i].wheel && c.normal.dot(up) > kUnderWheel) continue;
+    if (points[i].wheel >= 0 && c.normal.dot(up) > rolls) continue;
     out.push_back(c);
   }
   keep_spread(out, static_cast<std::size_t>(world.model.settings.contacts_per_pair));
@@ -133,31 +152,50 @@ void find_on_ground(World& world, const State& state, int body, int self) {
     }
   };
   if (ground.plane && box.lower.z() < ground.height + margin) {
-    touch(world, state, body, nullptr, {}, ground.height, margin, box);
+    touch(world, state, body, nullptr, {}, ground.height, margin, box, kWheelFacing, kNotKnown);
     add(ContactKind::ground);
   }
   if (ground.terrain) {
-    touch(world, state, body, ground.terrain.get(), {}, 0, margin, ground.terrain->bounds());
+    touch(world, state, body, ground.terrain.get(), {}, 0, margin, ground.terrain->bounds(), kWheelFacing, kNotKnown);
     for (SurfaceContact& c : world.point_contacts) c.key |= 0x400000u;
     add(ContactKind::terrain);
   }
 }
 
-void find_between(World& world, const State& state, int a, int b, int self) {
-  const double margin = pair_margin(world, state, a, b);
-  const Aabb box_a = box_of(world, state, a), box_b = box_of(world, state, b);
-  const Vec3 low = box_a.lower.cwiseMax(box_b.lower), high = box_a.upper.cwiseMin(box_b.upper);
-  if ((low.array() > high.array() + margin).any()) return;
-  const SurfaceProperties& A = world.model.bodies[a].surface;
-  const SurfaceProperties& B = world.model.bodies[b].surface;
+/// Where the boxes of a pair meet; nothing if a step cannot bring them together.
+std::optional<Aabb> shared_box(World& world, const State& state, BodyworkPair& pair, double margin) {
+  const Aabb box_a = box_of(world, state, pair.a), box_b = box_of(world, state, pair.b);
+  const Aabb shared{box_a.lower.cwiseMax(box_b.lower), box_a.upper.cwiseMin(box_b.upper)};
+  if ((shared.lower.array() <= shared.upper.array() + margin).all()) return shared;
+  for (Clearance& clearance : pair.clearance) clearance = {0, state.X_WB[pair.a].inverse() * state.X_WB[pair.b]};
+  return std::nullopt;
+}
+
+/// Points of a pair's first body on the surface of the second (way 0) or of the second on the first (way 1), to
+/// World::point_contacts.
+void touch_one_way(World& world, const State& state, BodyworkPair& pair, int way, double margin, const Aabb& within) {
+  const int points_of = way == 0 ? pair.a : pair.b, surface_of = way == 0 ? pair.b : pair.a;
+  const Pose X_AB = state.X_WB[pair.a].inverse() * state.X_WB[pair.b];
+  Clearance& clearance = pair.clearance[way];
+  const auto& shape = std::get<MeshShape>(world.model.bodies[surface_of].shape);
+  touch(world, state, points_of, shape.mesh.get(), state.X_WB[surface_of] * shape.X_BM, 0, margin, within, kUnderWheel,
+        clearance.by_now(X_AB, world.reach[pair.b]) - kFarther);
+  clearance = {0, X_AB};
+  for (const SurfaceContact& c : world.point_contacts) clearance.least = std::min(clearance.least, c.gap);
+}
+
+void find_between(World& world, const State& state, BodyworkPair& pair, int self) {
+  const double margin = pair_margin(world, state, pair.a, pair.b);
+  const std::optional<Aabb> within = shared_box(world, state, pair, margin);
+  if (!within) return;
+  const SurfaceProperties& A = world.model.bodies[pair.a].surface;
+  const SurfaceProperties& B = world.model.bodies[pair.b].surface;
   const double mu = std::min(A.friction_body.at(state.time), B.friction_body.at(state.time));
   const double e = std::max(A.restitution_body.at(state.time), B.restitution_body.at(state.time));
-  for (const bool first : {true, false}) {
-    const int points_of = first ? a : b, surface_of = first ? b : a;
-    const auto& shape = std::get<MeshShape>(world.model.bodies[surface_of].shape);
-    touch(world, state, points_of, shape.mesh.get(), state.X_WB[surface_of] * shape.X_BM, 0, margin, {low, high});
+  for (const int way : {0, 1}) {
+    touch_one_way(world, state, pair, way, margin, *within);
     for (const SurfaceContact& c : world.point_contacts)
-      add_contact(world, state, c, points_of, surface_of, self, ContactKind::vehicle_pair, mu, e);
+      add_contact(world, state, c, way == 0 ? pair.a : pair.b, way == 0 ? pair.b : pair.a, self, ContactKind::vehicle_pair, mu, e);
   }
 }
 
@@ -169,13 +207,12 @@ void find(World& world, const State& state, int self) {
   const int n = static_cast<int>(world.model.bodies.size());
   world.nearness.look(world, state);
   const std::vector<int>& tree = world.topology.tree_of_body;
-  auto close = [&](int a, int b) { return world.nearness.close(tree[a], tree[b]); };
+  auto pair = world.bodywork_pairs.begin();
   for (int a = 0; a < n; ++a) {
-    if (!is_mesh(world.model.bodies[a])) continue;
-    if (world.awake[a]) find_on_ground(world, state, a, self);
-    for (int b = a + 1; b < n; ++b)
-      if (close(a, b) && !frozen(world, a) && !frozen(world, b) && can_meet(world.model, a, b))
-        find_between(world, state, a, b, self);
+    if (is_mesh(world.model.bodies[a]) && world.awake[a]) find_on_ground(world, state, a, self);
+    for (; pair != world.bodywork_pairs.end() && pair->a == a; ++pair)
+      if (world.nearness.close(tree[a], tree[pair->b]) && !frozen(world, a) && !frozen(world, pair->b))
+        find_between(world, state, *pair, self);
   }
 }
 
@@ -183,16 +220,16 @@ void find(World& world, const State& state, int self) {
 
 const std::vector<SurfaceContact>& contacts_of_meshes(World& world, const State& state, int a, int b) {
   world.point_contacts.clear();
-  if (world.surface_points.empty() || !can_meet(world.model, a, b)) return world.point_contacts;
+  const auto pair = std::find_if(world.bodywork_pairs.begin(), world.bodywork_pairs.end(),
+                                 [&](const BodyworkPair& p) { return p.a == std::min(a, b) && p.b == std::max(a, b); });
+  if (pair == world.bodywork_pairs.end()) return world.point_contacts;
   const double margin = pair_margin(world, state, a, b);
-  const Aabb box_a = box_of(world, state, a), box_b = box_of(world, state, b);
-  const Vec3 low = box_a.lower.cwiseMax(box_b.lower), high = box_a.upper.cwiseMin(box_b.upper);
-  if ((low.array() > high.array() + margin).any()) return world.point_contacts;
-  const auto& B = std::get<MeshShape>(world.model.bodies[b].shape);
-  touch(world, state, a, B.mesh.get(), state.X_WB[b] * B.X_BM, 0, margin, {low, high});
+  const std::optional<Aabb> within = shared_box(world, state, *pair, margin);
+  if (!within) return world.point_contacts;
+  const int way = pair->a == a ? 0 : 1;
+  touch_one_way(world, state, *pair, way, margin, *within);
   if (!world.point_contacts.empty()) return world.point_contacts;
-  const auto& A = std::get<MeshShape>(world.model.bodies[a].shape);
-  touch(world, state, b, A.mesh.get(), state.X_WB[a] * A.X_BM, 0, margin, {low, high});
+  touch_one_way(world, state, *pair, 1 - way, margin, *within);
   for (SurfaceContact& c : world.point_contacts) {
     std::swap(c.p_a, c.p_b);
     c.normal = -c.normal;

@@ -12,7 +12,6 @@
 namespace engine {
 namespace {
 
-constexpr double kFacing = 0.2;  // [-] cosine to the ground's normal below which a wheel rolls on nothing: the car lies on its side
 constexpr double kStopStiffness = 10;  // [-] times the spring's, beyond the travel
 
 Finding look(const Model& model) {
@@ -46,32 +45,57 @@ void begin(World& world, const State&, int) {
     }
 }
 
+/// Where a wheel stands: on a level or a triangle's plane under its hub.
 struct Footing {
-  bool found = false;
-  double distance = 0;  // [m] from the hub along the vehicle's down axis
+  bool found = false;      // the wheel reaches it
+  bool near = false;       // it is there, but too steep to the vehicle to roll on: the car lies on its side
+  double compression = 0;  // [m] of the suspension from static ride, at which the tyre just touches
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();
 };
 
-Footing footing_of(const Ground& ground, const Vec3& hub, const Vec3& down, double far) {
+/// A plane through `on`, met by a tyre round across as it is along (a torus): leaning, it rolls on its shoulder and ends on its
+/// flank.
+Footing on_plane(const Wheel& spec, const Pose& X, const Vec3& on, const Vec3& normal) {
+  const Vec3 up = X.q * Vec3::UnitZ(), axle = X.q * Vec3::UnitY();
+  const Vec3 across = normal - axle.dot(normal) * axle;
+  const double lean = across.norm(), crown = crown_radius(spec);
+  const double height = (spec.radius - crown) * lean + crown;  // [m] of the hub over what it touches
+  const double facing = up.dot(normal);
+  const Vec3 hub = X * spec.hub_B;
   Footing footing;
-  double best = far;
-  if (ground.plane && down.z() < -kFacing) {
-    const double s = (ground.height - hub.z()) / down.z();
-    if (s < best) {
-      best = s;
-      footing = {true, s, hub + s * down, Vec3::UnitZ()};
-    }
-  }
+  footing.normal = normal;
+  footing.near = facing <= kWheelFacing;
+  if (footing.near) return footing;
+  footing.compression = (height - normal.dot(hub - on)) / facing;
+  footing.point = hub + footing.compression * up - crown * normal;
+  if (lean > 0) footing.point -= (spec.radius - crown) / lean * across;
+  return footing;
+}
+
+/// The surface under the hub that compresses the suspension most.
+Footing footing_of(const Ground& ground, const Wheel& spec, const Pose& X, double droop) {
+  const Vec3 hub = X * spec.hub_B, up = X.q * Vec3::UnitZ();
+  Footing best;
+  best.compression = -droop;
+  auto look_at = [&](const Vec3& on, const Vec3& normal) {
+    const Footing f = on_plane(spec, X, on, normal);
+    best.near = best.near || (f.near && normal.dot(hub - on) < spec.radius + droop);
+    if (f.near || f.compression <= best.compression) return;
+    const bool near = best.near;
+    best = f;
+    best.found = true;
+    best.near = near;
+  };
+  if (ground.plane) look_at(Vec3(hub.x(), hub.y(), ground.height), Vec3::UnitZ());
   if (ground.terrain) {
     constexpr double kAbove = 0.6;  // [m] start over the hub, so that a wheel pushed into a kerb still finds the surface
     double s = 0;
     int triangle = -1;
-    if (ground.terrain->raycast(hub - kAbove * down, down, best + kAbove, s, triangle) && s - kAbove < best &&
-        ground.terrain->face_normals()[triangle].dot(down) < -kFacing)
-      footing = {true, s - kAbove, hub + (s - kAbove) * down, ground.terrain->face_normals()[triangle]};
+    if (ground.terrain->raycast(hub + kAbove * up, -up, spec.radius + droop + kAbove, s, triangle))
+      look_at(hub + (kAbove - s) * up, ground.terrain->face_normals()[triangle]);
   }
-  return footing;
+  return best;
 }
 
 /// Spring force [N] at a compression, stop included.
@@ -119,9 +143,11 @@ void add_wheel(World& world, const State& state, WheelState& wheel, const Footin
   c.frame << footing.normal, t1, footing.normal.cross(t1);
   const Vec3 r = c.point - X.p;
   for (int k = 0; k < 3; ++k) c.J_a.row(k) << c.frame.col(k).transpose(), r.cross(c.frame.col(k)).transpose();
+  // the strut carries N cos(lean) of the load N, a guide the rest, and gives way by 1/cos(lean) of the way to the ground
+  const double facing = footing.normal.dot(X.q * Vec3::UnitZ());
   const double implicit = stiffness * h + spec.damper;
-  c.softness = 1 / (h * implicit);
-  c.target = force / implicit;
+  c.softness = facing * facing / (h * implicit);
+  c.target = facing * force / implicit;
   const Vec3 v = state.V_WB[vehicle.body].v + state.V_WB[vehicle.body].w.cross(r);
   const double mu = std::min(spec.friction, world.model.ground.friction_at(c.point, state.time));
   const Grip grip = grip_of(spec, wheel, std::max(0.0, force), mu, t1.dot(v), c.frame.col(2).dot(v));
@@ -150,16 +176,16 @@ void find(World& world, const State& state, int self) {
     const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
     const Wheel& spec = vehicle.wheels[wheel.wheel];
     const Pose& X = state.X_WB[vehicle.body];
-    const Vec3 hub_static = X * spec.hub_B;
-    const Vec3 down = -(X.q * Vec3::UnitZ());
+    const Vec3 up = X.q * Vec3::UnitZ();
     const double droop = droop_of(spec, wheel.static_load);
-    const Footing footing = footing_of(world.model.ground, hub_static, down, spec.radius + droop);
-    wheel.compression = footing.found ? spec.radius - footing.distance : -droop;
-    wheel.hub = hub_static - down * std::clamp(wheel.compression, -droop, 2 * spec.travel);
-    wheel.contact = footing.found ? footing.point : Vec3(wheel.hub + down * spec.radius);
+    const Footing footing = footing_of(world.model.ground, spec, X, droop);
+    // lying on its flank it stays as it was pressed in: nothing moves along the strut
+    if (footing.found || !footing.near) wheel.compression = footing.compression;
+    wheel.lift = std::clamp(wheel.compression, -droop, 2 * spec.travel);
+    wheel.hub = X * spec.hub_B + wheel.lift * up;
+    wheel.contact = footing.found ? footing.point : Vec3(wheel.hub - spec.radius * up);
     wheel.impulse.setZero();
-    energy +=
-        footing.found ? spring_energy(spec, wheel.static_load, wheel.compression) : spring_energy(spec, wheel.static_load, -droop);
+    energy += spring_energy(spec, wheel.static_load, wheel.compression);
     if (footing.found && world.awake[vehicle.body]) add_wheel(world, state, wheel, footing, i, self);
   }
   // what the springs took or gave since the last look is not lost: it leaves the dampers' account

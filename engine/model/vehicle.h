@@ -34,6 +34,15 @@ struct Wheel {
   bool driven = false;
 };
 
+/// Cosine between the vehicle's up axis and the ground's normal below which a wheel does not roll: the car lies on its side, and its
+/// wheels' flanks are bodywork.
+constexpr double kWheelFacing = 0.2;
+
+/// [m] Tyres are as round across as wide: a leaning wheel touches with its shoulder, one on its side with its flank.
+inline double crown_radius(const Wheel& wheel) {
+  return std::min(0.5 * wheel.width, wheel.radius);
+}
+
 /// One act of the driver. Several may overlap; their forces add up.
 struct DriverPhase {
   double first_force = 0;                                  // [s] reaction and lag are over

@@ -19,6 +19,7 @@ constexpr int kPlainSweeps = 1000;       // before the friction bounds are follo
 constexpr int kBoundedSweeps = 200;      // in each
 constexpr int kBoundSteps = 40;          // of the fixed point on the friction bounds
 constexpr int kMostSweeps = 2000;        // of all in one solve: what is not solved by then gets a shorter step instead
+constexpr double kHeld = 1e9;            // [N s] a friction bound that nothing reaches
 constexpr double kNearBound = 1e-2;      // [m/s] change of a step after which Newton on the whole is tried
 constexpr double kTinyImpulse = 1e-14;   // [N s]
 
@@ -41,8 +42,9 @@ void ContactSolver::reserve(std::size_t constraints, std::size_t bodies) {
   newton_.reserve(rows);
   for (std::vector<Row>* list : {&rule_, &factored_rule_}) list->reserve(rows);
   L_start_.reserve(constraints);
+  L_sliding_.reserve(constraints);
   Y_.reserve(bodies);
-  for (std::vector<double>* list : {&u_, &L_, &u_kept_, &L_kept_, &u_start_, &bound_, &softened_}) list->reserve(rows);
+  for (std::vector<double>* list : {&u_, &L_, &u_kept_, &L_kept_, &u_start_, &u_sliding_, &bound_, &softened_}) list->reserve(rows);
   for (std::vector<int>* list : {&offset_, &unknown_}) list->reserve(rows);
   runs_.reserve(rows);
 }
@@ -408,12 +410,15 @@ void ContactSolver::iterate(std::vector<Constraint>& all, const std::vector<int>
 
 /// Fixed point on the friction bounds (Haslinger 1983): with every bound held the conditions are those of a convex problem, which
 /// sweeps and Newton always solve; then the bounds follow the normal impulses found. Where friction jams a chain of limits
-/// (Painleve's rod) the bounds climb from the sliding solution that no longer holds to the one that does.
-void ContactSolver::follow_bounds(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance,
+/// (Painleve's rod) the bounds climb from the sliding solution that no longer holds to the one that does. Where a limb is wedged
+/// between two vehicles, or between one and the ground, the climb does not end; from above, where all are held, it comes down to
+/// the solution that holds the wedge.
+void ContactSolver::follow_bounds(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance, Bounds from,
                                   SolveReport& report) {
   const std::size_t count = members.size();
   bound_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) bound_[i] = all[members[i]].friction * all[members[i]].impulse[0];
+  for (std::size_t i = 0; i < count; ++i)
+    bound_[i] = from == Bounds::held ? kHeld : all[members[i]].friction * all[members[i]].impulse[0];
   double share = 1, last = std::numeric_limits<double>::infinity();
   const int last_sweep = report.sweeps + kMostSweeps;
   for (int k = 0; k < kBoundSteps && report.sweeps < last_sweep; ++k) {
@@ -452,10 +457,26 @@ SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector
   L_start_.clear();
   for (const int m : members) L_start_.push_back(all[m].impulse);
   iterate(all, members, tolerance, kPlainSweeps, report);
-  if (!(report.residual <= tolerance)) {
-    u_ = u_start_;  // where the sweeps went may be far off
+  auto begin_again = [&] {  // where the sweeps went may be far off
+    u_ = u_start_;
     for (int i = 0; i < count; ++i) all[members[i]].impulse = L_start_[i];
-    follow_bounds(all, members, tolerance, report);
+  };
+  if (!(report.residual <= tolerance)) {
+    begin_again();
+    follow_bounds(all, members, tolerance, Bounds::sliding, report);
+  }
+  if (!(report.residual <= tolerance)) {
+    const double sliding = report.residual;
+    u_sliding_ = u_;
+    L_sliding_.clear();
+    for (const int m : members) L_sliding_.push_back(all[m].impulse);
+    begin_again();
+    follow_bounds(all, members, tolerance, Bounds::held, report);
+    if (!(report.residual < sliding)) {
+      report.residual = sliding;
+      u_ = u_sliding_;
+      for (int i = 0; i < count; ++i) all[members[i]].impulse = L_sliding_[i];
+    }
   }
   for (int i = 0; i < count; ++i) {
     Constraint& c = all[members[i]];

@@ -45,7 +45,9 @@ class ContactSolver {
   void add_to_velocity(int column, int rows, const Vec3& change);
   double sweep(std::vector<Constraint>&, const std::vector<int>& members);
   void iterate(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, int sweeps, SolveReport&);
-  void follow_bounds(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, SolveReport&);
+  /// Where the friction bounds come from: the impulses there are, or beyond all of them.
+  enum class Bounds { sliding, held };
+  void follow_bounds(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, Bounds from, SolveReport&);
   double residual(const std::vector<Constraint>&, const std::vector<int>& members) const;
   /// What Newton takes care of: nothing, contacts more than the bodies have freedoms, chains of contacts that jam each other.
   enum class Care { none, redundant, jammed };
@@ -91,8 +93,8 @@ class ContactSolver {
   std::vector<Run> runs_;           // of neighbours in unknown_
   std::vector<Row> rule_;           // per unknown
   std::vector<Row> factored_rule_;  // of the matrix in newton_
-  std::vector<double> L_, u_kept_, L_kept_, u_start_;
-  std::vector<Vec3> L_start_;
+  std::vector<double> L_, u_kept_, L_kept_, u_start_, u_sliding_;
+  std::vector<Vec3> L_start_, L_sliding_;
   std::vector<Eigen::Matrix<double, 6, 3>> Y_;
 };
 
