@@ -1,11 +1,17 @@
 // For each triangle near the body, in the mesh frame:
 //   face    the support point against the face normal, if it projects into the triangle (eq. (70) with the point inside, as asked)
-//   edge    the point p of a convex edge where the gauge N is least; normal -grad N(p), which is then across the edge, if it lies
-//           in the cone between the two faces; gap from the support function, f(m) = m.(c - p) - h(m), second order in m's error
-//   vertex  the same at a corner, if -grad N lies in the cone of its edges
+//   edge    the normal m of the cone between the faces of a convex edge whose support point projects onto the edge: there the
+//           distance m.(p - q) of the support point p from a point q of the edge is largest. There is one just where the support
+//           points of both faces project beyond the edge, so that nothing falls between faces and edges at whatever gap
+//   vertex  the same at a corner, for normals in the cone of its edges; looked at where a support point projects beyond an edge's
+//           end
 // Flat and concave edges are never felt, and a convex edge only inside its cone, so a sheet of triangles acts as one surface.
+//
+// Of a body with flat sides, whose support points jump, an edge is met at the point p where the gauge N is least, with normal
+// -grad N(p) if that lies in the cone; gap from the support function, f(m) = m.(c - p) - h(m), second order in m's error.
 #include "engine/geometry/hyper_ellipsoid_mesh.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -100,6 +106,116 @@ double least_gauge(const HyperEllipsoid& shape, const Vec3& from_A, const Vec3& 
   return t;
 }
 
+/// How far [m] and where in the mesh frame the body reaches against a normal.
+struct Reached {
+  Vec3 point;
+  Support support;
+};
+Reached reached(const Scene& s, const Vec3& normal) {
+  const Support support = engine::support(s.shape, s.X_MA.q.conjugate() * -normal);
+  return {s.X_MA * support.point, support};
+}
+
+/// Of a round body. Where the point reached projects beyond an end, that vertex is worth a look with the normal found.
+void touch_edge_round(Scene& s, int triangle, int edge, std::vector<VertexTouch>& beyond) {
+  constexpr double kTight = 1e-12;  // [-], [m]
+  const Triangle& t = s.mesh.triangles()[triangle];
+  const int from = t[static_cast<std::size_t>(edge)], to = t[static_cast<std::size_t>((edge + 1) % 3)];
+  const Vec3& start = s.mesh.vertices()[from];
+  const Vec3 along = s.mesh.vertices()[to] - start;
+  const Vec3& n = s.mesh.face_normals()[triangle];
+  const Vec3 out = along.cross(n).normalized();  // in the face, across the edge
+  if (out.dot(s.points_against(n)[0] - start) <= 0) return;
+  // the cone: cos(angle) n + sin(angle) out, from this face to the other; of a border to the edge of the sheet
+  const int other = s.mesh.neighbour(triangle, edge);
+  const Vec3 n_far = other >= 0 ? s.mesh.face_normals()[other] : out;
+  const double widest = std::atan2(out.dot(n_far), n.dot(n_far));
+  // slope of the distance along the cone: where it is zero the point reached lies over the edge
+  Vec3 normal;
+  Vec3 point;
+  auto slope = [&](double angle) {
+    const double c = std::cos(angle), sn = std::sin(angle);
+    normal = c * n + sn * out;
+    point = reached(s, normal).point;
+    return (c * out - sn * n).dot(point - start);
+  };
+  double low = 0, high = widest, f_low = out.dot(s.points_against(n)[0] - start), f_high = slope(high);
+  if (f_high >= 0) return;
+  int side = 0;
+  for (int k = 0; k < 60 && high - low > kTight; ++k) {
+    double angle = (low * f_high - high * f_low) / (f_high - f_low);
+    if (!(angle > low && angle < high)) angle = 0.5 * (low + high);
+    const double f = slope(angle);
+    if (std::abs(f) < kTight) break;
+    if (f > 0) {
+      low = angle, f_low = f;
+      if (side == 1) f_high *= 0.5;
+      side = 1;
+    } else {
+      high = angle, f_high = f;
+      if (side == -1) f_low *= 0.5;
+      side = -1;
+    }
+  }
+  const double at = along.dot(point - start) / along.squaredNorm();
+  const double gap = normal.dot(point - start);
+  if (gap >= s.margin) return;  // a vertex is no nearer
+  if (at <= 0 || at >= 1) {
+    beyond.push_back({at <= 0 ? from : to, normal});
+    return;
+  }
+  if (gap >= s.least) s.out.push_back({point, point - gap * normal, normal, gap});
+}
+
+/// The normal whose support point lies over the vertex, from a guess: Newton on the distance, which is largest there.
+void touch_vertex_round(Scene& s, const VertexTouch& guess) {
+  constexpr double kTight = 1e-10;  // [m]
+  const Vec3& vertex = s.mesh.vertices()[guess.vertex];
+  SurfaceContact c;
+  c.normal = guess.normal;
+  Reached at = reached(s, c.normal);
+  c.gap = c.normal.dot(at.point - vertex);
+  for (int k = 0; k < 20; ++k) {
+    const Vec3 aside = at.point - vertex - c.gap * c.normal;
+    if (aside.norm() < kTight) break;
+    // the support point moves by -H dm, aside by -(H + gap) dm
+    const Mat3 R = s.X_MA.q.toRotationMatrix();
+    const Mat3 H = R * support_hessian(s.shape, s.X_MA.q.conjugate() * -c.normal, at.support) * R.transpose();
+    const Mat3 along = c.normal * c.normal.transpose(), across = Mat3::Identity() - along;
+    Eigen::LDLT<Mat3> A(H + c.gap * across + along);
+    // deeper than the body is round there: uphill all the same
+    if (!A.isPositive() || A.vectorD().minCoeff() < 1e-6)
+      A.compute(H + std::max(c.gap, 0.0) * across + along + 1e-6 * Mat3::Identity());
+    Vec3 turn = across * A.solve(aside);
+    if (turn.norm() > 0.3) turn *= 0.3 / turn.norm();
+    double gap = c.gap;
+    bool better = false;
+    for (int halving = 0; halving < 8 && !better; ++halving, turn *= 0.5) {
+      const Vec3 normal = (c.normal + turn).normalized();
+      const Reached next = reached(s, normal);
+      gap = normal.dot(next.point - vertex);
+      if (gap <= c.gap) continue;
+      better = true;
+      c.normal = normal;
+      c.gap = gap;
+      at = next;
+    }
+    if (!better) break;
+  }
+  if (c.gap >= s.margin || c.gap < s.least) return;
+  c.p_b = vertex;
+  c.p_a = vertex + c.gap * c.normal;
+  // in the cone of its edges; one that is not felt has no say
+  for (const int triangle : s.mesh.triangles_at(guess.vertex)) {
+    const Triangle& t = s.mesh.triangles()[triangle];
+    for (const std::int32_t other : t)
+      if (other != guess.vertex && c.normal.dot((s.mesh.vertices()[other] - vertex).normalized()) > 1e-6) return;
+    if (c.normal.dot(s.mesh.face_normals()[triangle]) < 0) return;
+  }
+  s.out.push_back(c);
+}
+
+/// Of a body with flat sides.
 void touch_edge(Scene& s, int triangle, int edge) {
   const Triangle& t = s.mesh.triangles()[triangle];
   const Vec3& from = s.mesh.vertices()[t[edge]];
@@ -200,6 +316,7 @@ void reserve(MeshContactScratch& scratch, const TriangleMesh& mesh) {
   scratch.triangles.reserve(count);
   if (scratch.seen.size() < count) scratch.seen.resize(count, 0);
   scratch.vertices.reserve(6 * count);
+  scratch.beyond.reserve(std::min<std::size_t>(3 * count, 4096));
   scratch.candidates.reserve(std::min<std::size_t>(4 * count, 4096));
 }
 
@@ -261,12 +378,19 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
 
   scratch.candidates.clear();
   scratch.vertices.clear();
+  scratch.beyond.clear();
+  const bool flat = shape.exponent >= kFlatExponent;
   for (const int t : scratch.triangles) {
     touch_face(scene, t);
     for (int e = 0; e < 3; ++e) {
       if (!felt(mesh.edge_kind(t, e))) continue;
       const int other = mesh.neighbour(t, e);
-      if (other < 0 || other > t || !is_near(other)) touch_edge(scene, t, e);  // once for both
+      if (other >= 0 && other < t && is_near(other)) continue;  // once for both
+      if (!flat) {
+        touch_edge_round(scene, t, e, scratch.beyond);
+        continue;
+      }
+      touch_edge(scene, t, e);
       scratch.vertices.push_back(mesh.triangles()[t][e]);
       scratch.vertices.push_back(mesh.triangles()[t][(e + 1) % 3]);
     }
@@ -275,7 +399,14 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
   scratch.vertices.erase(std::unique(scratch.vertices.begin(), scratch.vertices.end()), scratch.vertices.end());
   for (const int v : scratch.vertices) touch_vertex(scene, v, is_near);
 
-  const bool flat = shape.exponent >= kFlatExponent;
+  // more than one edge may lead to a vertex: the first found will do
+  std::sort(scratch.beyond.begin(), scratch.beyond.end(), [](const VertexTouch& a, const VertexTouch& b) {
+    if (a.vertex != b.vertex) return a.vertex < b.vertex;
+    return std::lexicographical_compare(a.normal.data(), a.normal.data() + 3, b.normal.data(), b.normal.data() + 3);
+  });
+  for (std::size_t i = 0; i < scratch.beyond.size(); ++i)
+    if (i == 0 || scratch.beyond[i].vertex != scratch.beyond[i - 1].vertex) touch_vertex_round(scene, scratch.beyond[i]);
+
   if (flat) let_four_corners_speak(scratch.candidates);
   keep_the_telling(scratch.candidates, 0.25 * shape.semi_axes.minCoeff(), flat ? kKeep + 1 : kKeep, out);
   // in the order of a plane, so that a sheet of triangles is solved as one

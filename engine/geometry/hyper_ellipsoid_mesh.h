@@ -9,14 +9,21 @@
 
 namespace engine {
 
+/// A vertex beyond whose edge a body reaches, and the normal there.
+struct VertexTouch {
+  int vertex;
+  Vec3 normal;
+};
+
 /// Scratch of contacts_with_mesh, kept by the caller between steps (no allocation after warm-up).
 struct MeshContactScratch {
   std::vector<int> triangles;
   std::vector<std::uint32_t> seen;  // per triangle: the call it was last near in
   std::uint32_t call = 0;
   std::vector<SurfaceContact> candidates;
-  std::vector<int> vertices;
-  double apart = 0;  // [m] the surfaces are at least this far from each other; negative: the deepest contact's gap
+  std::vector<int> vertices;        // of a body with flat sides
+  std::vector<VertexTouch> beyond;  // of a round one
+  double apart = 0;                 // [m] the surfaces are at least this far from each other; negative: the deepest contact's gap
 };
 
 /// Room for whatever a body can meet of the mesh.

@@ -179,6 +179,63 @@ TEST(SphereAndBox, TouchAtTheNearestPointOfFaceEdgeOrCorner) {
   EXPECT_GT(tried, 1000);
 }
 
+/// An ellipsoid as a convex mesh, which has faces, ridges and corners of every kind.
+TriangleMesh faceted(const Vec3& half, int rings, int sides) {
+  std::vector<Vec3> vertices = {{0, 0, half.z()}, {0, 0, -half.z()}};
+  std::vector<Triangle> triangles;
+  auto at = [&](int ring, int side) { return 2 + (ring - 1) * sides + side % sides; };
+  for (int ring = 1; ring < rings; ++ring)
+    for (int side = 0; side < sides; ++side) {
+      const double down = std::numbers::pi * ring / rings, round = 2 * std::numbers::pi * side / sides;
+      vertices.push_back(
+          half.cwiseProduct(Vec3(std::sin(down) * std::cos(round), std::sin(down) * std::sin(round), std::cos(down))));
+    }
+  for (int side = 0; side < sides; ++side) {
+    triangles.push_back({0, at(1, side), at(1, side + 1)});
+    triangles.push_back({1, at(rings - 1, side + 1), at(rings - 1, side)});
+    for (int ring = 1; ring < rings - 1; ++ring) {
+      triangles.push_back({at(ring, side), at(ring + 1, side), at(ring + 1, side + 1)});
+      triangles.push_back({at(ring, side), at(ring + 1, side + 1), at(ring, side + 1)});
+    }
+  }
+  return {vertices, triangles};
+}
+
+TEST(MeshContact, FallsThroughBetweenNoFacesEdgesAndCornersAtAnyGap) {
+  const TriangleMesh mesh = faceted({0.5, 0.4, 0.3}, 14, 23);
+  std::mt19937_64 random(31);
+  std::uniform_real_distribution<double> unit(0, 1);
+  MeshContactScratch scratch;
+  ContactPoints found;
+  for (int trial = 0; trial < 400; ++trial) {
+    const HyperEllipsoid shape{{0.05 + 0.1 * unit(random), 0.05 + 0.1 * unit(random), 0.1 + 0.2 * unit(random)},
+                               2 + 1.5 * unit(random)};
+    Pose X{Vec3::Zero(), random_attitude(random)};
+    // the distance of two convex bodies, negative where they overlap: the largest that a direction keeps them apart
+    auto apart = [&](const Vec3& m) {
+      double far = -1;
+      for (const Vec3& v : mesh.vertices()) far = std::max(far, m.dot(v));
+      return m.dot(X.p) - support_value(shape, X.q.conjugate() * -m) - far;
+    };
+    const Vec3 from = random_direction(random);
+    X.p = Vec3(0.5, 0.4, 0.3).cwiseProduct(from) + (0.02 + 0.3 * unit(random)) * from;
+    Vec3 best = from;
+    double distance = apart(best);
+    for (double reach = 0.5; reach > 1e-8; reach *= 0.93)
+      for (int k = 0; k < 12; ++k) {
+        const Vec3 m = (best + reach * random_direction(random)).normalized();
+        if (const double d = apart(m); d > distance) best = m, distance = d;
+      }
+    if (distance < -0.02 || distance > 0.035) continue;
+    contacts_with_mesh(shape, X, mesh, {}, 0.04, -1, scratch, found);
+    ASSERT_FALSE(found.empty()) << trial << ": " << distance;
+    double least = 1;
+    for (const SurfaceContact& c : found) least = std::min(least, c.gap);
+    EXPECT_GT(least, distance - 1e-9) << trial;  // a search finds at most the largest
+    EXPECT_LT(least, distance + 1e-5) << trial;
+  }
+}
+
 TEST(MeshContact, IsNotFeltThroughTheBodyFromBehind) {
   // a floor, and above the sphere's centre a scrap that faces down, as a fold of a bonnet's edge faces the inside of a car
   std::vector<Vec3> vertices = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {-1, -1, 0.11}, {1, -1, 0.11}, {0, 1, 0.11}};
