@@ -253,7 +253,8 @@ void Stepper::push_apart(World& world, const std::vector<int>& island, double h)
   bool any = false;
   allowed_.clear();
   for (const int i : island) {
-    const Constraint& c = world.constraints[i];
+    Constraint& c = world.constraints[i];
+    c.push = 0;  // an earlier pass pushed against joints that held then
     if (c.kind == ConstraintKind::wheel || c.kind == ConstraintKind::bilateral || is_compliant(c)) {
       allowed_.push_back(-std::numeric_limits<double>::infinity());
       continue;
