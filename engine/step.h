@@ -52,6 +52,7 @@ class Stepper {
   void note_turning(World&, Vec3 Resistance::*when) const;
   void apply_resistance(World&, double h);
   double resistance_work(const World&, int joint, double h) const;
+  double work_of(const World&, std::size_t constraint) const;
   void book_resistance(World&, double h);
   void drop_open_rows(World&, double h);
 

@@ -336,15 +336,21 @@ void Stepper::keep_impulses(const World& world, State& state) const {
   std::sort(state.warm.begin(), state.warm.end(), [](const WarmStart& a, const WarmStart& b) { return a.key < b.key; });
 }
 
+/// Work [J] of a condition over the step on the bodies it acts on.
+double Stepper::work_of(const World& world, std::size_t i) const {
+  const Constraint& c = world.constraints[i];
+  // what it displaces the smooth forces' potential gains or loses; the work of compliant contacts in the stages is booked there
+  const double displaced = compliant_ && c.kind == ConstraintKind::limit ? 0 : weight_[i];
+  const Vec3 mean = 0.5 * (c.u_smooth + c.u_after) - displaced * (c.u_smooth - c.u_before);
+  double work = 0;
+  for (int r = 0; r < c.rows; ++r) work += c.impulse[r] * mean[r];
+  return work;
+}
+
 void Stepper::book(World& world) {
   for (std::size_t i = 0; i < world.constraints.size(); ++i) {
     const Constraint& c = world.constraints[i];
-    // what it displaces the smooth forces' potential gains or loses; the work of compliant contacts in the stages is booked there
-    const double displaced = compliant_ && c.kind == ConstraintKind::limit ? 0 : weight_[i];
-    const Vec3 mean = 0.5 * (c.u_smooth + c.u_after) - displaced * (c.u_smooth - c.u_before);
-    double work = 0;
-    for (int r = 0; r < c.rows; ++r) work += c.impulse[r] * mean[r];
-    world.dissipated[c.effect] -= work;
+    world.dissipated[c.effect] -= work_of(world, i);
     if (is_contact(c) && !is_compliant(c)) world.diagnostics.max_penetration = std::max(world.diagnostics.max_penetration, -c.gap);
     if (c.kind == ConstraintKind::limit && !is_compliant(c))
       world.diagnostics.max_joint_angle_error = std::max(world.diagnostics.max_joint_angle_error, -c.gap);
@@ -368,8 +374,8 @@ void Stepper::book_resistance(World& world, double h) {
 
 /// The most [J] that the mechanical energy of an island rose over the step beyond what its joints' resistance gave. Rigid contacts
 /// and stops give none; but two segments that press on each other near a dead centre of the joints between them (chin and chest)
-/// exchange impulses so large that the levers they turn meanwhile matter. Wheels and springs may give energy: those islands are
-/// left out.
+/// exchange impulses so large that the levers they turn meanwhile matter. Wheels and springs may give energy: of islands that have
+/// any it is the work of the rigid contacts and stops that counts.
 double Stepper::largest_rise(const World& world, const State& start, double h) {
   const std::size_t count = islands_.size();
   island_rise_.assign(count, 0);
@@ -389,12 +395,19 @@ double Stepper::largest_rise(const World& world, const State& start, double h) {
   }
   double largest = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    if (islands_[k].empty() || island_rise_[k] <= largest) continue;
     const bool rigid = std::none_of(islands_[k].begin(), islands_[k].end(), [&](int i) {
       const Constraint& c = world.constraints[i];
       return c.kind == ConstraintKind::wheel || is_compliant(c);
     });
-    if (rigid) largest = island_rise_[k];
+    if (!rigid) {
+      island_rise_[k] = 0;
+      for (const int i : islands_[k]) {
+        const Constraint& c = world.constraints[i];
+        const bool hard = (c.kind == ConstraintKind::contact || c.kind == ConstraintKind::limit) && !is_compliant(c);
+        if (hard) island_rise_[k] += work_of(world, static_cast<std::size_t>(i));
+      }
+    }
+    if (!islands_[k].empty()) largest = std::max(largest, island_rise_[k]);
   }
   return largest;
 }
