@@ -92,7 +92,8 @@ Footing footing_of(const Ground& ground, const Wheel& spec, const Pose& X, doubl
     constexpr double kAbove = 0.6;  // [m] start over the hub, so that a wheel pushed into a kerb still finds the surface
     double s = 0;
     int triangle = -1;
-    if (ground.terrain->raycast(hub + kAbove * up, -up, spec.radius + droop + kAbove, s, triangle))
+    const double farthest = kAbove + spec.radius / kWheelFacing + droop;  // a leaning wheel's shoulder is nearer than what is below
+    if (ground.terrain->raycast(hub + kAbove * up, -up, farthest, s, triangle))
       look_at(hub + (kAbove - s) * up, ground.terrain->face_normals()[triangle]);
   }
   return best;
