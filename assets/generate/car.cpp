@@ -131,7 +131,7 @@ Surface bodywork() {
 }
 
 Surface shell() {
-  Surface s = half_skin(sedan_shape(), 40, 22);
+  Surface s = half_skin(sedan_shape(), 40, 22, Folds::none);
   s.mirror_y();
   return s;
 }

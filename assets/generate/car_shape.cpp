@@ -15,15 +15,15 @@ double half_width(const CarShape& c, double x) {
   return c.half_width * round * (1 - 0.035 * s * s);
 }
 
-/// Point of the half section at x, t from 0 (bottom, middle) to 1 (top, middle).
-V3 section(const CarShape& shape, double x, double t) {
+/// Point of the half section at x, t from 0 (bottom, middle) to 1 (top, middle). `rising`: it never turns down on its way up.
+V3 section(const CarShape& shape, double x, double t, bool rising = false) {
   const double w = half_width(shape, x), zu = through(shape.underside, x), zt = through(shape.top, x);
   const double zs = std::min(through(shape.shoulder, x), zt - 0.015);
   const double cabin = std::clamp((zt - zs - 0.05) / 0.42, 0.0, 1.0);
   const double rail = w * 0.93 + cabin * (shape.roof_half - 0.93 * shape.half_width);
   const double zr = zt - 0.012 - 0.05 * cabin;
   const double mid = std::min(shape.waist, 0.5 * (zu + zs) + 0.1);
-  const std::array<std::array<double, 2>, 11> c{{{0, zu},
+  std::array<std::array<double, 2>, 11> c{{{0, zu},
                                                  {0.55 * w, zu},
                                                  {0.90 * w, zu + 0.005},
                                                  {0.955 * w, zu + 0.09},
@@ -34,6 +34,8 @@ V3 section(const CarShape& shape, double x, double t) {
                                                  {rail, zr - 0.02},
                                                  {0.80 * rail, zt - 0.004},
                                                  {0, zt + 0.012 * (1 - cabin)}}};
+  if (rising)
+    for (std::size_t k = c.size() - 1; k-- > 0;) c[k][1] = std::min(c[k][1], c[k + 1][1] - (k > 2 ? 0.004 : 0));
   // uniform cubic B-spline, reflected at both ends so that it meets the middle plane squarely
   const int last = static_cast<int>(c.size()) - 1;
   auto control = [&](int i) -> std::array<double, 2> {
@@ -62,8 +64,10 @@ double station(const CarShape& c, double s) {
 
 }  // namespace
 
-Surface half_skin(const CarShape& shape, int stations, int around) {
-  auto at = [&](int i, int k) { return section(shape, station(shape, 2.0 * i / stations - 1), static_cast<double>(k) / around); };
+Surface half_skin(const CarShape& shape, int stations, int around, Folds folds) {
+  auto at = [&](int i, int k) {
+    return section(shape, station(shape, 2.0 * i / stations - 1), static_cast<double>(k) / around, folds == Folds::none);
+  };
   auto normal = [&](int i, int k) {
     const double s = std::clamp(2.0 * i / stations - 1, -0.9995, 0.9995), t = static_cast<double>(k) / around;
     const double e = 2e-4;
@@ -75,12 +79,16 @@ Surface half_skin(const CarShape& shape, int stations, int around) {
     return unit(n);
   };
   Surface out;
+  auto add = [&](const Vertex& a, const Vertex& b, const Vertex& c) {
+    const bool in_middle_plane = a.p.y == 0 && b.p.y == 0 && c.p.y == 0;  // of no area, and its mirror image on top of it
+    if (folds == Folds::hidden || !in_middle_plane) out.add(a, b, c, "paint");
+  };
   for (int i = 0; i < stations; ++i)
     for (int k = 0; k < around; ++k) {
       const Vertex a{at(i, k), normal(i, k)}, b{at(i + 1, k), normal(i + 1, k)}, c{at(i + 1, k + 1), normal(i + 1, k + 1)},
           d{at(i, k + 1), normal(i, k + 1)};
-      out.add(a, c, b, "paint");
-      out.add(a, d, c, "paint");
+      add(a, c, b);
+      add(a, d, c);
     }
   return out;
 }

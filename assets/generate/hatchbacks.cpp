@@ -175,7 +175,7 @@ std::vector<Paint> in_colour(std::array<double, 3> colour) {
 }
 
 Surface closed(const CarShape& shape) {
-  Surface s = half_skin(shape, 40, 22);
+  Surface s = half_skin(shape, 40, 22, Folds::none);
   s.mirror_y();
   return s;
 }
