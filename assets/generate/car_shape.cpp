@@ -24,16 +24,16 @@ V3 section(const CarShape& shape, double x, double t, bool rising = false) {
   const double zr = zt - 0.012 - 0.05 * cabin;
   const double mid = std::min(shape.waist, 0.5 * (zu + zs) + 0.1);
   std::array<std::array<double, 2>, 11> c{{{0, zu},
-                                                 {0.55 * w, zu},
-                                                 {0.90 * w, zu + 0.005},
-                                                 {0.955 * w, zu + 0.09},
-                                                 {1.0 * w, mid - 0.10},
-                                                 {1.012 * w, mid + 0.06},
-                                                 {0.992 * w, zs - 0.035},
-                                                 {0.945 * w, zs + 0.012},
-                                                 {rail, zr - 0.02},
-                                                 {0.80 * rail, zt - 0.004},
-                                                 {0, zt + 0.012 * (1 - cabin)}}};
+                                           {0.55 * w, zu},
+                                           {0.90 * w, zu + 0.005},
+                                           {0.955 * w, zu + 0.09},
+                                           {1.0 * w, mid - 0.10},
+                                           {1.012 * w, mid + 0.06},
+                                           {0.992 * w, zs - 0.035},
+                                           {0.945 * w, zs + 0.012},
+                                           {rail, zr - 0.02},
+                                           {0.80 * rail, zt - 0.004},
+                                           {0, zt + 0.012 * (1 - cabin)}}};
   if (rising)
     for (std::size_t k = c.size() - 1; k-- > 0;) c[k][1] = std::min(c[k][1], c[k + 1][1] - (k > 2 ? 0.004 : 0));
   // uniform cubic B-spline, reflected at both ends so that it meets the middle plane squarely
