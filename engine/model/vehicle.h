@@ -34,8 +34,8 @@ struct Wheel {
   bool driven = false;
 };
 
-/// Cosine between the vehicle's up axis and the ground's normal below which a wheel does not roll: the car lies on its side, and its
-/// wheels' flanks are bodywork.
+/// Cosine between the vehicle's up axis and the ground's normal below which a wheel does not roll: the car lies on its side, and
+/// its wheels' flanks are bodywork.
 constexpr double kWheelFacing = 0.2;
 
 /// [m] Tyres are as round across as wide: a leaning wheel touches with its shoulder, one on its side with its flank.
