@@ -17,7 +17,7 @@ struct CarShape {
   double nose = 5.0, tail = 6.0;  // [-] exponents of the ends in plan: larger is blunter
 };
 
-/// At the ends, where a section is lower than its bends want, the skin folds by millimetres: not seen, but contact must have none.
+/// At the ends, where a section is lower than its bends want, the skin folds: hidden in a picture, but contact must have none.
 enum class Folds { hidden, none };
 
 /// Half of the outer skin, y >= 0, of material paint.

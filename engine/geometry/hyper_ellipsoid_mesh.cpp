@@ -106,10 +106,24 @@ double least_gauge(const HyperEllipsoid& shape, const Vec3& from_A, const Vec3& 
   return t;
 }
 
-/// How far [m] and where in the mesh frame the body reaches against a normal.
+/// Does the normal lean away from every edge at the vertex, by more than -slack [-], and from the back of no face? Of those
+/// triangles that count.
+template <class Counts>
+bool in_cone_of_vertex(const TriangleMesh& mesh, int vertex, const Vec3& normal, double slack, const Counts& counts) {
+  const Vec3& at = mesh.vertices()[vertex];
+  for (const int triangle : mesh.triangles_at(vertex)) {
+    if (!counts(triangle)) continue;
+    for (const std::int32_t other : mesh.triangles()[triangle])
+      if (other != vertex && normal.dot((mesh.vertices()[other] - at).normalized()) > slack) return false;
+    if (normal.dot(mesh.face_normals()[triangle]) < 0) return false;
+  }
+  return true;
+}
+
+/// Where the body reaches farthest against a normal.
 struct Reached {
-  Vec3 point;
-  Support support;
+  Vec3 point;       // [m] mesh frame
+  Support support;  // in body axes
 };
 Reached reached(const Scene& s, const Vec3& normal) {
   const Support support = engine::support(s.shape, s.X_MA.q.conjugate() * -normal);
@@ -125,7 +139,8 @@ void touch_edge_round(Scene& s, int triangle, int edge, std::vector<VertexTouch>
   const Vec3 along = s.mesh.vertices()[to] - start;
   const Vec3& n = s.mesh.face_normals()[triangle];
   const Vec3 out = along.cross(n).normalized();  // in the face, across the edge
-  if (out.dot(s.points_against(n)[0] - start) <= 0) return;
+  const double beyond_this = out.dot(s.points_against(n)[0] - start);
+  if (beyond_this <= 0) return;
   // the cone: cos(angle) n + sin(angle) out, from this face to the other; of a border to the edge of the sheet
   const int other = s.mesh.neighbour(triangle, edge);
   const Vec3 n_far = other >= 0 ? s.mesh.face_normals()[other] : out;
@@ -139,7 +154,7 @@ void touch_edge_round(Scene& s, int triangle, int edge, std::vector<VertexTouch>
     point = reached(s, normal).point;
     return (c * out - sn * n).dot(point - start);
   };
-  double low = 0, high = widest, f_low = out.dot(s.points_against(n)[0] - start), f_high = slope(high);
+  double low = 0, high = widest, f_low = beyond_this, f_high = slope(high);
   if (f_high >= 0) return;
   int side = 0;
   for (int k = 0; k < 60 && high - low > kTight; ++k) {
@@ -188,12 +203,11 @@ void touch_vertex_round(Scene& s, const VertexTouch& guess) {
       A.compute(H + std::max(c.gap, 0.0) * across + along + 1e-6 * Mat3::Identity());
     Vec3 turn = across * A.solve(aside);
     if (turn.norm() > 0.3) turn *= 0.3 / turn.norm();
-    double gap = c.gap;
     bool better = false;
     for (int halving = 0; halving < 8 && !better; ++halving, turn *= 0.5) {
       const Vec3 normal = (c.normal + turn).normalized();
       const Reached next = reached(s, normal);
-      gap = normal.dot(next.point - vertex);
+      const double gap = normal.dot(next.point - vertex);
       if (gap <= c.gap) continue;
       better = true;
       c.normal = normal;
@@ -205,18 +219,12 @@ void touch_vertex_round(Scene& s, const VertexTouch& guess) {
   if (c.gap >= s.margin || c.gap < s.least) return;
   c.p_b = vertex;
   c.p_a = vertex + c.gap * c.normal;
-  // in the cone of its edges; one that is not felt has no say
-  for (const int triangle : s.mesh.triangles_at(guess.vertex)) {
-    const Triangle& t = s.mesh.triangles()[triangle];
-    for (const std::int32_t other : t)
-      if (other != guess.vertex && c.normal.dot((s.mesh.vertices()[other] - vertex).normalized()) > 1e-6) return;
-    if (c.normal.dot(s.mesh.face_normals()[triangle]) < 0) return;
-  }
-  s.out.push_back(c);
+  constexpr double kAside = 1e-6;  // [-] what is left of Newton, on the border between a corner and its edge
+  if (in_cone_of_vertex(s.mesh, guess.vertex, c.normal, kAside, [](int) { return true; })) s.out.push_back(c);
 }
 
 /// Of a body with flat sides.
-void touch_edge(Scene& s, int triangle, int edge) {
+void touch_edge_flat(Scene& s, int triangle, int edge) {
   const Triangle& t = s.mesh.triangles()[triangle];
   const Vec3& from = s.mesh.vertices()[t[edge]];
   const Vec3 along = s.mesh.vertices()[t[(edge + 1) % 3]] - from;
@@ -235,20 +243,10 @@ void touch_edge(Scene& s, int triangle, int edge) {
 }
 
 template <class IsNear>
-void touch_vertex(Scene& s, int vertex, const IsNear& is_near) {
+void touch_vertex_flat(Scene& s, int vertex, const IsNear& is_near) {
   SurfaceContact c;
-  if (!point_contact(s, s.mesh.vertices()[vertex], c)) return;
-  for (const int triangle : s.mesh.triangles_at(vertex)) {
-    if (!is_near(triangle)) continue;
-    const Triangle& t = s.mesh.triangles()[triangle];
-    for (int k = 0; k < 3; ++k) {
-      if (t[k] != vertex) continue;
-      for (const int other : {t[(k + 1) % 3], t[(k + 2) % 3]})
-        if (c.normal.dot((s.mesh.vertices()[other] - s.mesh.vertices()[vertex]).normalized()) > 1e-9) return;
-      if (c.normal.dot(s.mesh.face_normals()[triangle]) < 0) return;
-    }
-  }
-  s.out.push_back(c);
+  if (point_contact(s, s.mesh.vertices()[vertex], c) && in_cone_of_vertex(s.mesh, vertex, c.normal, 1e-9, is_near))
+    s.out.push_back(c);
 }
 
 std::uint32_t key_of(const SurfaceContact& c, const Pose& X_MA, double exponent) {
@@ -386,18 +384,17 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
       if (!felt(mesh.edge_kind(t, e))) continue;
       const int other = mesh.neighbour(t, e);
       if (other >= 0 && other < t && is_near(other)) continue;  // once for both
-      if (!flat) {
+      if (flat) {
+        touch_edge_flat(scene, t, e);
+        for (const int end : {e, (e + 1) % 3}) scratch.vertices.push_back(mesh.triangles()[t][end]);
+      } else {
         touch_edge_round(scene, t, e, scratch.beyond);
-        continue;
       }
-      touch_edge(scene, t, e);
-      scratch.vertices.push_back(mesh.triangles()[t][e]);
-      scratch.vertices.push_back(mesh.triangles()[t][(e + 1) % 3]);
     }
   }
   std::sort(scratch.vertices.begin(), scratch.vertices.end());
   scratch.vertices.erase(std::unique(scratch.vertices.begin(), scratch.vertices.end()), scratch.vertices.end());
-  for (const int v : scratch.vertices) touch_vertex(scene, v, is_near);
+  for (const int v : scratch.vertices) touch_vertex_flat(scene, v, is_near);
 
   // more than one edge may lead to a vertex: the first found will do
   std::sort(scratch.beyond.begin(), scratch.beyond.end(), [](const VertexTouch& a, const VertexTouch& b) {

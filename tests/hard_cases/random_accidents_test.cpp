@@ -81,12 +81,13 @@ std::string accident(unsigned seed) {
   return text;
 }
 
-/// How far [m] anything stands in anything at a snapshot but one vehicle in another, whose sheets would crumple there.
-double deepest(const engine::Recording& recording) {
+/// How far [m] anything stands in anything at a snapshot: of one vehicle in another, whose sheets would crumple there, or of the
+/// rest.
+double deepest(const engine::Recording& recording, bool of_vehicles) {
   double depth = 0;
   for (const engine::Snapshot& s : recording.snapshots)
     for (const engine::ContactRecord& c : s.contacts)
-      if (c.kind != engine::ContactKind::vehicle_pair) depth = std::max(depth, c.depth);
+      if ((c.kind == engine::ContactKind::vehicle_pair) == of_vehicles) depth = std::max(depth, c.depth);
   return depth;
 }
 
@@ -97,7 +98,7 @@ TEST_P(RandomAccidents, SayThatTheyAreRight) {
   const char* many = std::getenv("CRASHREEL_ACCIDENTS");
   const char* alone = std::getenv("CRASHREEL_ACCIDENT");
   const int in_group = many ? (std::atoi(many) + kGroups - 1) / kGroups : kInGroup;
-  double unexplained = 0, depth = 0, gap = 0, residual = 0, angle = 0;
+  double unexplained = 0, depth = 0, crush = 0, gap = 0, residual = 0, angle = 0;
   for (int k = 0; k < in_group; ++k) {
     const auto seed = static_cast<unsigned>(k * kGroups + GetParam());
     if (alone && static_cast<int>(seed) != std::atoi(alone)) continue;
@@ -109,20 +110,21 @@ TEST_P(RandomAccidents, SayThatTheyAreRight) {
     const double share = std::abs(it.snapshots.back().energies.residual) / (1e4 + energy(it.snapshots.front()));
     const std::string which = fmt::format("accident {}:\n{}", seed, accident(seed));
     EXPECT_TRUE(d.warnings.empty()) << which << d.warnings.front();
-    EXPECT_LT(share, 1e-3) << which;
-    EXPECT_LT(deepest(it), 2e-3) << which;
-    EXPECT_LT(d.max_joint_gap, 1e-9) << which;
+    EXPECT_LT(share, 1e-3) << which;               // as of the crushed child; at a walk 10 J of what the limbs themselves carry
+    EXPECT_LT(deepest(it, false), 2e-3) << which;  // depth and angle: as asked of a struck person
+    EXPECT_LT(d.max_joint_gap, 1e-9) << which;     // a thousand times what rounding leaves
     EXPECT_LT(degrees(d.max_joint_angle_error), 0.5) << which;
-    EXPECT_LT(d.max_solver_residual, 1e-3) << which;
+    EXPECT_LT(d.max_solver_residual, 1e-3) << which;  // where limbs are wedged a problem or two stop short of 1e-5
     unexplained = std::max(unexplained, share);
-    depth = std::max(depth, deepest(it));
+    depth = std::max(depth, deepest(it, false));
+    crush = std::max(crush, deepest(it, true));
     gap = std::max(gap, d.max_joint_gap);
     angle = std::max(angle, degrees(d.max_joint_angle_error));
     residual = std::max(residual, d.max_solver_residual);
   }
   row("random accidents", fmt::format("{} of group {}", in_group, GetParam()),
-      "%.4f %% of the energy unexplained, penetration %.2f mm, drift %.1e m, limits %.2f deg, residual %.1e m/s", 100 * unexplained,
-      1e3 * depth, gap, angle, residual);
+      "%.4f %% of the energy unexplained, penetration %.2f mm (of vehicles %.0f), drift %.1e m, limits %.2f deg, residual %.1e m/s",
+      100 * unexplained, 1e3 * depth, 1e3 * crush, gap, angle, residual);
 }
 
 }  // namespace
