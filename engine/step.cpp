@@ -48,7 +48,7 @@ constexpr double kSpringStep = 0.3;  // [rad] of a compliant contact's spring in
 }  // namespace
 
 Stepper::Stepper(World& world)
-    : smooth_(world.model), force_(world.model.bodies.size(), Vec6::Zero()), result_(world.model.bodies.size(), Vec6::Zero()) {
+    : smooth_(world.model), force_(world.model.bodies.size(), Vec6::Zero()), displacing_(force_), result_(force_) {
   reserve(world);
   const Settings& settings = world.model.settings;
   if (settings.scheme == Scheme::adaptive) depth_tolerance_ = std::max(10 * settings.adaptive_tolerance, 2 * kSlop);
@@ -58,6 +58,7 @@ Stepper::Stepper(World& world)
     world.constraints.swap(found);
     const double step = world.step;
     world.step = within;
+    world.nearness.look(world, state);
     call(world, &Effect::find_contacts, state);
     world.step = step;
     world.constraints.swap(found);
@@ -101,6 +102,7 @@ void Stepper::choose_trees(World& world, const State& state) {
 
 void Stepper::find_contacts(World& world, const State& state, std::vector<Constraint>& found) {
   world.constraints.clear();
+  if (!compliant_) world.nearness.look(world, state);
   for (std::size_t e = 0; e < world.plan.active.size(); ++e) {
     const Effect* effect = world.plan.active[e];
     if (!effect->find_contacts && !effect->find_limits) continue;
@@ -180,26 +182,24 @@ double Stepper::integrate(World& world, const State& state, double h) {
   const double for_turning = std::pow(turning_ * h / kSmoothTurn, 2.0);
   const double wanted = std::max(for_turning, smooth_.fastest_swing() / kSmoothSwing * h);
   const int parts = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, kMostParts));
-  Articulation* at_start = nullptr;
+  FirstStage first;  // stands where impulses act
   auto advance_over = [&](double length) {
     if (compliant) compliant->next_part(length / parts);
-    for (int k = 0; k < parts; ++k)
-      smooth_.advance(world, end_, length / parts, X_, V_, compliant, std::exchange(at_start, nullptr));
+    for (int k = 0; k < parts; ++k) smooth_.advance(world, end_, length / parts, X_, V_, compliant, std::exchange(first, {}));
   };
-  auto begin = [&] {
+  auto begin = [&](bool factored) {
     end_ = state;
     end_.time = state.time + h;
     world.time = state.time;
-    at_start = &world.impulse;
+    first = {&world.impulse, factored};
     if (compliant) compliant->restart(h);
   };
-  factor_for_impulses(world, state, nullptr);  // the first stage stands where impulses act
-  begin();
+  begin(false);
   advance_over(h);
   if (world.model.settings.scheme != Scheme::adaptive) return 0;
   X_whole_ = X_;
   V_whole_ = V_;
-  begin();
+  begin(true);
   advance_over(0.5 * h);
   advance_over(0.5 * h);
   double error = 0;

@@ -74,7 +74,7 @@ class Stepper {
   bool contacts_known_ = false;
   double depth_tolerance_ = 1;  // [m] scheme adaptive: what a step may add to a penetration
   double next_step_ = 0;        // [s] what the last step suggests, 0: anything
-  std::vector<Vec6> force_, result_;
+  std::vector<Vec6> force_, displacing_, result_;
   std::vector<std::vector<int>> islands_;
   std::vector<char> island_has_impact_;
   std::vector<double> island_rise_;  // [J] per island

@@ -291,33 +291,34 @@ Vec3 carried_on(const Body& body, const Quat& q, const Quat& turned, const Vec3&
 
 void Stepper::apply(World& world, double h) {
   // velocities take the whole impulse, displacements its weighted share
-  auto push = [&](bool displacement) {
-    for (const int tree : world.active_trees)
-      for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l)
-        force_[world.topology.links[l].body].setZero();
-    for (std::size_t i = 0; i < world.constraints.size(); ++i) {
-      const Constraint& c = world.constraints[i];
-      const double share = displacement ? weight_[i] * h : 1;
-      for (int r = 0; r < c.rows; ++r) {
-        const double amount = share * c.impulse[r] + (displacement && r == 0 ? c.push : 0);
-        if (amount == 0) continue;
-        if (c.body_a >= 0) force_[c.body_a] += c.J_a.row(r).transpose() * amount;
-        if (c.body_b >= 0) force_[c.body_b] += c.J_b.row(r).transpose() * amount;
-      }
-    }
-    for (const int tree : world.active_trees) world.impulse.solve(world.topology, tree, force_, result_, Articulation::Bias::zero);
-  };
-  push(false);
   for (const int tree : world.active_trees)
     for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      force_[world.topology.links[l].body].setZero();
+      displacing_[world.topology.links[l].body].setZero();
+    }
+  for (std::size_t i = 0; i < world.constraints.size(); ++i) {
+    const Constraint& c = world.constraints[i];
+    const auto act = [&c](std::vector<Vec6>& on, int row, double amount) {
+      if (amount == 0) return;
+      if (c.body_a >= 0) on[c.body_a] += c.J_a.row(row).transpose() * amount;
+      if (c.body_b >= 0) on[c.body_b] += c.J_b.row(row).transpose() * amount;
+    };
+    const double share = weight_[i] * h;
+    for (int r = 0; r < c.rows; ++r) {
+      act(force_, r, c.impulse[r]);
+      act(displacing_, r, share * c.impulse[r] + (r == 0 ? c.push : 0));
+    }
+  }
+  for (const int tree : world.active_trees) {
+    const Topology::Tree& range = world.topology.trees[tree];
+    const bool free = range.end - range.begin == 1 && world.topology.links[range.begin].joint < 0;
+    world.impulse.solve(world.topology, tree, force_, result_, Articulation::Bias::zero);
+    for (int l = range.begin; l < range.end; ++l) {
       const int b = world.topology.links[l].body;
       V_[b].v += result_[b].head<3>();
       V_[b].w += result_[b].tail<3>();
     }
-  push(true);
-  for (const int tree : world.active_trees) {
-    const Topology::Tree& range = world.topology.trees[tree];
-    const bool free = range.end - range.begin == 1 && world.topology.links[range.begin].joint < 0;
+    world.impulse.solve(world.topology, tree, displacing_, result_, Articulation::Bias::zero);
     for (int l = range.begin; l < range.end; ++l) {
       const int b = world.topology.links[l].body;
       const Quat q = X_[b].q;

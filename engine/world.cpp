@@ -18,7 +18,13 @@ std::vector<char> apart(const Model& model, const Plan& plan) {
 }  // namespace
 
 World::World(const Model& m, const Plan& p, const RunOptions& o)
-    : model(m), plan(p), options(o), topology(build_topology(m, apart(m, p))), smooth(m), impulse(m), meter(o.clock) {
+    : model(m),
+      plan(p),
+      options(o),
+      topology(build_topology(m, apart(m, p))),
+      smooth(m, Articulation::Keeps::last_tree),
+      impulse(m, Articulation::Keeps::all_trees),
+      meter(o.clock) {
   memory.resize(p.active.size());
   for (const Effect* effect : p.active) meter.effects.push_back({effect->name, 0, 0});
   smooth.reset(topology);
@@ -50,7 +56,16 @@ constexpr double kSpare = 2e-3;  // [m] so that a contact is known before it is 
 }
 
 void Nearness::look(const World& world, const State& state) {
+  constexpr double kRounding = 1 + 1e-9;  // so that a bound stays one
+  const std::size_t bodies = state.X_WB.size();
+  swept_.resize(bodies);
+  for (std::size_t b = 0; b < bodies; ++b) {
+    const double way = world.step * (state.V_WB[b].v.norm() + state.V_WB[b].w.norm() * world.reach[b]);
+    swept_[b] = kRounding * (world.reach[b] + way);
+  }
+  spare_ = kRounding * (kSpare + world.model.settings.gravity.norm() * world.step * world.step);
   const std::size_t trees = world.topology.trees.size();
+  if (trees < 2) return;
   centre_.resize(trees);
   radius_.resize(trees);
   close_.resize(trees * trees);
@@ -60,15 +75,14 @@ void Nearness::look(const World& world, const State& state) {
     radius_[t] = 0;
     for (int l = range.begin; l < range.end; ++l) {
       const int b = world.topology.links[l].body;
-      const double way = world.step * (state.V_WB[b].v.norm() + state.V_WB[b].w.norm() * world.reach[b]);
-      radius_[t] = std::max(radius_[t], (state.X_WB[b].p - centre_[t]).norm() + world.reach[b] + way);
+      radius_[t] = std::max(radius_[t], (state.X_WB[b].p - centre_[t]).norm() + swept_[b]);
     }
   }
-  const double spare = 2 * (kSpare + world.model.settings.gravity.norm() * world.step * world.step);
   for (std::size_t a = 0; a < trees; ++a)
-    for (std::size_t b = a + 1; b < trees; ++b)
-      close_[a * trees + b] = close_[b * trees + a] =
-          static_cast<char>((centre_[a] - centre_[b]).norm() <= radius_[a] + radius_[b] + spare);
+    for (std::size_t b = a + 1; b < trees; ++b) {
+      const double within = radius_[a] + radius_[b] + 2 * spare_;
+      close_[a * trees + b] = close_[b * trees + a] = static_cast<char>((centre_[a] - centre_[b]).squaredNorm() <= within * within);
+    }
 }
 
 double contact_margin(const World& world, const State& state, int body) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <any>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -52,13 +53,27 @@ struct MeshPair {
 
 /// Two segments that may touch each other.
 struct BodyPair {
-  int effect = 0;
   int a = 0, b = 0;
+};
+
+/// What such a pair keeps from step to step.
+struct PairMemory {
   Vec3 normal_W = Vec3::Zero();  // of the last step, zero: none yet
   Clearance clearance;           // of b in the frame of a
 };
 
 struct World;
+
+/// All pairs of round bodies of the same two trees. Where there are many they are listed when the trees first come near each other:
+/// of fifty persons there would be three hundred thousand. Their memory stands apart: of most pairs a step asks no more than who
+/// they are.
+struct BodyPairRun {
+  int effect = 0;
+  int tree_a = -1, tree_b = -1;  // -1: a fixed body
+  bool listed = false;
+  std::vector<BodyPair> pairs;
+  std::vector<PairMemory> memory;  // of the same
+};
 
 /// Neighbours in the list of pairs, all of the same two trees.
 struct PairRun {
@@ -74,17 +89,25 @@ inline void add_to_runs(std::vector<PairRun>& runs, int effect, int tree_a, int 
   runs.back().end = at + 1;
 }
 
-/// Which trees of bodies have anything to do with each other in a step: spheres about them, with the way they can go in it.
+/// Which bodies, and which trees of them, have anything to do with each other in a step: spheres about them, with the way they can
+/// go in it. Bounds on `pair_margin`, cheaper than it.
 class Nearness {
  public:
-  /// From where bodies are and how they move; a bound on `pair_margin` of any two of them.
+  /// From where bodies are and how they move. Before anything looks for contacts.
   void look(const World&, const State&);
   bool close(int tree_a, int tree_b) const {
     return tree_a < 0 || tree_b < 0 || tree_a == tree_b || close_[static_cast<std::size_t>(tree_a) * radius_.size() + tree_b] != 0;
   }
+  /// Farther apart than their reach and `pair_margin`?
+  bool apart(const State& state, int body_a, int body_b) const {
+    const double within = swept_[body_a] + swept_[body_b] + spare_;
+    return (state.X_WB[body_a].p - state.X_WB[body_b].p).squaredNorm() > within * within;
+  }
 
  private:
-  std::vector<Vec3> centre_;  // [m]
+  double spare_ = 0;           // [m] of a pair
+  std::vector<double> swept_;  // [m] per body: about its centre, with its way
+  std::vector<Vec3> centre_;   // [m] per tree
   std::vector<double> radius_;
   std::vector<char> close_;  // trees x trees
 };
@@ -95,11 +118,12 @@ struct SurfacePoint {
   int wheel = -1;           // of World::wheels, -1: of the body
 };
 
-/// Two meshes whose points may meet the other's surface.
+/// Two meshes whose points may meet the other's surface; their clearances stand apart, as of most pairs a step asks no more than
+/// who they are.
 struct BodyworkPair {
   int a = 0, b = 0;
-  Clearance clearance[2];  // of b in the frame of a: points of a on b, points of b on a
 };
+using BodyworkClearance = std::array<Clearance, 2>;  // of b in the frame of a: points of a on b, points of b on a
 
 /// Two meshes that collide by Kudlich-Slibar.
 struct ImpactPair {
@@ -176,15 +200,15 @@ struct World {
   std::vector<char> awake;    // per body: takes part in this step
   std::vector<int> active_trees;
   std::vector<MeshPair> mesh_pairs;
-  std::vector<BodyPair> body_pairs;
-  std::vector<PairRun> body_pair_runs;
+  std::vector<BodyPairRun> body_pair_runs;
   std::vector<PairRun> mesh_pair_runs;  // of bodies (a) and meshes (b)
   Nearness nearness;
   std::vector<WheelState> wheels;
   std::vector<Vec3> joint_load;                           // [N] on the child, per joint; of those that can break
   std::vector<std::vector<SurfacePoint>> surface_points;  // per body with a mesh, for meshes against others
   std::vector<BodyworkPair> bodywork_pairs;
-  std::vector<SurfaceContact> point_contacts;  // scratch of those
+  std::vector<BodyworkClearance> bodywork_clearances;  // of the same
+  std::vector<SurfaceContact> point_contacts;          // scratch of those
   std::vector<int> point_scratch;
   MeshContactScratch mesh_scratch;
   std::vector<double> path_steer;  // [rad] per vehicle that follows a path

@@ -19,7 +19,7 @@ Finding look(const Model& model) {
 }
 
 void begin(World& world, const State&, int self) {
-  add_pairs(world, pairs_between_bodies(world.model, self));
+  add_runs_between_bodies(world, self);
 }
 
 void find(World& world, const State& state, int self) {

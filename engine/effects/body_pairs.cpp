@@ -1,7 +1,7 @@
 #include "engine/effects/body_pairs.h"
 
 #include <algorithm>
-#include <numeric>
+#include <map>
 #include <utility>
 
 #include "engine/geometry/hyper_ellipsoid_pair.h"
@@ -38,7 +38,7 @@ bool overlaps_at_start(const Model& model, int a, int b) {
 
 }  // namespace
 
-std::vector<BodyPair> pairs_within_persons(const Model& model, int effect) {
+std::vector<BodyPair> pairs_within_persons(const Model& model) {
   const Joined joined = joined_bodies(model);
   std::vector<BodyPair> pairs;
   for (const Person& person : model.persons)
@@ -46,59 +46,82 @@ std::vector<BodyPair> pairs_within_persons(const Model& model, int effect) {
       for (std::size_t k = i + 1; k < person.bodies.size(); ++k)
         if (can_meet(model, joined, person.bodies[i], person.bodies[k]) &&
             !overlaps_at_start(model, person.bodies[i], person.bodies[k]))
-          pairs.push_back({effect, person.bodies[i], person.bodies[k], Vec3::Zero(), {}});
+          pairs.push_back({person.bodies[i], person.bodies[k]});
   return pairs;
 }
 
 namespace {
 
-template <class What>
-void for_each_pair_between_bodies(const Model& model, const What& what) {
-  const Joined joined = joined_bodies(model);
-  const int n = static_cast<int>(model.bodies.size());
-  for (int a = 0; a < n; ++a)
-    for (int b = a + 1; b < n; ++b) {
-      const bool same_person = model.bodies[a].person >= 0 && model.bodies[a].person == model.bodies[b].person;
-      if (!same_person && can_meet(model, joined, a, b)) what(a, b);
-    }
+bool can_meet_between(const Model& model, const Joined& joined, int a, int b) {
+  const bool same_person = model.bodies[a].person >= 0 && model.bodies[a].person == model.bodies[b].person;
+  return a < b && !same_person && can_meet(model, joined, a, b);
+}
+
+/// In ascending order; of tree -1 those that are fixed.
+std::vector<int> bodies_of(const Topology& topology, int tree) {
+  std::vector<int> bodies;
+  for (int b = 0; b < static_cast<int>(topology.tree_of_body.size()); ++b)
+    if (topology.tree_of_body[b] == tree) bodies.push_back(b);
+  return bodies;
 }
 
 }  // namespace
 
-std::vector<BodyPair> pairs_between_bodies(const Model& model, int effect) {
-  std::vector<BodyPair> pairs;
-  for_each_pair_between_bodies(model, [&](int a, int b) { pairs.push_back({effect, a, b, Vec3::Zero(), {}}); });
-  return pairs;
-}
-
 std::size_t count_pairs_between_bodies(const Model& model) {
+  const Joined joined = joined_bodies(model);
+  const int n = static_cast<int>(model.bodies.size());
   std::size_t count = 0;
-  for_each_pair_between_bodies(model, [&](int, int) { ++count; });
+  for (int a = 0; a < n; ++a)
+    for (int b = a + 1; b < n; ++b) count += can_meet_between(model, joined, a, b);
   return count;
 }
 
-void add_pairs(World& world, std::vector<BodyPair> pairs) {
+void add_pairs_within_persons(World& world, int effect) {
   // all of two trees together, so that one look at the trees does for all their pairs
-  const auto trees = [&world](const BodyPair& pair) {
-    return std::pair(world.topology.tree_of_body[pair.a], world.topology.tree_of_body[pair.b]);
-  };
-  std::vector<std::size_t> order(pairs.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) { return trees(pairs[x]) < trees(pairs[y]); });
-  world.body_pairs.reserve(world.body_pairs.size() + pairs.size());
-  for (const std::size_t i : order) {
-    const BodyPair& pair = pairs[i];
-    const auto [tree_a, tree_b] = trees(pair);
-    add_to_runs(world.body_pair_runs, pair.effect, tree_a, tree_b, world.body_pairs.size());
-    world.body_pairs.push_back(pair);
-  }
+  std::map<std::pair<int, int>, std::vector<BodyPair>> by_trees;
+  for (const BodyPair& pair : pairs_within_persons(world.model))
+    by_trees[{world.topology.tree_of_body[pair.a], world.topology.tree_of_body[pair.b]}].push_back(pair);
+  for (const auto& [trees, pairs] : by_trees)
+    world.body_pair_runs.push_back({effect, trees.first, trees.second, true, pairs, std::vector<PairMemory>(pairs.size())});
+}
+
+void add_runs_between_bodies(World& world, int effect) {
+  constexpr std::size_t kAtOnce = 10'000;  // pairs that are listed before the first step, which then never waits for memory
+  const bool at_once = count_pairs_between_bodies(world.model) <= kAtOnce;
+  const Joined joined = joined_bodies(world.model);
+  const int trees = static_cast<int>(world.topology.trees.size());
+  std::vector<std::vector<int>> bodies;
+  for (int tree = -1; tree < trees; ++tree) bodies.push_back(bodies_of(world.topology, tree));
+  for (int tree_a = -1; tree_a < trees; ++tree_a)
+    for (int tree_b = -1; tree_b < trees; ++tree_b) {
+      const auto &of_a = bodies[static_cast<std::size_t>(tree_a + 1)], &of_b = bodies[static_cast<std::size_t>(tree_b + 1)];
+      const bool any = std::any_of(of_a.begin(), of_a.end(), [&](int a) {
+        return std::any_of(of_b.begin(), of_b.end(), [&](int b) { return can_meet_between(world.model, joined, a, b); });
+      });
+      if (!any) continue;
+      world.body_pair_runs.push_back({effect, tree_a, tree_b, false, {}, {}});
+      if (at_once) list_pairs(world, world.body_pair_runs.back());
+    }
+}
+
+void list_pairs(const World& world, BodyPairRun& run) {
+  if (run.listed) return;
+  run.listed = true;
+  const Joined joined = joined_bodies(world.model);
+  const std::vector<int> of_b = bodies_of(world.topology, run.tree_b);
+  for (const int a : bodies_of(world.topology, run.tree_a))
+    for (const int b : of_b)
+      if (can_meet_between(world.model, joined, a, b)) run.pairs.push_back({a, b});
+  run.memory.resize(run.pairs.size());
 }
 
 namespace {
 
-void find_contacts_of(World& world, const State& state, const PairRun& run, ContactKind kind) {
-  for (std::size_t i = run.begin; i < run.end; ++i) {
-    BodyPair& pair = world.body_pairs[i];
+void find_contacts_of(World& world, const State& state, BodyPairRun& run, ContactKind kind) {
+  list_pairs(world, run);
+  for (std::size_t i = 0; i < run.pairs.size(); ++i) {
+    const BodyPair& pair = run.pairs[i];
+    if (world.nearness.apart(state, pair.a, pair.b)) continue;
     if (!world.awake[pair.a] && !world.awake[pair.b]) continue;
     const double margin = pair_margin(world, state, pair.a, pair.b);
     const double apart = (state.X_WB[pair.a].p - state.X_WB[pair.b].p).norm();
@@ -108,12 +131,13 @@ void find_contacts_of(World& world, const State& state, const PairRun& run, Cont
     const bool frozen = (!world.awake[pair.a] && !A.fixed) || (!world.awake[pair.b] && !B.fixed);
     if (frozen) continue;  // waits or sleeps: those effects watch
     const Pose X_AB = state.X_WB[pair.a].inverse() * state.X_WB[pair.b];
-    if (pair.clearance.beyond(margin, X_AB, world.reach[pair.b])) continue;
-    pair.clearance.least = 0;
+    PairMemory& memory = run.memory[i];
+    if (memory.clearance.beyond(margin, X_AB, world.reach[pair.b])) continue;
+    memory.clearance.least = 0;
     const auto touch = contact_of_pair(std::get<HyperEllipsoid>(A.shape), state.X_WB[pair.a], std::get<HyperEllipsoid>(B.shape),
-                                       state.X_WB[pair.b], margin, pair.normal_W, &pair.clearance.least);
+                                       state.X_WB[pair.b], margin, memory.normal_W, &memory.clearance.least);
     if (!touch) {
-      pair.clearance.X = X_AB;
+      memory.clearance.X = X_AB;
       continue;
     }
     const double mu = std::min(A.surface.friction_body.at(state.time), B.surface.friction_body.at(state.time));
@@ -125,8 +149,7 @@ void find_contacts_of(World& world, const State& state, const PairRun& run, Cont
 }  // namespace
 
 void find_pair_contacts(World& world, const State& state, int effect, ContactKind kind) {
-  world.nearness.look(world, state);
-  for (const PairRun& run : world.body_pair_runs)
+  for (BodyPairRun& run : world.body_pair_runs)
     if (run.effect == effect && world.nearness.close(run.tree_a, run.tree_b)) find_contacts_of(world, state, run, kind);
 }
 

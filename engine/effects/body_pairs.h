@@ -1,4 +1,4 @@
-// What self contact and contact between persons or free bodies share: a list of pairs of hyper-ellipsoids.
+// What self contact and contact between persons or free bodies share: pairs of hyper-ellipsoids.
 #pragma once
 
 #include "engine/effects/effect.h"
@@ -6,12 +6,17 @@
 namespace engine {
 
 /// Pairs that may touch: both hyper-ellipsoids, not joined by a joint, not overlapping in the start pose by their nature.
-std::vector<BodyPair> pairs_within_persons(const Model&, int effect);
-std::vector<BodyPair> pairs_between_bodies(const Model&, int effect);
+std::vector<BodyPair> pairs_within_persons(const Model&);
 std::size_t count_pairs_between_bodies(const Model&);
 
-/// Appends them to those of the world.
-void add_pairs(World&, std::vector<BodyPair>);
+/// Adds the pairs within each person, listed, to the runs of the world.
+void add_pairs_within_persons(World&, int effect);
+
+/// Adds runs of all trees whose bodies may touch without being one person's.
+void add_runs_between_bodies(World&, int effect);
+
+/// Lists the pairs of such a run, bodies of lower index first, if that was not done yet.
+void list_pairs(const World&, BodyPairRun&);
 
 void find_pair_contacts(World&, const State&, int effect, ContactKind);
 

@@ -86,7 +86,8 @@ void begin(World& world, const State&, int) {
   }
   for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b)
-      if (can_meet(world.model, a, b)) world.bodywork_pairs.push_back({a, b, {}});
+      if (can_meet(world.model, a, b)) world.bodywork_pairs.push_back({a, b});
+  world.bodywork_clearances.resize(world.bodywork_pairs.size());
   reserve_scratch(world);
 }
 
@@ -104,17 +105,26 @@ Aabb box_of(const World& world, const State& state, int body) {
   return box;
 }
 
+/// Some of a body's points: those of its mesh stand before those of its wheels.
+struct Points {
+  std::size_t begin = 0, end = 0;
+};
+std::size_t first_of_wheels(const std::vector<SurfacePoint>& points) {
+  const auto first = std::partition_point(points.begin(), points.end(), [](const SurfacePoint& p) { return p.wheel < 0; });
+  return static_cast<std::size_t>(first - points.begin());
+}
+
 /// Contacts of a body's points with a mesh at a pose, or with the plane z = height where there is none. Of its wheels only with
 /// what is steeper to its up axis than `rolls` [-] says: the rest is under them. What has a gap below `least` [m] is not met.
-void touch(World& world, const State& state, int body, const TriangleMesh* mesh, const Pose& X_WM, double height, double margin,
-           const Aabb& within, double rolls, double least) {
+void touch(World& world, const State& state, int body, Points which, const TriangleMesh* mesh, const Pose& X_WM, double height,
+           double margin, const Aabb& within, double rolls, double least) {
   std::vector<SurfaceContact>& out = world.point_contacts;
   out.clear();
   const Pose& X = state.X_WB[body];
   const Vec3 up = X.q * Vec3::UnitZ();
   const Pose X_MW = X_WM.inverse();
   const auto& points = world.surface_points[body];
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = which.begin; i < which.end; ++i) {
     Vec3 p = X * points[i].p_B;
     if (points[i].wheel >= 0 && !world.wheels.empty()) p += world.wheels[points[i].wheel].lift * up;
     if ((p.array() < within.lower.array() - margin).any() || (p.array() > within.upper.array() + margin).any()) continue;
@@ -151,49 +161,58 @@ void find_on_ground(World& world, const State& state, int body, int self) {
       add_contact(world, state, c, body, -1, self, kind, mu, e);
     }
   };
+  const std::size_t wheels = first_of_wheels(world.surface_points[body]), all = world.surface_points[body].size();
   if (ground.plane && box.lower.z() < ground.height + margin) {
-    touch(world, state, body, nullptr, {}, ground.height, margin, box, kWheelFacing, kNotKnown);
+    // of a vehicle that stands upright and clear of the road neither its mesh nor its wheels: the road is under them
+    const auto& shape = std::get<MeshShape>(B.shape);
+    const bool low = world_bounds(*shape.mesh, state.X_WB[body] * shape.X_BM).lower.z() < ground.height + margin;
+    const bool upright = (state.X_WB[body].q * Vec3::UnitZ()).z() > kWheelFacing;
+    touch(world, state, body, {low ? 0 : wheels, upright ? wheels : all}, nullptr, {}, ground.height, margin, box, kWheelFacing,
+          kNotKnown);
     add(ContactKind::ground);
   }
   if (ground.terrain) {
-    touch(world, state, body, ground.terrain.get(), {}, 0, margin, ground.terrain->bounds(), kWheelFacing, kNotKnown);
+    touch(world, state, body, {0, all}, ground.terrain.get(), {}, 0, margin, ground.terrain->bounds(), kWheelFacing, kNotKnown);
     for (SurfaceContact& c : world.point_contacts) c.key |= 0x400000u;
     add(ContactKind::terrain);
   }
 }
 
 /// Where the boxes of a pair meet; nothing if a step cannot bring them together.
-std::optional<Aabb> shared_box(World& world, const State& state, BodyworkPair& pair, double margin) {
+std::optional<Aabb> shared_box(World& world, const State& state, std::size_t which, double margin) {
+  const BodyworkPair& pair = world.bodywork_pairs[which];
   const Aabb box_a = box_of(world, state, pair.a), box_b = box_of(world, state, pair.b);
   const Aabb shared{box_a.lower.cwiseMax(box_b.lower), box_a.upper.cwiseMin(box_b.upper)};
   if ((shared.lower.array() <= shared.upper.array() + margin).all()) return shared;
-  for (Clearance& clearance : pair.clearance) clearance = {0, state.X_WB[pair.a].inverse() * state.X_WB[pair.b]};
+  for (Clearance& clearance : world.bodywork_clearances[which]) clearance = {0, state.X_WB[pair.a].inverse() * state.X_WB[pair.b]};
   return std::nullopt;
 }
 
 /// Points of a pair's first body on the surface of the second (way 0) or of the second on the first (way 1), to
 /// World::point_contacts.
-void touch_one_way(World& world, const State& state, BodyworkPair& pair, int way, double margin, const Aabb& within) {
+void touch_one_way(World& world, const State& state, std::size_t which, int way, double margin, const Aabb& within) {
+  const BodyworkPair& pair = world.bodywork_pairs[which];
   const int points_of = way == 0 ? pair.a : pair.b, surface_of = way == 0 ? pair.b : pair.a;
   const Pose X_AB = state.X_WB[pair.a].inverse() * state.X_WB[pair.b];
-  Clearance& clearance = pair.clearance[way];
+  Clearance& clearance = world.bodywork_clearances[which][static_cast<std::size_t>(way)];
   const auto& shape = std::get<MeshShape>(world.model.bodies[surface_of].shape);
-  touch(world, state, points_of, shape.mesh.get(), state.X_WB[surface_of] * shape.X_BM, 0, margin, within, kUnderWheel,
-        clearance.by_now(X_AB, world.reach[pair.b]) - kFarther);
+  touch(world, state, points_of, {0, world.surface_points[points_of].size()}, shape.mesh.get(), state.X_WB[surface_of] * shape.X_BM,
+        0, margin, within, kUnderWheel, clearance.by_now(X_AB, world.reach[pair.b]) - kFarther);
   clearance = {0, X_AB};
   for (const SurfaceContact& c : world.point_contacts) clearance.least = std::min(clearance.least, c.gap);
 }
 
-void find_between(World& world, const State& state, BodyworkPair& pair, int self) {
+void find_between(World& world, const State& state, std::size_t which, int self) {
+  const BodyworkPair& pair = world.bodywork_pairs[which];
   const double margin = pair_margin(world, state, pair.a, pair.b);
-  const std::optional<Aabb> within = shared_box(world, state, pair, margin);
+  const std::optional<Aabb> within = shared_box(world, state, which, margin);
   if (!within) return;
   const SurfaceProperties& A = world.model.bodies[pair.a].surface;
   const SurfaceProperties& B = world.model.bodies[pair.b].surface;
   const double mu = std::min(A.friction_body.at(state.time), B.friction_body.at(state.time));
   const double e = std::max(A.restitution_body.at(state.time), B.restitution_body.at(state.time));
   for (const int way : {0, 1}) {
-    touch_one_way(world, state, pair, way, margin, *within);
+    touch_one_way(world, state, which, way, margin, *within);
     for (const SurfaceContact& c : world.point_contacts)
       add_contact(world, state, c, way == 0 ? pair.a : pair.b, way == 0 ? pair.b : pair.a, self, ContactKind::vehicle_pair, mu, e);
   }
@@ -205,14 +224,14 @@ bool frozen(const World& world, int body) {
 
 void find(World& world, const State& state, int self) {
   const int n = static_cast<int>(world.model.bodies.size());
-  world.nearness.look(world, state);
   const std::vector<int>& tree = world.topology.tree_of_body;
-  auto pair = world.bodywork_pairs.begin();
+  const std::vector<BodyworkPair>& pairs = world.bodywork_pairs;
+  std::size_t i = 0;
   for (int a = 0; a < n; ++a) {
     if (is_mesh(world.model.bodies[a]) && world.awake[a]) find_on_ground(world, state, a, self);
-    for (; pair != world.bodywork_pairs.end() && pair->a == a; ++pair)
-      if (world.nearness.close(tree[a], tree[pair->b]) && !frozen(world, a) && !frozen(world, pair->b))
-        find_between(world, state, *pair, self);
+    for (; i < pairs.size() && pairs[i].a == a; ++i)
+      if (world.nearness.close(tree[a], tree[pairs[i].b]) && !frozen(world, a) && !frozen(world, pairs[i].b))
+        find_between(world, state, i, self);
   }
 }
 
@@ -223,13 +242,14 @@ const std::vector<SurfaceContact>& contacts_of_meshes(World& world, const State&
   const auto pair = std::find_if(world.bodywork_pairs.begin(), world.bodywork_pairs.end(),
                                  [&](const BodyworkPair& p) { return p.a == std::min(a, b) && p.b == std::max(a, b); });
   if (pair == world.bodywork_pairs.end()) return world.point_contacts;
+  const auto which = static_cast<std::size_t>(pair - world.bodywork_pairs.begin());
   const double margin = pair_margin(world, state, a, b);
-  const std::optional<Aabb> within = shared_box(world, state, *pair, margin);
+  const std::optional<Aabb> within = shared_box(world, state, which, margin);
   if (!within) return world.point_contacts;
   const int way = pair->a == a ? 0 : 1;
-  touch_one_way(world, state, *pair, way, margin, *within);
+  touch_one_way(world, state, which, way, margin, *within);
   if (!world.point_contacts.empty()) return world.point_contacts;
-  touch_one_way(world, state, *pair, 1 - way, margin, *within);
+  touch_one_way(world, state, which, 1 - way, margin, *within);
   for (SurfaceContact& c : world.point_contacts) {
     std::swap(c.p_a, c.p_b);
     c.normal = -c.normal;

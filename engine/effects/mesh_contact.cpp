@@ -70,7 +70,6 @@ void find_contacts_of(World& world, const State& state, const PairRun& run, Cont
 
 void find(World& world, const State& state, int) {
   ContactPoints touches;
-  world.nearness.look(world, state);
   for (const PairRun& run : world.mesh_pair_runs)
     if (world.nearness.close(run.tree_a, run.tree_b)) find_contacts_of(world, state, run, touches);
 }

@@ -8,7 +8,7 @@ namespace {
 
 Finding look(const Model& model) {
   if (model.persons.empty()) return {false, "no person", ""};
-  const std::size_t count = pairs_within_persons(model, 0).size();
+  const std::size_t count = pairs_within_persons(model).size();
   std::size_t all = 0, joined = 0;
   for (const Person& person : model.persons)
     for (std::size_t i = 0; i < person.bodies.size(); ++i)
@@ -25,7 +25,7 @@ Finding look(const Model& model) {
 }
 
 void begin(World& world, const State&, int self) {
-  add_pairs(world, pairs_within_persons(world.model, self));
+  add_pairs_within_persons(world, self);
 }
 
 void find(World& world, const State& state, int self) {

@@ -2,6 +2,7 @@
 // costs a bounding test a step. The first touch by anything but its support releases it (source 000, "zero condition").
 #include <algorithm>
 
+#include "engine/effects/body_pairs.h"
 #include "engine/effects/bodywork_contact.h"
 #include "engine/effects/effects.h"
 #include "engine/effects/words.h"
@@ -56,10 +57,8 @@ void watch_mounts(World& world, State& state) {
   }
 }
 
-void before_step(World& world, State& state, int) {
-  if (std::all_of(state.released.begin(), state.released.end(), [](char r) { return r != 0; })) return;
-  watch_mounts(world, state);
-  const bool rigid = world.model.settings.contact_law != ContactLaw::compliant;
+/// Vehicles and other meshes.
+void watch_meshes(World& world, State& state, bool warn) {
   ContactPoints found;
   for (MeshPair& pair : world.mesh_pairs) {
     if (pair.mesh_body < 0 || !waits(world, state, pair.body)) continue;
@@ -74,24 +73,39 @@ void before_step(World& world, State& state, int) {
     pair.clearance = {world.mesh_scratch.apart, X_MA};
     for (const SurfaceContact& touch : found)
       if (touches(world, state, touch, pair.body, pair.mesh_body)) release(world, state, pair.body, pair.mesh_body, touch.p_a);
-    if (state.time == 0 && rigid && waits(world, state, pair.body))
+    if (warn && waits(world, state, pair.body))
       for (const SurfaceContact& touch : found) warn_of_overlap(world, pair.body, pair.mesh_body, touch.gap);
   }
-  for (BodyPair& pair : world.body_pairs) {
-    if (world.model.bodies[pair.a].person >= 0 && world.model.bodies[pair.a].person == world.model.bodies[pair.b].person) continue;
-    if (!waits(world, state, pair.a) && !waits(world, state, pair.b)) continue;
-    const double margin = pair_margin(world, state, pair.a, pair.b);
-    if ((state.X_WB[pair.a].p - state.X_WB[pair.b].p).norm() > world.reach[pair.a] + world.reach[pair.b] + margin) continue;
-    const auto touch =
-        contact_of_pair(std::get<HyperEllipsoid>(world.model.bodies[pair.a].shape), state.X_WB[pair.a],
-                        std::get<HyperEllipsoid>(world.model.bodies[pair.b].shape), state.X_WB[pair.b], margin, pair.normal_W);
-    if (!touch) continue;
-    if (!touches(world, state, *touch, pair.a, pair.b)) {
-      if (state.time == 0 && rigid) warn_of_overlap(world, pair.a, pair.b, touch->gap);
-      continue;
-    }
-    if (waits(world, state, pair.a)) release(world, state, pair.a, pair.b, touch->p_a);
-    if (waits(world, state, pair.b)) release(world, state, pair.b, pair.a, touch->p_b);
+}
+
+void watch_pair(World& world, State& state, const BodyPair& pair, Vec3& normal_W, bool warn) {
+  const Body &A = world.model.bodies[pair.a], &B = world.model.bodies[pair.b];
+  if (A.person >= 0 && A.person == B.person) return;
+  if (!waits(world, state, pair.a) && !waits(world, state, pair.b)) return;
+  if (world.nearness.apart(state, pair.a, pair.b)) return;
+  const double margin = pair_margin(world, state, pair.a, pair.b);
+  if ((state.X_WB[pair.a].p - state.X_WB[pair.b].p).norm() > world.reach[pair.a] + world.reach[pair.b] + margin) return;
+  const auto touch = contact_of_pair(std::get<HyperEllipsoid>(A.shape), state.X_WB[pair.a], std::get<HyperEllipsoid>(B.shape),
+                                     state.X_WB[pair.b], margin, normal_W);
+  if (!touch) return;
+  if (!touches(world, state, *touch, pair.a, pair.b)) {
+    if (warn) warn_of_overlap(world, pair.a, pair.b, touch->gap);
+    return;
+  }
+  if (waits(world, state, pair.a)) release(world, state, pair.a, pair.b, touch->p_a);
+  if (waits(world, state, pair.b)) release(world, state, pair.b, pair.a, touch->p_b);
+}
+
+void before_step(World& world, State& state, int) {
+  if (std::all_of(state.released.begin(), state.released.end(), [](char r) { return r != 0; })) return;
+  const bool warn = state.time == 0 && world.model.settings.contact_law != ContactLaw::compliant;
+  watch_mounts(world, state);
+  watch_meshes(world, state, warn);
+  world.nearness.look(world, state);
+  for (BodyPairRun& run : world.body_pair_runs) {
+    if (!world.nearness.close(run.tree_a, run.tree_b)) continue;
+    list_pairs(world, run);
+    for (std::size_t i = 0; i < run.pairs.size(); ++i) watch_pair(world, state, run.pairs[i], run.memory[i].normal_W, warn);
   }
 }
 

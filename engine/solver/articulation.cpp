@@ -1,6 +1,7 @@
 #include "engine/solver/articulation.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 namespace engine {
 namespace {
@@ -74,10 +75,16 @@ Mat3 inertia_W(const Body& body, const Quat& q_WB) {
   return R * body.inertia_B * R.transpose();
 }
 
-Articulation::Articulation(const Model& model) : model_(model), H_(model.bodies.size()) {}
+Articulation::Articulation(const Model& model, Keeps keeps) : model_(model), keeps_(keeps) {}
 
 void Articulation::reset(const Topology& topology) {
-  factors_.resize(topology.links.size());
+  std::size_t links = topology.links.size();
+  if (keeps_ == Keeps::last_tree) {
+    links = 0;
+    for (const Topology::Tree& tree : topology.trees) links = std::max(links, static_cast<std::size_t>(tree.end - tree.begin));
+  }
+  factors_.resize(links);
+  H_.resize(links);
 }
 
 /// S = [skew(r) S_w; S_w]: the point of the joint stays.
@@ -164,17 +171,19 @@ void Articulation::eliminate_fixed(Factor& f, const Hinge& hinge, const Mat6& H,
 
 void Articulation::factor(const Topology& topology, int tree, const std::vector<Pose>& X_WB,
                           const std::vector<JointDamper>* dampers) {
+  turn_to(topology, tree);
   const Topology::Tree& range = topology.trees[tree];
   for (int l = range.begin; l < range.end; ++l) {
     const int b = topology.links[l].body;
-    H_[b].setZero();
-    H_[b].diagonal().head<3>().setConstant(model_.bodies[b].mass);
-    H_[b].bottomRightCorner<3, 3>() = inertia_W(model_.bodies[b], X_WB[b].q);
+    Mat6& H = H_[l - first_];
+    H.setZero();
+    H.diagonal().head<3>().setConstant(model_.bodies[b].mass);
+    H.bottomRightCorner<3, 3>() = inertia_W(model_.bodies[b], X_WB[b].q);
   }
   for (int l = range.begin; l < range.end; ++l) {
     const Topology::Link& link = topology.links[l];
-    Factor& f = factors_[l];
-    const Mat6& H = H_[link.body];
+    Factor& f = of_link(l);
+    const Mat6& H = H_[l - first_];
     if (link.joint < 0) {
       f.D = inverse_spd(H);
       f.X.setZero();
@@ -187,7 +196,7 @@ void Articulation::factor(const Topology& topology, int tree, const std::vector<
     const bool child = link.body_is_joint_child;
     const Hinge hinge{child ? f.rows.r_C : f.rows.r_P, child ? f.rows.r_P : f.rows.r_C,
                       dampers ? &(*dampers)[link.joint] : nullptr};
-    Mat6* H_parent = link.parent < 0 ? nullptr : &H_[link.parent];
+    Mat6* H_parent = link.parent < 0 ? nullptr : &H_[topology.link_of_body[link.parent] - first_];
     switch (f.rows.count) {
       case 3:
         if (hinge.damper && hinge.damper->present) {
@@ -218,7 +227,7 @@ void Articulation::set_bias(const Topology& topology, int tree, const std::vecto
     const Topology::Link& link = topology.links[l];
     if (link.joint < 0) continue;
     const Joint& joint = model_.joints[link.joint];
-    joint_bias(joint.parent < 0 ? Vec3::Zero() : V_WB[joint.parent].w, V_WB[joint.child].w, factors_[l].rows);
+    joint_bias(joint.parent < 0 ? Vec3::Zero() : V_WB[joint.parent].w, V_WB[joint.child].w, of_link(l).rows);
   }
 }
 
@@ -226,15 +235,15 @@ void Articulation::solve(const Topology& topology, int tree, std::vector<Vec6>& 
   const Topology::Tree& range = topology.trees[tree];
   for (int l = range.begin; l < range.end; ++l) {
     const Topology::Link& link = topology.links[l];
-    const Factor& f = factors_[l];
+    const Factor& f = of_link(l);
     if (bias == Bias::from_rows && f.rows.count == 3) {
       // a shared point: no turning is asked for
       const Vec3 c = (link.body_is_joint_child ? -1 : 1) * f.rows.bias.head<3>();
       a[link.body] << c, Vec3::Zero();
-      force[link.body].noalias() -= H_[link.body].leftCols<3>() * c;
+      force[link.body].noalias() -= H_[l - first_].leftCols<3>() * c;
     } else if (bias == Bias::from_rows && link.joint >= 0) {
       a[link.body] = particular(f.rows, link.body_is_joint_child, link.body_is_joint_child ? f.rows.r_C : f.rows.r_P);
-      force[link.body].noalias() -= H_[link.body] * a[link.body];
+      force[link.body].noalias() -= H_[l - first_] * a[link.body];
     } else {
       a[link.body].setZero();
     }
@@ -242,7 +251,7 @@ void Articulation::solve(const Topology& topology, int tree, std::vector<Vec6>& 
   }
   for (int l = range.end - 1; l >= range.begin; --l) {
     const Topology::Link& link = topology.links[l];
-    const Factor& f = factors_[l];
+    const Factor& f = of_link(l);
     Vec6& out = a[link.body];
     out.noalias() += f.D * force[link.body];
     if (link.parent >= 0) out.noalias() += f.X * a[link.parent];

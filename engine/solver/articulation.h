@@ -26,8 +26,14 @@ struct JointDamper {
 
 class Articulation {
  public:
-  explicit Articulation(const Model&);
+  /// Whose factors are there to be asked for: those of all trees, or only of the one factorised last, whose place the next takes,
+  /// so that many persons do not fill the cache with what is never read again.
+  enum class Keeps { all_trees, last_tree };
+  Articulation(const Model&, Keeps);
   void reset(const Topology&);
+
+  /// The tree that the next calls are about.
+  void turn_to(const Topology& topology, int tree) { first_ = keeps_ == Keeps::last_tree ? topology.trees[tree].begin : 0; }
 
   /// Factorises one tree at the poses given. `dampers` (per joint) may be null.
   void factor(const Topology&, int tree, const std::vector<Pose>& X_WB, const std::vector<JointDamper>* dampers);
@@ -43,8 +49,8 @@ class Articulation {
     JointRows rows;
     Mat6 X, D;
   };
-  Factor& of_link(int link) { return factors_[link]; }
-  const Factor& of_link(int link) const { return factors_[link]; }
+  Factor& of_link(int link) { return factors_[link - first_]; }
+  const Factor& of_link(int link) const { return factors_[link - first_]; }
 
  private:
   /// What one joint is to the factorisation: levers and sense seen from the body that is eliminated.
@@ -59,8 +65,10 @@ class Articulation {
   void eliminate_fixed(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);
 
   const Model& model_;
-  std::vector<Factor> factors_;  // per link
-  std::vector<Mat6> H_;          // per body
+  Keeps keeps_;
+  int first_ = 0;                // link whose factor stands first
+  std::vector<Factor> factors_;  // per link kept
+  std::vector<Mat6> H_;          // of the same: inertia with what its children added
 };
 
 /// Inertia of a body about its centre in world axes.

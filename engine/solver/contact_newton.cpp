@@ -29,7 +29,7 @@ int ContactSolver::linearise(const std::vector<Constraint>& all, const std::vect
   rule_.clear();
   for (int i = 0; i < static_cast<int>(members.size()); ++i) {
     const Constraint& c = all[members[i]];
-    const Mat3 A = own_response(i, c.rows);
+    const Mat3& A = own_[i];
     const Vec3 u = velocity(i, c.rows);
     const double miss = u[0] + c.softness * c.impulse[0] - c.target;
     const double active = c.impulse[0] - miss / (A(0, 0) + c.softness);
@@ -110,7 +110,7 @@ bool ContactSolver::factor_linearised(const std::vector<Constraint>& all, const 
 
 /// How a sliding contact's tangential impulse follows its slip.
 ContactSolver::Slip ContactSolver::slipping(const Constraint& c, int member) const {
-  const Mat3 A = own_response(member, 3);
+  const Mat3& A = own_[member];
   Slip slip;
   slip.rho = 1 / std::max(A(1, 1), A(2, 2));
   const Eigen::Vector2d x = c.impulse.tail<2>() - slip.rho * velocity(member, 3).tail<2>();

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "engine/solver/one_contact.h"
-#include "engine/solver/wide_products.h"
 
 namespace engine {
 namespace {
@@ -32,6 +31,7 @@ void ContactSolver::reserve(std::size_t constraints, std::size_t bodies) {
   L_start_.reserve(constraints);
   L_sliding_.reserve(constraints);
   Y_.reserve(bodies);
+  own_.reserve(constraints);
   for (std::vector<double>* list : {&u_, &L_, &u_kept_, &L_kept_, &u_start_, &u_sliding_, &bound_, &softened_}) list->reserve(rows);
   for (std::vector<int>* list : {&offset_, &unknown_}) list->reserve(rows);
   runs_.reserve(rows);
@@ -62,30 +62,38 @@ void ContactSolver::assemble(const Topology& topology, const Response& response,
     const Constraint& ci = all[members[i]];
     name_until(ci.body_a);
     name_until(ci.body_b);
-    // Y_t = rows of i through the joints to body t, as columns
+    // Y_t = rows of i through the joints to body t
     for (std::size_t n = 0; n < named; ++n) {
       const int t = bodies[n];
       const int tree = topology.tree_of_body[t];
       const bool via_a = ci.body_a >= 0 && topology.tree_of_body[ci.body_a] == tree;
       const bool via_b = ci.body_b >= 0 && topology.tree_of_body[ci.body_b] == tree;
-      if (via_a) Y_[t].noalias() = response.between(topology, t, ci.body_a) * ci.J_a.transpose();
-      if (via_a && via_b) Y_[t].noalias() += response.between(topology, t, ci.body_b) * ci.J_b.transpose();
-      if (!via_a && via_b) Y_[t].noalias() = response.between(topology, t, ci.body_b) * ci.J_b.transpose();
-      if (!via_a && !via_b) Y_[t].setZero();
+      Y_[t].fill(0);
+      if (via_a) add_rows_through(ci.J_a.data(), response.between(topology, t, ci.body_a).data(), Y_[t]);
+      if (via_b) add_rows_through(ci.J_b.data(), response.between(topology, t, ci.body_b).data(), Y_[t]);
     }
     for (int k = 0; k <= i; ++k) {
       const Constraint& ck = all[members[k]];
-      Mat3 g = Mat3::Zero();
-      if (ck.body_a >= 0) g.noalias() += Y_[ck.body_a].transpose() * ck.J_a.transpose();
-      if (ck.body_b >= 0) g.noalias() += Y_[ck.body_b].transpose() * ck.J_b.transpose();
+      std::array<double, 12> g{};  // four by three, the last row empty
+      if (ck.body_a >= 0) add_rows_met(Y_[ck.body_a], ck.J_a.data(), g);
+      if (ck.body_b >= 0) add_rows_met(Y_[ck.body_b], ck.J_b.data(), g);
       for (int r = 0; r < ci.rows; ++r)
         for (int q = 0; q < ck.rows; ++q) {
-          G_[static_cast<std::size_t>(offset_[k] + q) * size_ + offset_[i] + r] = g(r, q);
-          G_[static_cast<std::size_t>(offset_[i] + r) * size_ + offset_[k] + q] = g(r, q);
+          const double response_rq = g[static_cast<std::size_t>(4 * q + r)];
+          G_[static_cast<std::size_t>(offset_[k] + q) * size_ + offset_[i] + r] = response_rq;
+          G_[static_cast<std::size_t>(offset_[i] + r) * size_ + offset_[k] + q] = response_rq;
         }
     }
   }
+  note_own_responses(all, members);
   soften_dead_centres(all, members);
+}
+
+void ContactSolver::note_own_responses(const std::vector<Constraint>& all, const std::vector<int>& members) {
+  own_.assign(members.size(), Mat3::Identity());
+  for (std::size_t i = 0; i < members.size(); ++i)
+    for (int q = 0; q < all[members[i]].rows; ++q)
+      for (int r = 0; r < all[members[i]].rows; ++r) own_[i](r, q) = G(offset_[i] + r, offset_[i] + q);
 }
 
 /// Two segments that press on each other along a chain of joints between them (chin on chest, through the neck) can stand at a dead
@@ -98,7 +106,7 @@ void ContactSolver::soften_dead_centres(const std::vector<Constraint>& all, cons
     const Constraint& c = all[members[i]];
     if (c.kind != ConstraintKind::contact) continue;
     const double least = kLeastResponse * c.free_response;
-    const Mat3 A = own_response(i, 3);
+    const Mat3& A = own_[i];
     // det/(product of the two larger) bounds the smallest eigenvalue cheaply; exact only when it matters
     const double trace = A.trace();
     if (A.determinant() > least * trace * trace) continue;
@@ -106,7 +114,8 @@ void ContactSolver::soften_dead_centres(const std::vector<Constraint>& all, cons
     const double smallest = Eigen::SelfAdjointEigenSolver<Mat3>(A, Eigen::EigenvaluesOnly).eigenvalues()[0];
     if (smallest >= least) continue;
     softened_[i] = least - smallest;
-    for (int r = 0; r < 3; ++r) G_[static_cast<std::size_t>(offset_[i] + r) * static_cast<std::size_t>(size_ + 1)] += softened_[i];
+    for (int r = 0; r < 3; ++r)
+      own_[i](r, r) = G_[static_cast<std::size_t>(offset_[i] + r) * static_cast<std::size_t>(size_ + 1)] += softened_[i];
   }
 }
 
@@ -120,13 +129,6 @@ void ContactSolver::add_to_velocity(int column, int rows, const Vec3& change) {
   }
 }
 
-Mat3 ContactSolver::own_response(int member, int rows) const {
-  Mat3 A = Mat3::Identity();
-  for (int q = 0; q < rows; ++q)
-    for (int r = 0; r < rows; ++r) A(r, q) = G(offset_[member] + r, offset_[member] + q);
-  return A;
-}
-
 Vec3 ContactSolver::velocity(int member, int rows) const {
   Vec3 u = Vec3::Zero();
   for (int r = 0; r < rows; ++r) u[r] = u_[static_cast<std::size_t>(offset_[member] + r)];
@@ -137,7 +139,7 @@ double ContactSolver::residual(const std::vector<Constraint>& all, const std::ve
   double largest = 0;
   for (int i = 0; i < static_cast<int>(members.size()); ++i) {
     const Constraint& c = all[members[i]];
-    const double r = natural_residual(c, velocity(i, c.rows), own_response(i, c.rows), bounded_ ? bound_[i] : -1.0);
+    const double r = natural_residual(c, velocity(i, c.rows), own_[i], bounded_ ? bound_[i] : -1.0);
     if (!(r <= largest)) largest = r;  // what is not a number stays visible
   }
   return largest;
@@ -148,7 +150,7 @@ double ContactSolver::sweep(std::vector<Constraint>& all, const std::vector<int>
   double largest = 0;
   for (int i = 0; i < static_cast<int>(members.size()); ++i) {
     Constraint& c = all[members[i]];
-    const Mat3 A = own_response(i, c.rows);
+    const Mat3& A = own_[i];
     const Vec3 u = velocity(i, c.rows);
     Vec3 next = Vec3::Zero();
     double scale = 1;

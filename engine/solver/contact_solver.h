@@ -14,6 +14,7 @@
 #include "engine/solver/constraint.h"
 #include "engine/solver/dense_system.h"
 #include "engine/solver/response.h"
+#include "engine/solver/wide_products.h"
 
 namespace engine {
 
@@ -41,6 +42,7 @@ class ContactSolver {
   double kinetic_energy_change(const std::vector<Constraint>&, const std::vector<int>& members) const;
 
  private:
+  void note_own_responses(const std::vector<Constraint>&, const std::vector<int>& members);
   void soften_dead_centres(const std::vector<Constraint>&, const std::vector<int>& members);
   void add_to_velocity(int column, int rows, const Vec3& change);
   double sweep(std::vector<Constraint>&, const std::vector<int>& members);
@@ -57,7 +59,6 @@ class ContactSolver {
   void keep(const std::vector<Constraint>&, const std::vector<int>& members);
   void go_back(std::vector<Constraint>&, const std::vector<int>& members);
   int linearise(const std::vector<Constraint>&, const std::vector<int>& members);
-  Mat3 own_response(int member, int rows) const;
   Vec3 velocity(int member, int rows) const;
   double G(int row, int column) const {
     return G_[static_cast<std::size_t>(column) * static_cast<std::size_t>(size_) + static_cast<std::size_t>(row)];
@@ -84,6 +85,7 @@ class ContactSolver {
   int size_ = 0;
   std::vector<int> offset_;  // per member
   std::vector<double> G_;    // column-major size_ x size_
+  std::vector<Mat3> own_;    // per member: its block on the diagonal; of one row the rest is a unit matrix
   std::vector<double> u_;
   DenseSystem newton_;        // of the rows that can change
   std::vector<int> unknown_;  // row of G per unknown
@@ -95,7 +97,7 @@ class ContactSolver {
   std::vector<Row> factored_rule_;  // of the matrix in newton_
   std::vector<double> L_, u_kept_, L_kept_, u_start_, u_sliding_;
   std::vector<Vec3> L_start_, L_sliding_;
-  std::vector<Eigen::Matrix<double, 6, 3>> Y_;
+  std::vector<ThreeRows> Y_;  // per body: how it answers the rows of one constraint
 };
 
 }  // namespace engine

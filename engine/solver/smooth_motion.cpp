@@ -51,7 +51,7 @@ SmoothMotion::SmoothMotion(const Model& model)
 }
 
 void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const std::vector<Twist>& V, std::vector<Vec6>& a,
-                                 CompliantContacts* compliant, double weight, Articulation* factored) {
+                                 CompliantContacts* compliant, double weight, FirstStage first) {
   const Model& model = world.model;
   for (const int tree : world.active_trees) {
     for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
@@ -65,15 +65,15 @@ void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const
   if (&a == &stages_[0].a)
     for (std::size_t b = 0; b < force_.size(); ++b) applied_[b] = force_[b].head<3>();
   for (const int tree : world.active_trees) {
-    Articulation& articulation = factored ? *factored : world.smooth;
-    if (!factored) articulation.factor(world.topology, tree, X, nullptr);
+    Articulation& articulation = first.articulation ? *first.articulation : world.smooth;
+    if (!first.factored) articulation.factor(world.topology, tree, X, nullptr);
     articulation.set_bias(world.topology, tree, V);
     articulation.solve(world.topology, tree, force_, a, Articulation::Bias::from_rows);
   }
 }
 
 void SmoothMotion::advance(World& world, const State& state, double h, std::vector<Pose>& X, std::vector<Twist>& V,
-                           CompliantContacts* compliant, Articulation* at_start) {
+                           CompliantContacts* compliant, FirstStage first) {
   constexpr double kNode[4] = {0, 0.5, 0.5, 1};
   constexpr double kWeight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
   X_ = state.X_WB;
@@ -96,7 +96,7 @@ void SmoothMotion::advance(World& world, const State& state, double h, std::vect
         stage.dq[b] = quaternion_rate(q, stage.V[b].w);
       }
     }
-    accelerations(world, X_, stage.V, stage.a, compliant, kWeight[s], s == 0 ? at_start : nullptr);
+    accelerations(world, X_, stage.V, stage.a, compliant, kWeight[s], s == 0 ? first : FirstStage{});
   }
   measure_swing(world);
   const auto& [k1, k2, k3, k4] = stages_;
@@ -143,6 +143,7 @@ namespace {
 
 /// Rows and error of all joints of a tree at X; returns the largest error.
 double joint_errors(World& world, int tree, const std::vector<Pose>& X, double& largest_gap) {
+  world.smooth.turn_to(world.topology, tree);
   const Topology::Tree& range = world.topology.trees[tree];
   double largest = 0;
   for (int l = range.begin; l < range.end; ++l) {

@@ -11,16 +11,21 @@
 
 namespace engine {
 
+/// What the first stage factorises, at the state the step begins with and without dampers, serves the impulses too.
+struct FirstStage {
+  Articulation* articulation = nullptr;  // that keeps it; null: nobody asks for it later
+  bool factored = false;                 // already
+};
+
 /// Buffers of one Runge-Kutta step, sized once.
 class SmoothMotion {
  public:
   explicit SmoothMotion(const Model&);
 
   /// Advances the awake bodies by h from `state` under the plan's forces; results for awake bodies only.
-  /// `compliant` (may be null) adds the forces of contacts in every stage. `at_start` (may be null) is factorised at `state`
-  /// already, without dampers: the first stage need not be.
+  /// `compliant` (may be null) adds the forces of contacts in every stage.
   void advance(World&, const State&, double h, std::vector<Pose>& X, std::vector<Twist>& V, CompliantContacts* compliant = nullptr,
-               Articulation* at_start = nullptr);
+               FirstStage first = {});
 
   /// Rate [rad/s] of the fastest swing that the joint forces of the last step make a body capable of: T r / I, as in a chain of
   /// light links pulled taut by heavy ends. Runge-Kutta 4 blows up above 2.8 over the step.
@@ -35,7 +40,7 @@ class SmoothMotion {
     std::vector<Twist> V;
   };
   void accelerations(World&, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& a, CompliantContacts*,
-                     double weight, Articulation* factored);
+                     double weight, FirstStage);
   void measure_swing(const World&);
 
   Stage stages_[4];

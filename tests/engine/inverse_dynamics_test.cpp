@@ -135,7 +135,7 @@ TEST_P(JointKinds, InverseDynamicsGivesBackForcesAndJointTorques) {
       }
     }
     const Topology topology = build_topology(e.model, {});
-    Articulation articulation(e.model);
+    Articulation articulation(e.model, Articulation::Keeps::all_trees);
     articulation.reset(topology);
     articulation.factor(topology, 0, e.X, nullptr);
     articulation.set_bias(topology, 0, e.V);
