@@ -43,6 +43,11 @@ World::World(const Model& m, const Plan& p, const RunOptions& o)
       reach[b] = far.norm() + shape->X_BM.p.norm();
     }
   }
+  for (const Topology::Tree& tree : topology.trees) {
+    double mass = 0;
+    for (int l = tree.begin; l < tree.end; ++l) mass += m.bodies[topology.links[l].body].mass;
+    tree_mass.push_back(mass);
+  }
   dampers.resize(m.joints.size());
   resistances.resize(m.joints.size());
   constraints.reserve(kRoom);
@@ -147,8 +152,14 @@ void add_contact(World& world, const State& state, const SurfaceContact& touch, 
   };
   if (c.body_a >= 0) c.J_a = rows(c.body_a, 1);
   if (c.body_b >= 0) c.J_b = rows(c.body_b, -1);
-  for (const int body : {c.body_a, c.body_b})
-    if (body >= 0) c.free_response += 1 / world.model.bodies[body].mass;
+  int last_tree = -1;
+  for (const int body : {c.body_a, c.body_b}) {
+    if (body < 0) continue;
+    c.free_response += 1 / world.model.bodies[body].mass;
+    const int tree = world.topology.tree_of_body[body];
+    if (tree != last_tree) c.whole_response += 1 / world.tree_mass[tree];
+    last_tree = tree;
+  }
   c.gap = touch.gap;
   c.key = (static_cast<std::uint64_t>(effect) << 56) | (static_cast<std::uint64_t>(a & 0xffff) << 40) |
           (static_cast<std::uint64_t>(b & 0xffff) << 24) | (touch.key & 0xffffffu);

@@ -196,8 +196,9 @@ struct World {
   Response response;
   ContactSolver solver;
 
-  std::vector<double> reach;  // [m] per body: radius of its shape about the centre, 0 without
-  std::vector<char> awake;    // per body: takes part in this step
+  std::vector<double> tree_mass;  // [kg] per tree
+  std::vector<double> reach;      // [m] per body: radius of its shape about the centre, 0 without
+  std::vector<char> awake;        // per body: takes part in this step
   std::vector<int> active_trees;
   std::vector<MeshPair> mesh_pairs;
   std::vector<BodyPairRun> body_pair_runs;

@@ -242,6 +242,40 @@ Model common_scene(const std::string& name, double step, double shift) {
   return model;
 }
 
+void tilt(Model& model, double angle) {
+  const Vec3 about = model.bodies[model.persons.front().bodies.front()].X_WB.p;
+  const Quat turn(Eigen::AngleAxisd(angle, Vec3::UnitY()));
+  for (const int b : model.persons.front().bodies) {
+    Pose& X = model.bodies[b].X_WB;
+    X = {about + turn * (X.p - about), turn * X.q};
+  }
+}
+
+void give_capsules(Model& model) {
+  constexpr double kBall = 1e-3;  // [kg]
+  const std::vector<int> segments = model.persons.front().bodies;
+  for (const int s : segments) {
+    const Vec3 axes = std::get<engine::HyperEllipsoid>(model.bodies[s].shape).semi_axes;
+    model.bodies[s].shape = std::monostate{};
+    for (const double side : {-1.0, 0.0, 1.0}) {
+      Body ball = model.bodies[s];
+      Joint joint;
+      joint.name = ball.name += "_ball";
+      joint.kind = JointKind::fixed;
+      joint.parent = s;
+      joint.child = static_cast<int>(model.bodies.size());
+      joint.X_PF.p.z() = side * (axes.z() - axes.x());
+      ball.mass = kBall;
+      ball.inertia_B = Vec3::Constant(0.4 * kBall * axes.x() * axes.x()).asDiagonal();
+      ball.shape = engine::HyperEllipsoid{Vec3::Constant(axes.x()), 2};
+      ball.X_WB.p = ball.X_WB * joint.X_PF.p;
+      model.bodies.push_back(ball);
+      model.joints.push_back(joint);
+      model.persons.front().bodies.push_back(joint.child);
+    }
+  }
+}
+
 Model crowd(const std::string& what, int count, double step) {
   const double deg = std::numbers::pi / 180;
   Model model = empty(1.0, step);

@@ -13,6 +13,13 @@ namespace benchmark {
 /// `shift` [m] moves the start sideways: an ensemble of micrometres shows how much of an answer is chance.
 engine::Model common_scene(const std::string& name, double step, double shift = 0);
 
+/// Turns the first person about the y axis through its first body [rad].
+void tilt(engine::Model&, double angle);
+
+/// Each segment of the first person as three balls of its radius, fixed to it: the capsules of the comparison, as far as a row of
+/// balls is one. Neighbours' balls may meet where capsules of one joint may not.
+void give_capsules(engine::Model&);
+
 /// A figure lying on the ground, thrown, or struck, `count` times, 5 m apart.
 engine::Model crowd(const std::string& what, int count, double step);
 
