@@ -99,8 +99,8 @@ void ContactSolver::note_own_responses(const std::vector<Constraint>& all, const
 /// Two segments that press on each other along a chain of joints between them (chin on chest, through the neck) can stand at a dead
 /// centre, where no joint lets the contact give way: its bodies would answer like thousands of kilograms and a slip of millimetres
 /// a second would ask for the impulse of a crash. Such a contact yields a little: it answers no stiffer than a stated multiple of
-/// its bodies' mass, or than all that hangs on them moving as one, which a light foot under a heavy body does. Contacts that are not
-/// at a dead centre are not touched.
+/// its bodies' mass, or than all that hangs on them moving as one, which a light foot under a heavy body does. Contacts that are
+/// not at a dead centre are not touched.
 void ContactSolver::soften_dead_centres(const std::vector<Constraint>& all, const std::vector<int>& members) {
   softened_.assign(members.size(), 0.0);
   for (int i = 0; i < static_cast<int>(members.size()); ++i) {
