@@ -51,7 +51,7 @@ struct MeshPair {
   Clearance clearance;  // of the segment in the frame of the mesh
 };
 
-/// Two segments that may touch each other.
+/// Two bodies that may touch each other.
 struct BodyPair {
   int a = 0, b = 0;
 };
@@ -75,19 +75,12 @@ struct BodyPairRun {
   std::vector<PairMemory> memory;  // of the same
 };
 
-/// Neighbours in the list of pairs, all of the same two trees.
-struct PairRun {
+/// Neighbours in the list of mesh pairs, all of the same two trees: of the round bodies, and of the mesh.
+struct MeshPairRun {
   int effect = 0;
   int tree_a = -1, tree_b = -1;  // -1: a fixed body
   std::size_t begin = 0, end = 0;
 };
-
-/// One more pair of these trees, the `at`-th of its list, joins the last run if it is of the same kind.
-inline void add_to_runs(std::vector<PairRun>& runs, int effect, int tree_a, int tree_b, std::size_t at) {
-  if (runs.empty() || runs.back().effect != effect || runs.back().tree_a != tree_a || runs.back().tree_b != tree_b)
-    runs.push_back({effect, tree_a, tree_b, at, at});
-  runs.back().end = at + 1;
-}
 
 /// Which bodies, and which trees of them, have anything to do with each other in a step: spheres about them, with the way they can
 /// go in it. Bounds on `pair_margin`, cheaper than it.
@@ -118,12 +111,9 @@ struct SurfacePoint {
   int wheel = -1;           // of World::wheels, -1: of the body
 };
 
-/// Two meshes whose points may meet the other's surface; their clearances stand apart, as of most pairs a step asks no more than
-/// who they are.
-struct BodyworkPair {
-  int a = 0, b = 0;
-};
-using BodyworkClearance = std::array<Clearance, 2>;  // of b in the frame of a: points of a on b, points of b on a
+/// What two meshes whose points may meet the other's surface keep from step to step: of b in the frame of a, points of a on b and
+/// points of b on a.
+using BodyworkClearance = std::array<Clearance, 2>;
 
 /// Two meshes that collide by Kudlich-Slibar.
 struct ImpactPair {
@@ -202,12 +192,12 @@ struct World {
   std::vector<int> active_trees;
   std::vector<MeshPair> mesh_pairs;
   std::vector<BodyPairRun> body_pair_runs;
-  std::vector<PairRun> mesh_pair_runs;  // of bodies (a) and meshes (b)
+  std::vector<MeshPairRun> mesh_pair_runs;
   Nearness nearness;
   std::vector<WheelState> wheels;
   std::vector<Vec3> joint_load;                           // [N] on the child, per joint; of those that can break
   std::vector<std::vector<SurfacePoint>> surface_points;  // per body with a mesh, for meshes against others
-  std::vector<BodyworkPair> bodywork_pairs;
+  std::vector<BodyPair> bodywork_pairs;
   std::vector<BodyworkClearance> bodywork_clearances;  // of the same
   std::vector<SurfaceContact> point_contacts;          // scratch of those
   std::vector<int> point_scratch;

@@ -86,8 +86,8 @@ void add_pairs_within_persons(World& world, int effect) {
 }
 
 void add_runs_between_bodies(World& world, int effect) {
-  constexpr std::size_t kAtOnce = 10'000;  // pairs that are listed before the first step, which then never waits for memory
-  const bool at_once = count_pairs_between_bodies(world.model) <= kAtOnce;
+  constexpr std::size_t kAtOnce = 140;  // bodies whose ten thousand pairs at most are listed before the first step: none waits then
+  const bool at_once = world.model.bodies.size() <= kAtOnce;
   const Joined joined = joined_bodies(world.model);
   const int trees = static_cast<int>(world.topology.trees.size());
   std::vector<std::vector<int>> bodies;
@@ -115,27 +115,32 @@ void list_pairs(const World& world, BodyPairRun& run) {
   run.memory.resize(run.pairs.size());
 }
 
+std::optional<double> margin_of_near(const World& world, const State& state, const BodyPair& pair) {
+  if (world.nearness.apart(state, pair.a, pair.b)) return std::nullopt;
+  const double margin = pair_margin(world, state, pair.a, pair.b);
+  const double apart = (state.X_WB[pair.a].p - state.X_WB[pair.b].p).norm();
+  if (apart > world.reach[pair.a] + world.reach[pair.b] + margin) return std::nullopt;
+  return margin;
+}
+
 namespace {
 
 void find_contacts_of(World& world, const State& state, BodyPairRun& run, ContactKind kind) {
   list_pairs(world, run);
   for (std::size_t i = 0; i < run.pairs.size(); ++i) {
     const BodyPair& pair = run.pairs[i];
-    if (world.nearness.apart(state, pair.a, pair.b)) continue;
-    if (!world.awake[pair.a] && !world.awake[pair.b]) continue;
-    const double margin = pair_margin(world, state, pair.a, pair.b);
-    const double apart = (state.X_WB[pair.a].p - state.X_WB[pair.b].p).norm();
-    if (apart > world.reach[pair.a] + world.reach[pair.b] + margin) continue;
     const Body& A = world.model.bodies[pair.a];
     const Body& B = world.model.bodies[pair.b];
     const bool frozen = (!world.awake[pair.a] && !A.fixed) || (!world.awake[pair.b] && !B.fixed);
     if (frozen) continue;  // waits or sleeps: those effects watch
+    const std::optional<double> margin = margin_of_near(world, state, pair);
+    if (!margin) continue;
     const Pose X_AB = state.X_WB[pair.a].inverse() * state.X_WB[pair.b];
     PairMemory& memory = run.memory[i];
-    if (memory.clearance.beyond(margin, X_AB, world.reach[pair.b])) continue;
+    if (memory.clearance.beyond(*margin, X_AB, world.reach[pair.b])) continue;
     memory.clearance.least = 0;
     const auto touch = contact_of_pair(std::get<HyperEllipsoid>(A.shape), state.X_WB[pair.a], std::get<HyperEllipsoid>(B.shape),
-                                       state.X_WB[pair.b], margin, memory.normal_W, &memory.clearance.least);
+                                       state.X_WB[pair.b], *margin, memory.normal_W, &memory.clearance.least);
     if (!touch) {
       memory.clearance.X = X_AB;
       continue;

@@ -1,6 +1,8 @@
 // What self contact and contact between persons or free bodies share: pairs of hyper-ellipsoids.
 #pragma once
 
+#include <optional>
+
 #include "engine/effects/effect.h"
 
 namespace engine {
@@ -17,6 +19,9 @@ void add_runs_between_bodies(World&, int effect);
 
 /// Lists the pairs of such a run, bodies of lower index first, if that was not done yet.
 void list_pairs(const World&, BodyPairRun&);
+
+/// The distance [m] a step can bring the two together by; nothing where they are farther apart.
+std::optional<double> margin_of_near(const World&, const State&, const BodyPair&);
 
 void find_pair_contacts(World&, const State&, int effect, ContactKind);
 

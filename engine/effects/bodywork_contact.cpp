@@ -180,7 +180,7 @@ void find_on_ground(World& world, const State& state, int body, int self) {
 
 /// Where the boxes of a pair meet; nothing if a step cannot bring them together.
 std::optional<Aabb> shared_box(World& world, const State& state, std::size_t which, double margin) {
-  const BodyworkPair& pair = world.bodywork_pairs[which];
+  const BodyPair& pair = world.bodywork_pairs[which];
   const Aabb box_a = box_of(world, state, pair.a), box_b = box_of(world, state, pair.b);
   const Aabb shared{box_a.lower.cwiseMax(box_b.lower), box_a.upper.cwiseMin(box_b.upper)};
   if ((shared.lower.array() <= shared.upper.array() + margin).all()) return shared;
@@ -191,7 +191,7 @@ std::optional<Aabb> shared_box(World& world, const State& state, std::size_t whi
 /// Points of a pair's first body on the surface of the second (way 0) or of the second on the first (way 1), to
 /// World::point_contacts.
 void touch_one_way(World& world, const State& state, std::size_t which, int way, double margin, const Aabb& within) {
-  const BodyworkPair& pair = world.bodywork_pairs[which];
+  const BodyPair& pair = world.bodywork_pairs[which];
   const int points_of = way == 0 ? pair.a : pair.b, surface_of = way == 0 ? pair.b : pair.a;
   const Pose X_AB = state.X_WB[pair.a].inverse() * state.X_WB[pair.b];
   Clearance& clearance = world.bodywork_clearances[which][static_cast<std::size_t>(way)];
@@ -203,7 +203,7 @@ void touch_one_way(World& world, const State& state, std::size_t which, int way,
 }
 
 void find_between(World& world, const State& state, std::size_t which, int self) {
-  const BodyworkPair& pair = world.bodywork_pairs[which];
+  const BodyPair& pair = world.bodywork_pairs[which];
   const double margin = pair_margin(world, state, pair.a, pair.b);
   const std::optional<Aabb> within = shared_box(world, state, which, margin);
   if (!within) return;
@@ -225,7 +225,7 @@ bool frozen(const World& world, int body) {
 void find(World& world, const State& state, int self) {
   const int n = static_cast<int>(world.model.bodies.size());
   const std::vector<int>& tree = world.topology.tree_of_body;
-  const std::vector<BodyworkPair>& pairs = world.bodywork_pairs;
+  const std::vector<BodyPair>& pairs = world.bodywork_pairs;
   std::size_t i = 0;
   for (int a = 0; a < n; ++a) {
     if (is_mesh(world.model.bodies[a]) && world.awake[a]) find_on_ground(world, state, a, self);
@@ -240,7 +240,7 @@ void find(World& world, const State& state, int self) {
 const std::vector<SurfaceContact>& contacts_of_meshes(World& world, const State& state, int a, int b) {
   world.point_contacts.clear();
   const auto pair = std::find_if(world.bodywork_pairs.begin(), world.bodywork_pairs.end(),
-                                 [&](const BodyworkPair& p) { return p.a == std::min(a, b) && p.b == std::max(a, b); });
+                                 [&](const BodyPair& p) { return p.a == std::min(a, b) && p.b == std::max(a, b); });
   if (pair == world.bodywork_pairs.end()) return world.point_contacts;
   const auto which = static_cast<std::size_t>(pair - world.bodywork_pairs.begin());
   const double margin = pair_margin(world, state, a, b);

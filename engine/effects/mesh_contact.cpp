@@ -33,6 +33,13 @@ Finding look(const Model& model) {
   return {true, counted(pairs, "pair") + " of a segment or free body and " + listed(names), left_out};
 }
 
+/// One more pair of these trees, the `at`-th of its list, joins the last run if it is of the same kind.
+void add_to_runs(std::vector<MeshPairRun>& runs, int effect, int tree_a, int tree_b, std::size_t at) {
+  if (runs.empty() || runs.back().effect != effect || runs.back().tree_a != tree_a || runs.back().tree_b != tree_b)
+    runs.push_back({effect, tree_a, tree_b, at, at});
+  runs.back().end = at + 1;
+}
+
 void begin(World& world, const State&, int self) {
   const auto& bodies = world.model.bodies;
   const std::vector<int>& tree = world.topology.tree_of_body;
@@ -45,7 +52,7 @@ void begin(World& world, const State&, int self) {
   for (const MeshPair& pair : world.mesh_pairs) reserve(world.mesh_scratch, *pair.mesh);
 }
 
-void find_contacts_of(World& world, const State& state, const PairRun& run, ContactPoints& touches) {
+void find_contacts_of(World& world, const State& state, const MeshPairRun& run, ContactPoints& touches) {
   for (std::size_t i = run.begin; i < run.end; ++i) {
     MeshPair& pair = world.mesh_pairs[i];
     if (!world.awake[pair.body] && !world.model.bodies[pair.body].fixed) continue;  // waits or sleeps: those effects watch
@@ -70,7 +77,7 @@ void find_contacts_of(World& world, const State& state, const PairRun& run, Cont
 
 void find(World& world, const State& state, int) {
   ContactPoints touches;
-  for (const PairRun& run : world.mesh_pair_runs)
+  for (const MeshPairRun& run : world.mesh_pair_runs)
     if (world.nearness.close(run.tree_a, run.tree_b)) find_contacts_of(world, state, run, touches);
 }
 

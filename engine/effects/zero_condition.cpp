@@ -82,11 +82,10 @@ void watch_pair(World& world, State& state, const BodyPair& pair, Vec3& normal_W
   const Body &A = world.model.bodies[pair.a], &B = world.model.bodies[pair.b];
   if (A.person >= 0 && A.person == B.person) return;
   if (!waits(world, state, pair.a) && !waits(world, state, pair.b)) return;
-  if (world.nearness.apart(state, pair.a, pair.b)) return;
-  const double margin = pair_margin(world, state, pair.a, pair.b);
-  if ((state.X_WB[pair.a].p - state.X_WB[pair.b].p).norm() > world.reach[pair.a] + world.reach[pair.b] + margin) return;
+  const std::optional<double> margin = margin_of_near(world, state, pair);
+  if (!margin) return;
   const auto touch = contact_of_pair(std::get<HyperEllipsoid>(A.shape), state.X_WB[pair.a], std::get<HyperEllipsoid>(B.shape),
-                                     state.X_WB[pair.b], margin, normal_W);
+                                     state.X_WB[pair.b], *margin, normal_W);
   if (!touch) return;
   if (!touches(world, state, *touch, pair.a, pair.b)) {
     if (warn) warn_of_overlap(world, pair.a, pair.b, touch->gap);

@@ -32,7 +32,7 @@ class Articulation {
   Articulation(const Model&, Keeps);
   void reset(const Topology&);
 
-  /// The tree that the next calls are about.
+  /// The tree that the next calls are about; `factor` turns by itself.
   void turn_to(const Topology& topology, int tree) { first_ = keeps_ == Keeps::last_tree ? topology.trees[tree].begin : 0; }
 
   /// Factorises one tree at the poses given. `dampers` (per joint) may be null.

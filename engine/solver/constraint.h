@@ -29,7 +29,7 @@ struct Constraint {
   double target = 0;              // [m/s] what u_0 + softness * impulse must reach
   double stiffness = 0;           // [N/m] compliant contact, both surfaces in series; [N m/rad] compliant stop; 0: rigid
   double hysteresis = 0;          // [-] compliant contact: share of the energy that comes back
-  double free_response = 0;       // [1/kg] compliant contact or stop: of its two bodies were they free of joints
+  double free_response = 0;       // [1/kg] contact or compliant stop: of its two bodies were they free of joints
   double whole_response = 0;      // [1/kg] contact: of all that hangs on its bodies, moving as one
   double rolling_bound = 0;       // [N s] wheel: most that brake can give along t1
   double rolling_drive = 0;       // [N s] wheel: what the engine gives along t1

@@ -1,6 +1,7 @@
 // What the engine does in a second, and how well: `build/tests/benchmark_engine [part...] [--peer name=program]...`
 // Parts: scenes, ensemble, persons, triangles, plan. Times are medians on one core; ratios compare runs of the same call.
-// A peer is a program that takes `scene=NAME dt=SECONDS reps=N` and prints comma separated values with steps/s in column six.
+// A peer is a program that takes `scene=NAME dt=SECONDS reps=N pert=MICROMETRES damp=NMS` and prints comma separated values with
+// steps/s in column six and where the figure ends in column twenty.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,6 +10,8 @@
 #include <numbers>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "engine/plan.h"
 #include "engine/simulate.h"
@@ -62,21 +65,25 @@ engine::Vec3 centre_of_figure(const Model& model, const Recording& run) {
   return sum / mass;
 }
 
-double peer_rate(const Peer& peer, const std::string& scene) {
-  const std::string command = peer.program + " scene=" + scene + " dt=0.001 reps=5";
-  FILE* pipe = popen(command.c_str(), "r");
+/// The value in such a column (from 1) of what a peer prints; 0 if there is none.
+double peer_value(const Peer& peer, const std::string& arguments, int column) {
+  FILE* pipe = popen((peer.program + " " + arguments).c_str(), "r");
   if (!pipe) return 0;
   char line[1024] = {};
   const bool any = std::fgets(line, sizeof line, pipe) != nullptr;
   pclose(pipe);
   if (!any) return 0;
   std::string text = line;
-  for (int column = 0; column < 5; ++column) {
+  for (int passed = 1; passed < column; ++passed) {
     const auto comma = text.find(',');
     if (comma == std::string::npos) return 0;
     text.erase(0, comma + 1);
   }
   return std::strtod(text.c_str(), nullptr);
+}
+
+double peer_rate(const Peer& peer, const std::string& scene) {
+  return peer_value(peer, "scene=" + scene + " dt=0.001 reps=5", 6);
 }
 
 void common_scenes(const std::vector<Peer>& peers) {
@@ -103,29 +110,42 @@ void common_scenes(const std::vector<Peer>& peers) {
   std::printf("flight: error after 1 s at 1 ms %.2e m\n\n", error);
 }
 
+constexpr double kDampingOfComparison = 0.1;  // [N m s/rad]
+
 struct Spread {
   double mean, deviation;  // [m]
 };
 
+Spread spread_of(const std::vector<double>& values) {
+  double sum = 0, squares = 0;
+  for (const double x : values) sum += x, squares += x * x;
+  const double mean = sum / static_cast<double>(values.size());
+  return {mean, std::sqrt(std::max(0.0, squares / static_cast<double>(values.size()) - mean * mean))};
+}
+
 /// Where the first person ends, along x, over so many starts; start(shift) is the model of one from 0 to 19 micrometres aside.
 template <class Start>
 Spread spread_of(int starts, const Start& start) {
-  double sum = 0, squares = 0;
+  std::vector<double> ends;
   for (int k = 0; k < starts; ++k) {
     const Model model = start(19e-6 * k / (starts - 1));
-    const double x = centre_of_figure(model, engine::simulate(model)).x();
-    sum += x;
-    squares += x * x;
+    ends.push_back(centre_of_figure(model, engine::simulate(model)).x());
   }
-  const double mean = sum / starts;
-  return {mean, std::sqrt(std::max(0.0, squares / starts - mean * mean))};
+  return spread_of(ends);
+}
+
+Spread spread_of(const Peer& peer, const std::string& scene, double step) {
+  std::vector<double> ends;
+  for (int k = 0; k < 20; ++k)
+    ends.push_back(
+        peer_value(peer, fmt::format("scene={} dt={} reps=1 pert={} damp={}", scene, step, k, kDampingOfComparison), 20));
+  return spread_of(ends);
 }
 
 void damp(Model& model, double damping) {  // [N m s/rad]
   for (engine::Joint& joint : model.joints)
     for (engine::ArticulationAngle& angle : joint.angles) angle.damping = damping;
 }
-constexpr double kDampingOfComparison = 0.1;
 
 /// Of a common scene with joints damped as in the comparison; `change` is made to each start.
 template <class Change>
@@ -167,15 +187,17 @@ void parting(double step) {
   std::printf("\n");
 }
 
-void ensemble() {
+void ensemble(const std::vector<Peer>& peers) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   std::printf("Twenty starts shifted by 0 to 19 micrometres, joints damped by 0.1 N m s/rad as in the comparison\n");
   const auto as_it_is = [](Model&) {};
   for (const std::string scene : {"throw", "vehicle"})
-    for (const double step : {1e-3, 5e-4}) {
+    for (const double step : {1e-3, 8e-4, 5e-4}) {
       const Spread s = spread(scene, step, 20, as_it_is);
-      std::printf("%-8s step %.2g ms: mean %.4f m, standard deviation %.2f mm\n", scene.c_str(), step * 1e3, s.mean,
+      std::printf("%-8s step %.2g ms: mean %.4f m, standard deviation %.2f mm", scene.c_str(), step * 1e3, s.mean,
                   1e3 * s.deviation);
+      for (const Peer& peer : peers) std::printf(", %s %.1f mm", peer.name.c_str(), 1e3 * spread_of(peer, scene, step).deviation);
+      std::printf("\n");
     }
   const auto tilted = [&](const std::string& scene, double step, bool capsules) {
     return spread_of(20, [&](double angle) {
@@ -305,7 +327,7 @@ int main(int argc, char** argv) {
   }
   auto wanted = [&](const char* part) { return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end(); };
   if (wanted("scenes")) common_scenes(peers);
-  if (wanted("ensemble")) ensemble();
+  if (wanted("ensemble")) ensemble(peers);
   if (wanted("persons")) persons();
   if (wanted("triangles")) triangles();
   if (wanted("plan")) plan();
