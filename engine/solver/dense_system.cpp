@@ -2,68 +2,137 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 namespace engine {
 
 void DenseSystem::resize(int n) {
   n_ = static_cast<std::size_t>(n);
-  stride_ = stride_of(n_);
-  if (A_.size() < stride_ * n_) A_.resize(stride_ * n_);  // never smaller: growing again would write zeros for nothing
+  stride_ = whole(n_);
+  if (A_.size() < stride_ * stride_) A_.resize(stride_ * stride_);  // never smaller: growing again would write zeros for nothing
   if (b_.size() < stride_) b_.resize(stride_);
-  if (pivot_.size() < n_) pivot_.resize(n_);
+  if (pivot_.size() < stride_) pivot_.resize(stride_);
   for (std::size_t c = 0; c < n_; ++c) std::fill(A_.data() + c * stride_ + n_, A_.data() + (c + 1) * stride_, 0.0);
   std::fill(b_.data() + n_, b_.data() + stride_, 0.0);
+  // unknowns nothing depends on, so that all panels are whole
+  for (std::size_t c = n_; c < stride_; ++c) {
+    std::fill(A_.data() + c * stride_, A_.data() + (c + 1) * stride_, 0.0);
+    A_[c * stride_ + c] = 1;
+  }
 }
 
 namespace {
 
-constexpr std::size_t kPanel = 4;  // columns whose multiples are taken from the others in one pass over the memory
+// Columns go in panels of four: their multiples are taken from the others in one pass over the memory. A panel exchanges rows in
+// itself and behind itself, not before itself; the solution follows by exchanging panel by panel too.
+constexpr std::size_t kPanel = 4;
 
-using Four = double __attribute__((vector_size(4 * sizeof(double))));
-static_assert(kPanel * sizeof(double) == sizeof(Four));  // behind a panel begin whole vectors
+using Four = double __attribute__((vector_size(kPanel * sizeof(double))));
+using Places = std::int64_t __attribute__((vector_size(kPanel * sizeof(double))));
 
-/// Wide vectors where the processor has them; without fused multiply-add, so that all processors find the same bits.
+constexpr Places kLane = {0, 1, 2, 3};
+constexpr Places kNoSign = {INT64_MAX, INT64_MAX, INT64_MAX, INT64_MAX};
+constexpr Places kBelow[] = {{0, -1, -1, -1}, {0, 0, -1, -1}, {0, 0, 0, -1}};  // of a panel's rows, those below the pivot
+
+/// Wide vectors where the processor has them; without fused multiply-add, so that all processors find the same bits. What is called
+/// from here would be compiled for the plainest of them, therefore one function.
 #if defined(__x86_64__)
 __attribute__((target_clones("avx2", "default")))
 #endif
-bool factor_in_place(double* A, std::size_t n, std::size_t stride, std::size_t* pivots) {
+bool factor_in_place(double* A, std::size_t n, std::size_t* pivots) {
+  const double* past = A + n * n;
   for (std::size_t first = 0; first < n; first += kPanel) {
-    const std::size_t end = std::min(first + kPanel, n);
+    const std::size_t end = first + kPanel;
+    double *p0 = A + first * n, *p1 = p0 + n, *p2 = p1 + n, *p3 = p2 + n;
     for (std::size_t k = first; k < end; ++k) {
-      double* column = A + k * stride;
-      for (std::size_t j = first; j < k; ++j) {
-        const double* before = A + j * stride;
-        const double factor = column[j];
-        for (std::size_t i = j + 1; i < n; ++i) column[i] -= before[i] * factor;
+      double* column = A + k * n;
+      const auto step = static_cast<std::int64_t>(k - first);
+      // multiples of the panel's columns before this one; of the others nothing
+      Places m0, m1, m2;
+      Four h;
+      std::memcpy(&m0, p0 + first, sizeof m0);
+      std::memcpy(&m1, p1 + first, sizeof m1);
+      std::memcpy(&m2, p2 + first, sizeof m2);
+      std::memcpy(&h, column + first, sizeof h);
+      const double f0 = step > 0 ? h[0] : 0;
+      h = h - reinterpret_cast<Four>(m0 & kBelow[0]) * f0;
+      const double f1 = step > 1 ? h[1] : 0;
+      h = h - reinterpret_cast<Four>(m1 & kBelow[1]) * f1;
+      const double f2 = step > 2 ? h[2] : 0;
+      h = h - reinterpret_cast<Four>(m2 & kBelow[2]) * f2;
+      std::memcpy(column + first, &h, sizeof h);
+      // the first of the largest, lane by lane
+      Four largest = kLane < step ? Four{-1, -1, -1, -1} : reinterpret_cast<Four>(reinterpret_cast<Places>(h) & kNoSign);
+      Places here = kLane + static_cast<std::int64_t>(first), place = here;
+      for (std::size_t i = end; i < n; i += kPanel) {
+        Four x, q0, q1, q2;
+        std::memcpy(&x, column + i, sizeof x);
+        std::memcpy(&q0, p0 + i, sizeof q0);
+        std::memcpy(&q1, p1 + i, sizeof q1);
+        std::memcpy(&q2, p2 + i, sizeof q2);
+        x = x - q0 * f0 - q1 * f1 - q2 * f2;
+        std::memcpy(column + i, &x, sizeof x);
+        const Four size = reinterpret_cast<Four>(reinterpret_cast<Places>(x) & kNoSign);
+        here += static_cast<std::int64_t>(kPanel);
+        const Places larger = size > largest;
+        largest = larger ? size : largest;
+        place = larger ? here : place;
       }
-      std::size_t pivot = k;
-      for (std::size_t i = k + 1; i < n; ++i)
-        if (std::abs(column[i]) > std::abs(column[pivot])) pivot = i;
-      if (!(std::abs(column[pivot]) > 1e-100)) return false;
+      double most = largest[0];
+      std::int64_t at = place[0];
+      for (int lane = 1; lane < 4; ++lane)
+        if (largest[lane] > most || (largest[lane] == most && place[lane] < at)) at = place[lane], most = largest[lane];
+      if (!(most > 1e-100)) return false;
+      const auto pivot = static_cast<std::size_t>(at);
       pivots[k] = pivot;
+      // here and not where they are read next: a vector read right after one of its numbers is written waits for it
       if (pivot != k)
-        for (std::size_t c = 0; c < n; ++c) std::swap(A[c * stride + k], A[c * stride + pivot]);
+        for (double* c = p0; c < past; c += n) std::swap(c[k], c[pivot]);
       const double inverse = 1 / column[k];
-      for (std::size_t i = k + 1; i < n; ++i) column[i] *= inverse;
+      std::memcpy(&h, column + first, sizeof h);
+      h = kLane > step ? h * inverse : h;
+      std::memcpy(column + first, &h, sizeof h);
+      for (std::size_t i = end; i < n; i += kPanel) {
+        Four x;
+        std::memcpy(&x, column + i, sizeof x);
+        x *= inverse;
+        std::memcpy(column + i, &x, sizeof x);
+      }
     }
-    if (end - first < kPanel) break;  // nothing behind it
-    const double *p0 = A + first * stride, *p1 = p0 + stride, *p2 = p1 + stride, *p3 = p2 + stride;
-    for (std::size_t c = end; c < n; ++c) {
-      double* column = A + c * stride;
-      const double f0 = column[first];
-      const double f1 = column[first + 1] -= p0[first + 1] * f0;
-      const double f2 = column[first + 2] = column[first + 2] - p0[first + 2] * f0 - p1[first + 2] * f1;
-      const double f3 = column[first + 3] = column[first + 3] - p0[first + 3] * f0 - p1[first + 3] * f1 - p2[first + 3] * f2;
-      for (std::size_t i = end; i < n; i += 4) {
-        Four sum, q0, q1, q2, q3;
-        std::memcpy(&sum, column + i, sizeof sum);
+    Places m0, m1, m2;
+    std::memcpy(&m0, p0 + first, sizeof m0);
+    std::memcpy(&m1, p1 + first, sizeof m1);
+    std::memcpy(&m2, p2 + first, sizeof m2);
+    const Four L0 = reinterpret_cast<Four>(m0 & kBelow[0]);
+    const Four L1 = reinterpret_cast<Four>(m1 & kBelow[1]);
+    const Four L2 = reinterpret_cast<Four>(m2 & kBelow[2]);
+    for (std::size_t c = end; c < n; c += 2) {
+      double *x = A + c * n, *y = x + n;
+      Four u, v;
+      std::memcpy(&u, x + first, sizeof u);
+      std::memcpy(&v, y + first, sizeof v);
+      const Four f0 = __builtin_shufflevector(u, u, 0, 0, 0, 0), g0 = __builtin_shufflevector(v, v, 0, 0, 0, 0);
+      u = u - L0 * f0, v = v - L0 * g0;
+      const Four f1 = __builtin_shufflevector(u, u, 1, 1, 1, 1), g1 = __builtin_shufflevector(v, v, 1, 1, 1, 1);
+      u = u - L1 * f1, v = v - L1 * g1;
+      const Four f2 = __builtin_shufflevector(u, u, 2, 2, 2, 2), g2 = __builtin_shufflevector(v, v, 2, 2, 2, 2);
+      u = u - L2 * f2, v = v - L2 * g2;
+      const Four f3 = __builtin_shufflevector(u, u, 3, 3, 3, 3), g3 = __builtin_shufflevector(v, v, 3, 3, 3, 3);
+      std::memcpy(x + first, &u, sizeof u);
+      std::memcpy(y + first, &v, sizeof v);
+      for (std::size_t i = end; i < n; i += kPanel) {
+        Four q0, q1, q2, q3;
+        std::memcpy(&u, x + i, sizeof u);
+        std::memcpy(&v, y + i, sizeof v);
         std::memcpy(&q0, p0 + i, sizeof q0);
         std::memcpy(&q1, p1 + i, sizeof q1);
         std::memcpy(&q2, p2 + i, sizeof q2);
         std::memcpy(&q3, p3 + i, sizeof q3);
-        sum = sum - q0 * f0 - q1 * f1 - q2 * f2 - q3 * f3;
-        std::memcpy(column + i, &sum, sizeof sum);
+        u = u - q0 * f0 - q1 * f1 - q2 * f2 - q3 * f3;
+        v = v - q0 * g0 - q1 * g1 - q2 * g2 - q3 * g3;
+        std::memcpy(x + i, &u, sizeof u);
+        std::memcpy(y + i, &v, sizeof v);
       }
     }
   }
@@ -73,30 +142,55 @@ bool factor_in_place(double* A, std::size_t n, std::size_t stride, std::size_t* 
 #if defined(__x86_64__)
 __attribute__((target_clones("avx2", "default")))
 #endif
-void substitute(const double* A, std::size_t n, std::size_t stride, double* b) {
-  for (std::size_t k = 0; k < n; ++k) {
-    const double* column = A + k * stride;
-    const double factor = b[k];
-    for (std::size_t i = k + 1; i < n; ++i) b[i] -= column[i] * factor;
+void substitute(const double* A, std::size_t n, const std::size_t* pivots, double* b) {
+  for (std::size_t first = 0; first < n; first += kPanel) {
+    const std::size_t end = first + kPanel;
+    const double *p0 = A + first * n, *p1 = p0 + n, *p2 = p1 + n, *p3 = p2 + n;
+    for (std::size_t k = first; k < end; ++k) std::swap(b[k], b[pivots[k]]);
+    const double f0 = b[first];
+    const double f1 = b[first + 1] -= p0[first + 1] * f0;
+    const double f2 = b[first + 2] = b[first + 2] - p0[first + 2] * f0 - p1[first + 2] * f1;
+    const double f3 = b[first + 3] = b[first + 3] - p0[first + 3] * f0 - p1[first + 3] * f1 - p2[first + 3] * f2;
+    for (std::size_t i = end; i < n; i += kPanel) {
+      Four x, q0, q1, q2, q3;
+      std::memcpy(&x, b + i, sizeof x);
+      std::memcpy(&q0, p0 + i, sizeof q0);
+      std::memcpy(&q1, p1 + i, sizeof q1);
+      std::memcpy(&q2, p2 + i, sizeof q2);
+      std::memcpy(&q3, p3 + i, sizeof q3);
+      x = x - q0 * f0 - q1 * f1 - q2 * f2 - q3 * f3;
+      std::memcpy(b + i, &x, sizeof x);
+    }
   }
-  for (std::size_t k = n; k-- > 0;) {
-    const double* column = A + k * stride;
-    b[k] /= column[k];
-    const double factor = b[k];
-    for (std::size_t i = 0; i < k; ++i) b[i] -= column[i] * factor;
+  for (std::size_t first = n; first > 0;) {
+    first -= kPanel;
+    const double *p0 = A + first * n, *p1 = p0 + n, *p2 = p1 + n, *p3 = p2 + n;
+    double* x = b + first;
+    const double f3 = x[3] = x[3] / p3[first + 3];
+    const double f2 = x[2] = (x[2] - p3[first + 2] * f3) / p2[first + 2];
+    const double f1 = x[1] = (x[1] - p3[first + 1] * f3 - p2[first + 1] * f2) / p1[first + 1];
+    const double f0 = x[0] = (x[0] - p3[first] * f3 - p2[first] * f2 - p1[first] * f1) / p0[first];
+    for (std::size_t i = 0; i < first; i += kPanel) {
+      Four sum, q0, q1, q2, q3;
+      std::memcpy(&sum, b + i, sizeof sum);
+      std::memcpy(&q0, p0 + i, sizeof q0);
+      std::memcpy(&q1, p1 + i, sizeof q1);
+      std::memcpy(&q2, p2 + i, sizeof q2);
+      std::memcpy(&q3, p3 + i, sizeof q3);
+      sum = sum - q3 * f3 - q2 * f2 - q1 * f1 - q0 * f0;
+      std::memcpy(b + i, &sum, sizeof sum);
+    }
   }
 }
 
 }  // namespace
 
 bool DenseSystem::factor() {
-  return factor_in_place(A_.data(), n_, stride_, pivot_.data());
+  return factor_in_place(A_.data(), stride_, pivot_.data());
 }
 
 void DenseSystem::solve() {
-  for (std::size_t k = 0; k < n_; ++k)
-    if (pivot_[k] != k) std::swap(b_[k], b_[pivot_[k]]);
-  substitute(A_.data(), n_, stride_, b_.data());
+  substitute(A_.data(), stride_, pivot_.data(), b_.data());
 }
 
 }  // namespace engine

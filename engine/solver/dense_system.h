@@ -7,7 +7,7 @@ namespace engine {
 
 class DenseSystem {
  public:
-  void reserve(std::size_t n) { A_.reserve(stride_of(n) * n), b_.reserve(stride_of(n)), pivot_.reserve(n); }
+  void reserve(std::size_t n) { A_.reserve(whole(n) * whole(n)), b_.reserve(whole(n)), pivot_.reserve(whole(n)); }
   /// A and b are to be written whole.
   void resize(int n);
   int size() const { return static_cast<int>(n_); }
@@ -21,8 +21,8 @@ class DenseSystem {
   void solve();
 
  private:
-  /// Columns are filled up with zeros to whole vectors of four.
-  static std::size_t stride_of(std::size_t n) { return (n + 3) / 4 * 4; }
+  /// The system is filled up to a multiple of four unknowns.
+  static std::size_t whole(std::size_t n) { return (n + 3) / 4 * 4; }
 
   std::size_t n_ = 0, stride_ = 0;
   std::vector<double> A_;  // column-major
