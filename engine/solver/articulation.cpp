@@ -3,10 +3,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "engine/solver/wide_links.h"
+
 namespace engine {
 namespace {
-
-using Mat63 = Eigen::Matrix<double, 6, 3>;
 
 /// Inverse of a symmetric positive definite matrix by blocks of 3: fixed sizes, no loops, no allocation.
 Mat6 inverse_spd(const Mat6& A) {
@@ -125,39 +125,6 @@ void Articulation::eliminate(Factor& f, const Hinge& hinge, const Eigen::Matrix<
   H_parent->bottomRightCorner<3, 3>() += rest.bottomRightCorner<3, 3>() + TQ + TQ.transpose() + skew_times<3>(d, PT);
 }
 
-/// A point that two bodies share, the most frequent joint: S_w = 1, and what passes through it is a force at the point, A of it for
-/// an acceleration of the point.
-void Articulation::eliminate_point(Factor& f, const Hinge& hinge, const Mat6& H, Mat6* H_parent) {
-  const Vec3 &r = hinge.r, &r_parent = hinge.r_parent;
-  const Mat3 M = H.topLeftCorner<3, 3>();
-  const Mat3 HS = times_skew<3>(M, r) + H.topRightCorner<3, 3>();
-  const Mat3 K = times_skew<3>(H.bottomLeftCorner<3, 3>(), r) + H.bottomRightCorner<3, 3>() - skew_times<3>(r, HS);
-  const Mat3 Ki = K.inverse();
-  const Mat3 RK = skew_times<3>(r, Ki);
-  f.D.topLeftCorner<3, 3>() = -times_skew<3>(RK, r);
-  f.D.topRightCorner<3, 3>() = RK;
-  f.D.bottomLeftCorner<3, 3>() = RK.transpose();
-  f.D.bottomRightCorner<3, 3>() = Ki;
-  if (!H_parent) {
-    f.X.setZero();
-    return;
-  }
-  const Mat3 U = HS * Ki;
-  Mat3 A = M;
-  A.noalias() -= U * HS.transpose();
-  // the body's motion when the point moves, then the point's with the parent
-  Mat63 by_point;
-  by_point.topRows<3>() = Mat3::Identity() - skew_times<3>(r, U.transpose());
-  by_point.bottomRows<3>() = -U.transpose();
-  f.X.leftCols<3>() = by_point;
-  f.X.rightCols<3>() = -times_skew<6>(by_point, r_parent);
-  const Mat3 AP = -times_skew<3>(A, r_parent);
-  H_parent->topLeftCorner<3, 3>() += A;
-  H_parent->topRightCorner<3, 3>() += AP;
-  H_parent->bottomLeftCorner<3, 3>() += AP.transpose();
-  H_parent->bottomRightCorner<3, 3>() += skew_times<3>(r_parent, AP);
-}
-
 /// No freedom at all: the parent carries the body as its own.
 void Articulation::eliminate_fixed(Factor& f, const Hinge& hinge, const Mat6& H, Mat6* H_parent) {
   f.D.setZero();
@@ -197,12 +164,13 @@ void Articulation::factor(const Topology& topology, int tree, const std::vector<
     const Hinge hinge{child ? f.rows.r_C : f.rows.r_P, child ? f.rows.r_P : f.rows.r_C,
                       dampers ? &(*dampers)[link.joint] : nullptr};
     Mat6* H_parent = link.parent < 0 ? nullptr : &H_[topology.link_of_body[link.parent] - first_];
+    double* parent = H_parent ? H_parent->data() : nullptr;
     switch (f.rows.count) {
       case 3:
         if (hinge.damper && hinge.damper->present) {
           eliminate<3>(f, hinge, Mat3::Identity(), H, H_parent);
         } else {
-          eliminate_point(f, hinge, H, H_parent);
+          eliminate_point(H.data(), hinge.r.data(), hinge.r_parent.data(), f.D.data(), f.X.data(), parent);
         }
         break;
       case 4: {  // a cross of two axes
@@ -211,9 +179,12 @@ void Articulation::factor(const Topology& topology, int tree, const std::vector<
         eliminate<2>(f, hinge, axes, H, H_parent);
         break;
       }
-      case 5:
-        eliminate<1>(f, hinge, f.rows.u[0], H, H_parent);
+      case 5: {
+        const Vec3& axis = f.rows.u[0];
+        const double damping = hinge.damper && hinge.damper->present ? (axis.transpose() * hinge.damper->matrix * axis)(0) : 0;
+        eliminate_hinge(H.data(), hinge.r.data(), hinge.r_parent.data(), axis.data(), damping, f.D.data(), f.X.data(), parent);
         break;
+      }
       default:
         eliminate_fixed(f, hinge, H, H_parent);
         break;

@@ -61,7 +61,6 @@ class Articulation {
   };
   template <int K>
   void eliminate(Factor&, const Hinge&, const Eigen::Matrix<double, 3, K>& S_w, const Mat6& H, Mat6* H_parent);
-  void eliminate_point(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);
   void eliminate_fixed(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);
 
   const Model& model_;

@@ -1,0 +1,17 @@
+// What the factorisation of a tree does with one link, in wide vectors where the processor has them: half of the time that small
+// matrices of plain code take, and the same bits on all processors. Matrices are 3x3 or 6x6 by columns; of six, forces and
+// velocities stand before moments and angular velocities.
+#pragma once
+
+namespace engine {
+
+/// A body of inertia H that hangs on a point at `r` from its centre, `r_parent` from its parent's [m]. D: how it answers with the
+/// point held; X: its motion with the parent's; what the parent has to carry of it is added to H_parent. Without a parent (null)
+/// X is zero.
+void eliminate_point(const double* H, const double* r, const double* r_parent, double* D, double* X, double* H_parent);
+
+/// The same of a body that turns about `axis` through the point; `damping` [kg m^2] resists as inertia would.
+void eliminate_hinge(const double* H, const double* r, const double* r_parent, const double* axis, double damping, double* D,
+                     double* X, double* H_parent);
+
+}  // namespace engine

@@ -1,0 +1,161 @@
+// Text of wide_links.cpp, which compiles it once for every kind of processor: no guard, no includes.
+
+using Four = double __attribute__((vector_size(4 * sizeof(double))));
+using Two = double __attribute__((vector_size(2 * sizeof(double))));
+using Lanes = long long __attribute__((vector_size(4 * sizeof(double))));
+
+/// A 3x3 matrix by columns, or three columns of another; the last lane has no meaning.
+struct Three {
+  Four c0, c1, c2;
+};
+
+inline Four load(const double* p) {
+  Two upper;
+  std::memcpy(&upper, p, sizeof upper);
+  const Two third = {p[2], 0};
+  return __builtin_shufflevector(upper, third, 0, 1, 2, 3);
+}
+
+inline void store(double* p, const Four& v) {
+  const Two upper = __builtin_shufflevector(v, v, 0, 1);
+  std::memcpy(p, &upper, sizeof upper);
+  p[2] = v[2];
+}
+
+/// Blocks of a 6x6 matrix: `p` is where the block begins.
+inline Three load_block(const double* p) {
+  return {load(p), load(p + 6), load(p + 12)};
+}
+
+inline void store_block(double* p, const Three& m) {
+  store(p, m.c0), store(p + 6, m.c1), store(p + 12, m.c2);
+}
+
+inline void add_to_block(double* p, const Three& m) {
+  store(p, load(p) + m.c0), store(p + 6, load(p + 6) + m.c1), store(p + 12, load(p + 12) + m.c2);
+}
+
+inline Three operator+(const Three& a, const Three& b) {
+  return {a.c0 + b.c0, a.c1 + b.c1, a.c2 + b.c2};
+}
+
+inline Three operator-(const Three& a, const Three& b) {
+  return {a.c0 - b.c0, a.c1 - b.c1, a.c2 - b.c2};
+}
+
+inline Three operator-(const Three& a) {
+  return {-a.c0, -a.c1, -a.c2};
+}
+
+inline Three transpose(const Three& m) {
+  const Four even = __builtin_shufflevector(m.c0, m.c1, 0, 4, 2, 6), odd = __builtin_shufflevector(m.c0, m.c1, 1, 5, 3, 7);
+  return {__builtin_shufflevector(even, m.c2, 0, 1, 4, 7), __builtin_shufflevector(odd, m.c2, 0, 1, 5, 7),
+          __builtin_shufflevector(even, m.c2, 2, 3, 6, 7)};
+}
+
+inline Four cross(const Four& a, const Four& b) {
+  return __builtin_shufflevector(a, a, 1, 2, 0, 3) * __builtin_shufflevector(b, b, 2, 0, 1, 3) -
+         __builtin_shufflevector(a, a, 2, 0, 1, 3) * __builtin_shufflevector(b, b, 1, 2, 0, 3);
+}
+
+inline Three skew_times(const Four& r, const Three& m) {
+  return {cross(r, m.c0), cross(r, m.c1), cross(r, m.c2)};
+}
+
+inline Three times_skew(const Three& m, const Four& r) {
+  return {r[2] * m.c1 - r[1] * m.c2, r[0] * m.c2 - r[2] * m.c0, r[1] * m.c0 - r[0] * m.c1};
+}
+
+/// a b^T.
+inline Three outer(const Four& a, const Four& b) {
+  return {a * b[0], a * b[1], a * b[2]};
+}
+
+// The third row of a product is summed from its end, as products of plain code are: one set of bits.
+inline Four combined(const Three& m, const Four& v) {
+  constexpr Lanes kThird = {0, 0, -1, 0};
+  const Four p0 = m.c0 * v[0], p1 = m.c1 * v[1], p2 = m.c2 * v[2];
+  return ((kThird ? p2 : p0) + p1) + (kThird ? p0 : p2);
+}
+
+inline Three operator*(const Three& m, const Three& n) {
+  return {combined(m, n.c0), combined(m, n.c1), combined(m, n.c2)};
+}
+
+inline Three inverse(const Three& m) {
+  // its rows are cross products of columns over the determinant
+  const Four row0 = cross(m.c1, m.c2), row1 = cross(m.c2, m.c0), row2 = cross(m.c0, m.c1);
+  const Four terms = row0 * m.c0;
+  const double scale = 1 / ((terms[0] + terms[1]) + terms[2]);
+  return transpose({row0 * scale, row1 * scale, row2 * scale});
+}
+
+inline void eliminate_point(const double* H, const double* r_in, const double* r_parent_in, double* D, double* X,
+                            double* H_parent) {
+  // the point's motion turns the body: S = [skew(r); 1], and what passes through the joint is a force at the point
+  const Four r = load(r_in);
+  const Three M = load_block(H);
+  const Three HS = times_skew(M, r) + load_block(H + 18);
+  const Three K = (times_skew(load_block(H + 3), r) + load_block(H + 21)) - skew_times(r, HS);
+  const Three Ki = inverse(K);
+  const Three RK = skew_times(r, Ki);
+  store_block(D, -times_skew(RK, r));
+  store_block(D + 3, transpose(RK));
+  store_block(D + 18, RK);
+  store_block(D + 21, Ki);
+  if (!H_parent) {
+    std::memset(X, 0, 36 * sizeof(double));
+    return;
+  }
+  const Three U = HS * Ki, Ut = transpose(U);
+  const Three A = M - U * transpose(HS);  // of an acceleration of the point, the force at it
+  // the body's motion when the point moves, then the point's with the parent
+  const Four r_parent = load(r_parent_in);
+  const Three one = {Four{1, 0, 0, 0}, Four{0, 1, 0, 0}, Four{0, 0, 1, 0}};
+  const Three upper = one - skew_times(r, Ut), lower = -Ut;
+  store_block(X, upper);
+  store_block(X + 3, lower);
+  store_block(X + 18, -times_skew(upper, r_parent));
+  store_block(X + 21, -times_skew(lower, r_parent));
+  const Three AP = -times_skew(A, r_parent);
+  add_to_block(H_parent, A);
+  add_to_block(H_parent + 3, transpose(AP));
+  add_to_block(H_parent + 18, AP);
+  add_to_block(H_parent + 21, skew_times(r_parent, AP));
+}
+
+inline void eliminate_hinge(const double* H, const double* r_in, const double* r_parent_in, const double* axis, double damping,
+                            double* D, double* X, double* H_parent) {
+  const Four r = load(r_in);
+  const Four S1 = load(axis), S0 = cross(r, S1);
+  const Three H00 = load_block(H), H10 = load_block(H + 3), H01 = load_block(H + 18), H11 = load_block(H + 21);
+  const Four HS0 = H00.c0 * S0[0] + H00.c1 * S0[1] + H00.c2 * S0[2] + H01.c0 * S1[0] + H01.c1 * S1[1] + H01.c2 * S1[2];
+  const Four HS1 = H10.c0 * S0[0] + H10.c1 * S0[1] + H10.c2 * S0[2] + H11.c0 * S1[0] + H11.c1 * S1[1] + H11.c2 * S1[2];
+  const Four k0 = S0 * HS0, k1 = S1 * HS1;
+  const double ki = 1 / (((k0[0] + (k0[2] + k1[1])) + (k0[1] + (k1[0] + k1[2]))) + damping);
+  const Four Sk0 = S0 * ki, Sk1 = S1 * ki;
+  store_block(D, outer(Sk0, S0));
+  store_block(D + 3, outer(Sk1, S0));
+  store_block(D + 18, outer(Sk0, S1));
+  store_block(D + 21, outer(Sk1, S1));
+  if (!H_parent) {
+    std::memset(X, 0, 36 * sizeof(double));
+    return;
+  }
+  // X0 = [1, -skew(d); 0, 1] carries the parent's motion as if the joint were locked
+  const Four d = load(r_parent_in) - r;
+  const Four U0 = HS0 * ki, U1 = HS1 * ki, UX = U1 + cross(d, U0);
+  const Three one = {Four{1, 0, 0, 0}, Four{0, 1, 0, 0}, Four{0, 0, 1, 0}};
+  const Three skew_d = {Four{0, d[2], -d[1], 0}, Four{-d[2], 0, d[0], 0}, Four{d[1], -d[0], 0, 0}};
+  store_block(X, one - outer(S0, U0));
+  store_block(X + 3, -outer(S1, U0));
+  store_block(X + 18, -outer(S0, UX) - skew_d);
+  store_block(X + 21, one - outer(S1, UX));
+  // X0^T (H - U (H S)^T) X0
+  const Three P = H00 - outer(U0, HS0), Q = H01 - outer(U0, HS1), R = H11 - outer(U1, HS1);
+  const Three Pd = -times_skew(P, d), dQ = skew_times(d, Q), upper = Q + Pd;
+  add_to_block(H_parent, P);
+  add_to_block(H_parent + 3, transpose(upper));
+  add_to_block(H_parent + 18, upper);
+  add_to_block(H_parent + 21, ((R + dQ) + transpose(dQ)) + skew_times(d, Pd));
+}
