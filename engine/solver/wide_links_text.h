@@ -12,7 +12,7 @@ struct Three {
 inline Four load(const double* p) {
   Two upper;
   std::memcpy(&upper, p, sizeof upper);
-  const Two third = {p[2], 0};
+  const Two third = {p[2], p[2]};
   return __builtin_shufflevector(upper, third, 0, 1, 2, 3);
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include "engine/solver/wide_links.h"
 #include "engine/solver/wide_products.h"
 
 namespace engine {
@@ -58,6 +59,42 @@ TEST(WideProducts, AreThoseOfEigen) {
     add_three_columns(G.data(), x.data(), sum.data(), static_cast<std::size_t>(rows));
     EXPECT_LE((sum - expected).norm(), 1e-14);
   }
+}
+
+TEST(WideLinks, EliminateAPointAndAHingeAsTheirFormulasSay) {
+  using Mat6 = Eigen::Matrix<double, 6, 6>;
+  using Eigen::MatrixXd;
+  std::srand(13);
+  for (const bool hinge : {false, true})
+    for (const bool has_parent : {false, true}) {
+      SCOPED_TRACE(testing::Message() << (hinge ? "hinge" : "point") << (has_parent ? " on a parent" : " on the world"));
+      const Mat6 root = Mat6::Random();
+      const Mat6 H = root * root.transpose() + Mat6::Identity();
+      const Vec3 r = Vec3::Random(), r_parent = Vec3::Random(), axis = Vec3::Random().normalized();
+      const double damping = 0.3;
+      const Mat6 before = Mat6::Random();
+      Mat6 D, X, H_parent = before;
+      double* onto = has_parent ? H_parent.data() : nullptr;
+      if (hinge) {
+        eliminate_hinge(H.data(), r.data(), r_parent.data(), axis.data(), damping, D.data(), X.data(), onto);
+      } else {
+        eliminate_point(H.data(), r.data(), r_parent.data(), D.data(), X.data(), onto);
+      }
+
+      MatrixXd S(6, hinge ? 1 : 3);
+      const MatrixXd turning = hinge ? MatrixXd(axis) : MatrixXd(Mat3::Identity());
+      S << skew(r) * turning, turning;
+      MatrixXd K = S.transpose() * H * S;
+      if (hinge) K(0, 0) += damping;
+      const Mat6 answer = S * K.inverse() * S.transpose();
+      Mat6 locked = Mat6::Identity();
+      locked.topRightCorner<3, 3>() = -skew(r_parent - r);
+      EXPECT_LE((D - answer).norm(), 1e-13 * answer.norm());
+      const Mat6 motion = locked - answer * H * locked;
+      EXPECT_LE((X - (has_parent ? motion : Mat6::Zero())).norm(), 1e-12);
+      const Mat6 felt = locked.transpose() * H * motion;
+      EXPECT_LE((H_parent - before - (has_parent ? felt : Mat6::Zero())).norm(), 1e-12 * H.norm());
+    }
 }
 
 }  // namespace
