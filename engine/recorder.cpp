@@ -2,16 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <numbers>
+#include <sstream>
 #include <string>
 
 namespace engine {
 namespace {
 
-constexpr double kStillSpeed = 0.05;  // [m/s]
-constexpr double kStillTurn = 0.3;    // [rad/s]
-constexpr double kStillTime = 0.25;   // [s] that long below both: at rest
-constexpr double kAirborne = 0.05;    // [s] off the ground that long: the next touch is a ground contact, even by a foot
+constexpr double kStillSpeed = 0.05;                // [m/s]
+constexpr double kStillTurn = 0.3;                  // [rad/s]
+constexpr double kStillTime = 0.25;                 // [s] that long below both: at rest
+constexpr double kToldUnsettled = 1e-3;             // [m/s] what a run says by itself
+constexpr double kToldInside = 2e-3;                // [m]
+constexpr double kDegree = std::numbers::pi / 180;  // [rad]
+constexpr double kToldBeyond = 0.5 * kDegree;       // [rad]
+constexpr double kAirborne = 0.05;  // [s] off the ground that long: the next touch is a ground contact, even by a foot
 
 ContactState state_of(const Constraint& c, double gap_speed) {
   if (c.impulse[0] <= 0) return gap_speed < 0 ? ContactState::approach : ContactState::separate;
@@ -76,11 +83,20 @@ void Recorder::watch_compression(const World& world, const Constraint& c, double
   for (const int b : {c.record_a, c.record_b})
     if (const auto* shape = b >= 0 ? std::get_if<HyperEllipsoid>(&world.model.bodies[b].shape) : nullptr)
       thinner = std::min(thinner, 2 * shape->semi_axes.minCoeff());
-  if (depth > std::max(thinner, too_deep_.depth)) too_deep_ = {time, depth, c.record_a, c.record_b};
+  if (depth > thinner) too_deep_.note(depth, time, c);
+}
+
+/// What rigid contacts and joints promise to keep. What overlaps at the start is told by itself, and takes its time to part; sheets
+/// of two vehicles would crumple.
+void Recorder::watch_bounds(const World& world, const Constraint& c, double time) {
+  if (is_compliant(c) || (world.overlap_at_start && time < 1)) return;
+  if (c.kind == ConstraintKind::limit) overturned_.note(-c.gap, time, c);
+  if (is_contact(c) && c.contact_kind != ContactKind::vehicle_pair) stood_inside_.note(-c.gap, time, c);
 }
 
 void Recorder::tally(const World& world, double time, double duration) {
   for (const Constraint& c : world.constraints) {
+    watch_bounds(world, c, time);
     if (c.kind != ConstraintKind::contact) continue;
     watch_events(world, c, time);
     if (c.impulse[0] <= 0 && c.gap > 0) continue;
@@ -196,6 +212,31 @@ void Recorder::snapshot(const World& world, const State& state, Recording& recor
   watch_rest(world, state, since);
 }
 
+void Recorder::warn_of_shortfalls(const World& world, std::vector<std::string>& warnings) const {
+  auto name = [&](int body) { return body >= 0 ? world.model.bodies[body].name : std::string("the ground"); };
+  auto at = [](const Shortfall& s) { return " at " + std::to_string(std::lround(1e3 * s.time)) + " ms"; };
+  auto in_millimetres = [](const Shortfall& s) { return std::to_string(std::lround(1e3 * s.amount)) + " mm"; };
+  auto told = [](double value) {
+    std::ostringstream text;
+    text << std::setprecision(value < 99.5 ? 2 : 4) << value;
+    return text.str();
+  };
+  constexpr const char* kCompare = "; see whether runs of other steps say the same of what follows";
+  if (too_deep_.amount > 0)
+    warnings.push_back(name(too_deep_.body_a) + " was pressed " + in_millimetres(too_deep_) + " into " + name(too_deep_.body_b) +
+                       at(too_deep_) + ", more than its thickness: too soft for this blow; give them more stiffness");
+  if (world.unsettled.amount > kToldUnsettled)
+    warnings.push_back("the forces between " + name(world.unsettled.body_a) + " and " + name(world.unsettled.body_b) +
+                       at(world.unsettled) + " were solved to " + told(world.unsettled.amount) + " m/s only, something is jammed" +
+                       kCompare);
+  if (stood_inside_.amount > kToldInside)
+    warnings.push_back(name(stood_inside_.body_a) + " stood " + told(1e3 * stood_inside_.amount) + " mm inside " +
+                       name(stood_inside_.body_b) + at(stood_inside_) + kCompare);
+  if (overturned_.amount > kToldBeyond)
+    warnings.push_back(name(overturned_.body_a) + " was turned " + told(overturned_.amount / kDegree) +
+                       " deg beyond its range against " + name(overturned_.body_b) + at(overturned_) + kCompare);
+}
+
 void Recorder::finish(const World& world, const State& state, Recording& recording) {
   for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
     if (still_since_[t] < 0 || state.time - still_since_[t] < 0.9 * kStillTime) continue;
@@ -211,13 +252,7 @@ void Recorder::finish(const World& world, const State& state, Recording& recordi
   recording.diagnostics = world.diagnostics;
   recording.diagnostics.max_energy_rise = energy_rise_;
   recording.diagnostics.max_compression = compression_;
-  if (too_deep_.depth > 0) {
-    auto name = [&](int body) { return body >= 0 ? world.model.bodies[body].name : std::string("the ground"); };
-    const auto in_units = [](double value, double unit) { return std::to_string(std::lround(value / unit)); };
-    recording.diagnostics.warnings.push_back(name(too_deep_.body_a) + " was pressed " + in_units(too_deep_.depth, 1e-3) +
-                                             " mm into " + name(too_deep_.body_b) + " at " + in_units(too_deep_.time, 1e-3) +
-                                             " ms, more than its thickness: too soft for this blow; give them more stiffness");
-  }
+  warn_of_shortfalls(world, recording.diagnostics.warnings);
   // the depth of a compliant contact is a deformation, not an error
   if (world.model.settings.contact_law == ContactLaw::compliant) return;
   for (const ContactRecord& c : recording.snapshots.back().contacts)

@@ -34,8 +34,10 @@ class Recorder {
     double duration = 0;
     Vec3 impulse = Vec3::Zero();
   };
+  void warn_of_shortfalls(const World&, std::vector<std::string>& warnings) const;
   void watch_rest(const World&, const State&, double since);
   void watch_events(const World&, const Constraint&, double time);
+  void watch_bounds(const World&, const Constraint&, double time);
   void watch_compression(const World&, const Constraint&, double time, double duration);
 
   std::vector<Tally> tallies_;       // sorted by key
@@ -53,10 +55,9 @@ class Recorder {
   double last_energy_ = 0;
   double energy_rise_ = 0;  // [J] largest between two snapshots
   double compression_ = 0;  // [m] deepest of a compliant contact
-  struct TooDeep {
-    double time = 0, depth = 0;
-    int body_a = -1, body_b = -1;
-  } too_deep_;
+  Shortfall too_deep_;      // [m] of a compliant contact, beyond its thickness
+  Shortfall stood_inside_;  // [m] of a rigid contact
+  Shortfall overturned_;    // [rad] of a joint, beyond its range
 };
 
 }  // namespace engine

@@ -325,6 +325,7 @@ double Stepper::attempt(World& world, State& state, double h) {
   }
   if (impulses) {
     world.diagnostics.max_solver_residual = std::max(world.diagnostics.max_solver_residual, residual);
+    if (unsettled_ >= 0) world.unsettled.note(residual, end_.time, world.constraints[unsettled_]);
     keep_impulses(world, state);
     book(world);
     if (world.any_damper) book_resistance(world, taken);

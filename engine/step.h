@@ -76,6 +76,7 @@ class Stepper {
   double next_step_ = 0;        // [s] what the last step suggests, 0: anything
   std::vector<Vec6> force_, displacing_, result_;
   std::vector<std::vector<int>> islands_;
+  int unsettled_ = -1;  // constraint that the solver met worst, if not to its tolerance
   std::vector<char> island_has_impact_;
   std::vector<double> island_rise_;  // [J] per island
   std::vector<int> island_of_tree_;

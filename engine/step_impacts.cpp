@@ -83,6 +83,7 @@ void Stepper::exchange_impulses(World& world, State& state, const std::vector<in
     ++world.diagnostics.restitution_scaled;
   }
   world.diagnostics.max_solver_residual = std::max(world.diagnostics.max_solver_residual, report.residual);
+  if (report.worst >= 0) world.unsettled.note(report.residual, state.time, world.constraints[report.worst]);
   world.diagnostics.contact_sweeps += report.sweeps;
 
   for (const int tree : world.active_trees)

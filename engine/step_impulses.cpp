@@ -223,6 +223,7 @@ void Stepper::set_targets(World& world, double h) {
 
 double Stepper::solve_islands(World& world, State& state, double h) {
   double residual = 0;
+  unsettled_ = -1;
   for (auto& island : islands_) {
     if (island.empty()) continue;
     // what stays open whatever the others do needs no row; keep those that could close
@@ -242,7 +243,7 @@ double Stepper::solve_islands(World& world, State& state, double h) {
     const SolveReport report = world.solver.solve(world.constraints, island, world.model.settings.solver_tolerance);
     world.diagnostics.contact_sweeps += report.sweeps;
     world.diagnostics.newton_steps += report.newton_steps;
-    residual = std::max(residual, report.residual);
+    if (report.residual > residual) residual = report.residual, unsettled_ = report.worst;
     push_apart(world, island, h);
   }
   return residual;

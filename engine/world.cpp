@@ -109,6 +109,7 @@ void warn_of_overlap(World& world, int a, int b, double gap) {
   constexpr double kTold = 1e-3;  // [m]
   if (gap > -kTold) return;
   auto name = [&](int body) { return body >= 0 ? world.model.bodies[body].name : std::string("the ground"); };
+  world.overlap_at_start = true;
   world.diagnostics.warnings.push_back(name(a) + " and " + name(b) + " overlap by " + std::to_string(std::lround(-gap * 1e3)) +
                                        " mm at the start; they are moved apart gently");
 }

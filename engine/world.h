@@ -174,6 +174,16 @@ constexpr double kSliver = 1e-3;
 /// Conditions the buffers of a step have room for from the start: a step allocates nothing until there are more.
 constexpr std::size_t kRoom = 128;
 
+/// The moment at which a run falls farthest short of one of its bounds, and between whom.
+struct Shortfall {
+  double amount = 0, time = 0;
+  int body_a = -1, body_b = -1;
+
+  void note(double amount_now, double now, const Constraint& c) {
+    if (amount_now > amount) *this = {amount_now, now, c.record_a, c.record_b};
+  }
+};
+
 struct World {
   World(const Model&, const Plan&, const RunOptions&);
 
@@ -228,6 +238,8 @@ struct World {
   double added = 0;          // [J]
   double spring_energy = 0;  // [J] in the suspensions now
   Diagnostics diagnostics;
+  Shortfall unsettled;             // [m/s] conditions that the solver left unmet
+  bool overlap_at_start = false;
   std::vector<Event> events;
   std::vector<ContactRecord> exchanges;  // at an instant and by no constraint (Kudlich-Slibar), over the whole run
   std::optional<Failure> failure;

@@ -39,6 +39,8 @@ void add_limit(World& world, const State& state, const Joint& joint, int joint_i
   auto moving = [&](int body) { return body >= 0 && !world.model.bodies[body].fixed ? body : -1; };
   c.body_a = moving(joint.child);
   c.body_b = moving(joint.parent);
+  c.record_a = joint.child;
+  c.record_b = joint.parent;
   c.J_a.setZero();
   c.J_b.setZero();
   const double sign = upper ? -1 : 1;

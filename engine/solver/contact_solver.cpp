@@ -288,6 +288,14 @@ SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector
       for (int i = 0; i < count; ++i) all[members[i]].impulse = L_sliding_[i];
     }
   }
+  if (!(report.residual <= tolerance)) {
+    double most = -1;
+    for (int i = 0; i < count; ++i) {
+      const Constraint& c = all[members[i]];
+      const double own = natural_residual(c, velocity(i, c.rows), own_[i], -1.0);
+      if (own > most) most = own, report.worst = members[i];
+    }
+  }
   for (int i = 0; i < count; ++i) {
     Constraint& c = all[members[i]];
     c.u_after = velocity(i, c.rows) - softened_[i] * c.impulse;  // what the bodies do, as the books have it

@@ -22,6 +22,7 @@ struct SolveReport {
   int sweeps = 0;
   int newton_steps = 0;
   double residual = 0;  // [m/s] natural map, largest over the blocks
+  int worst = -1;       // the constraint that has it, if the tolerance is not met
 };
 
 class ContactSolver {

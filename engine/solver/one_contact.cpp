@@ -110,8 +110,8 @@ double natural_residual(const Constraint& c, const Vec3& u, const Mat3& A, doubl
 
 Vec3 project_to_cone(const Vec3& impulse, double mu) {
   const double tangential = length_of(impulse[1], impulse[2]);
+  if (mu * tangential <= -impulse[0]) return Vec3::Zero();  // first: without friction what pulls would pass for inside
   if (tangential <= mu * impulse[0]) return impulse;
-  if (mu * tangential <= -impulse[0]) return Vec3::Zero();
   const double normal = (impulse[0] + mu * tangential) / (1 + mu * mu);
   const double scale = tangential > 0 ? mu * normal / tangential : 0;
   return {normal, scale * impulse[1], scale * impulse[2]};

@@ -111,7 +111,9 @@ TEST(Cradle, SharesTheImpactAsSimultaneousImpulsesDo) {
     model.bodies.back().surface.friction_body = 0;
   }
   model.bodies[0].V_WB.v = {1, 0, 0};
-  const Snapshot end = simulate(model).snapshots.back();
+  const Recording run = simulate(model);
+  const Snapshot& end = run.snapshots.back();
+  EXPECT_LE(run.diagnostics.max_solver_residual, model.settings.solver_tolerance);
   EXPECT_NEAR(end.bodies[0].V_WB.v.x(), -1.0 / 3, 1e-7);
   EXPECT_NEAR(end.bodies[1].V_WB.v.x(), 2.0 / 3, 1e-7);
   EXPECT_NEAR(end.bodies[2].V_WB.v.x(), 2.0 / 3, 1e-7);
@@ -133,6 +135,18 @@ TEST(OneContact, SolvesSignoriniAndCoulomb) {
     const double rho = 1 / A.diagonal().maxCoeff();
     const Vec3 map = project_to_cone(L - rho * Vec3(u[0] - target + mu * slip, u[1], u[2]), mu);
     EXPECT_LT((L - map).norm(), 1e-6 * (1 + L.norm())) << "trial " << trial;
+  }
+}
+
+TEST(Cone, NothingPullsEvenWithoutFriction) {
+  for (const double mu : {0.0, 0.6}) {
+    EXPECT_EQ(project_to_cone({-1, 0, 0}, mu), Vec3(0, 0, 0)) << mu;
+    EXPECT_EQ(project_to_cone({2, 0, 0}, mu), Vec3(2, 0, 0)) << mu;
+    Constraint open;  // parts at 1 m/s, and may close at 3
+    open.friction = mu;
+    open.rows = 3;
+    open.target = -3;
+    EXPECT_EQ(natural_residual(open, {1, 0, 0}, Mat3::Identity(), -1), 0) << mu;
   }
 }
 

@@ -105,6 +105,7 @@ TEST_P(SimultaneousImpacts, CradleSharesAsSimultaneousImpulsesDo) {
   EXPECT_NEAR(v[0], -1.0 / 3, 1e-7);
   EXPECT_NEAR(v[1], 2.0 / 3, 1e-7);
   EXPECT_NEAR(v[2], 2.0 / 3, 1e-7);
+  EXPECT_LE(it.recording.diagnostics.max_solver_residual, 1e-5);
 }
 
 }  // namespace
