@@ -15,6 +15,7 @@ constexpr double kStillSpeed = 0.05;                // [m/s]
 constexpr double kStillTurn = 0.3;                  // [rad/s]
 constexpr double kStillTime = 0.25;                 // [s] that long below both: at rest
 constexpr double kToldUnsettled = 1e-3;             // [m/s] what a run says by itself
+constexpr double kToldCrossed = 0.05;               // [m] two vehicles, whose sheets would crumple
 constexpr double kToldInside = 2e-3;                // [m]
 constexpr double kDegree = std::numbers::pi / 180;  // [rad]
 constexpr double kToldBeyond = 0.5 * kDegree;       // [rad]
@@ -86,12 +87,11 @@ void Recorder::watch_compression(const World& world, const Constraint& c, double
   if (depth > thinner) too_deep_.note(depth, time, c);
 }
 
-/// What rigid contacts and joints promise to keep. What overlaps at the start is told by itself, and takes its time to part; sheets
-/// of two vehicles would crumple.
+/// What rigid contacts and joints promise to keep. What overlaps at the start is told by itself, and takes its time to part.
 void Recorder::watch_bounds(const World& world, const Constraint& c, double time) {
   if (is_compliant(c) || (world.overlap_at_start && time < 1)) return;
   if (c.kind == ConstraintKind::limit) overturned_.note(-c.gap, time, c);
-  if (is_contact(c) && c.contact_kind != ContactKind::vehicle_pair) stood_inside_.note(-c.gap, time, c);
+  if (is_contact(c)) (c.contact_kind == ContactKind::vehicle_pair ? crossed_ : stood_inside_).note(-c.gap, time, c);
 }
 
 void Recorder::tally(const World& world, double time, double duration) {
@@ -229,9 +229,10 @@ void Recorder::warn_of_shortfalls(const World& world, std::vector<std::string>& 
     warnings.push_back("the forces between " + name(world.unsettled.body_a) + " and " + name(world.unsettled.body_b) +
                        at(world.unsettled) + " were solved to " + told(world.unsettled.amount) + " m/s only, something is jammed" +
                        kCompare);
-  if (stood_inside_.amount > kToldInside)
-    warnings.push_back(name(stood_inside_.body_a) + " stood " + told(1e3 * stood_inside_.amount) + " mm inside " +
-                       name(stood_inside_.body_b) + at(stood_inside_) + kCompare);
+  for (const auto& [inside, most] : {std::pair(stood_inside_, kToldInside), std::pair(crossed_, kToldCrossed)})
+    if (inside.amount > most)
+      warnings.push_back(name(inside.body_a) + " stood " + told(1e3 * inside.amount) + " mm inside " + name(inside.body_b) +
+                         at(inside) + kCompare);
   if (overturned_.amount > kToldBeyond)
     warnings.push_back(name(overturned_.body_a) + " was turned " + told(overturned_.amount / kDegree) +
                        " deg beyond its range against " + name(overturned_.body_b) + at(overturned_) + kCompare);

@@ -57,6 +57,7 @@ class Recorder {
   double compression_ = 0;  // [m] deepest of a compliant contact
   Shortfall too_deep_;      // [m] of a compliant contact, beyond its thickness
   Shortfall stood_inside_;  // [m] of a rigid contact
+  Shortfall crossed_;       // [m] of two vehicles
   Shortfall overturned_;    // [rad] of a joint, beyond its range
 };
 
