@@ -64,6 +64,8 @@ void find(World& world, const State& state, int self) {
       c.rows = 1;
       c.body_a = moving(joint.child);
       c.body_b = moving(joint.parent);
+      c.record_a = joint.child;
+      c.record_b = joint.parent;
       c.J_a.setZero();
       c.J_b.setZero();
       c.J_a.row(0) = row_on_child(rows, k).transpose();
