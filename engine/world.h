@@ -238,7 +238,7 @@ struct World {
   double added = 0;          // [J]
   double spring_energy = 0;  // [J] in the suspensions now
   Diagnostics diagnostics;
-  Shortfall unsettled;             // [m/s] conditions that the solver left unmet
+  Shortfall unsettled;  // [m/s] conditions that the solver left unmet
   bool overlap_at_start = false;
   std::vector<Event> events;
   std::vector<ContactRecord> exchanges;  // at an instant and by no constraint (Kudlich-Slibar), over the whole run
