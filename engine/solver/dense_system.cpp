@@ -75,7 +75,7 @@ bool factor_in_place(double* A, std::size_t n, std::size_t* pivots) {
         std::memcpy(column + i, &x, sizeof x);
         const Four size = reinterpret_cast<Four>(reinterpret_cast<Places>(x) & kNoSign);
         here += static_cast<std::int64_t>(kPanel);
-        const Places larger = size > largest;
+        const auto larger = size > largest;
         largest = larger ? size : largest;
         place = larger ? here : place;
       }
