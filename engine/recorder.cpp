@@ -11,15 +11,17 @@
 namespace engine {
 namespace {
 
-constexpr double kStillSpeed = 0.05;                // [m/s]
-constexpr double kStillTurn = 0.3;                  // [rad/s]
-constexpr double kStillTime = 0.25;                 // [s] that long below both: at rest
-constexpr double kToldUnsettled = 1e-3;             // [m/s] what a run says by itself
-constexpr double kToldCrossed = 0.05;               // [m] two vehicles, whose sheets would crumple
-constexpr double kToldInside = 2e-3;                // [m]
+constexpr double kStillSpeed = 0.05;  // [m/s]
+constexpr double kStillTurn = 0.3;    // [rad/s]
+constexpr double kStillTime = 0.25;   // [s] that long below both: at rest
+constexpr double kAirborne = 0.05;    // [s] off the ground that long: the next touch is a ground contact, even by a foot
+
+// What a run says by itself: less than this is asked of every hard case.
 constexpr double kDegree = std::numbers::pi / 180;  // [rad]
+constexpr double kToldUnsettled = 1e-3;             // [m/s] a hundred times the solver's tolerance
+constexpr double kToldInside = 2e-3;                // [m]
 constexpr double kToldBeyond = 0.5 * kDegree;       // [rad]
-constexpr double kAirborne = 0.05;  // [s] off the ground that long: the next touch is a ground contact, even by a foot
+constexpr double kToldCrossed = 0.05;               // [m] two vehicles: half the way between the points by which they are felt
 
 ContactState state_of(const Constraint& c, double gap_speed) {
   if (c.impulse[0] <= 0) return gap_speed < 0 ? ContactState::approach : ContactState::separate;
@@ -89,9 +91,10 @@ void Recorder::watch_compression(const World& world, const Constraint& c, double
 
 /// What rigid contacts and joints promise to keep. What overlaps at the start is told by itself, and takes its time to part.
 void Recorder::watch_bounds(const World& world, const Constraint& c, double time) {
-  if (is_compliant(c) || (world.overlap_at_start && time < 1)) return;
+  if (is_compliant(c)) return;
   if (c.kind == ConstraintKind::limit) overturned_.note(-c.gap, time, c);
-  if (is_contact(c)) (c.contact_kind == ContactKind::vehicle_pair ? crossed_ : stood_inside_).note(-c.gap, time, c);
+  if (is_contact(c) && -c.gap > world.overlap_at_start(c.record_a, c.record_b) + kToldInside)
+    (c.contact_kind == ContactKind::vehicle_pair ? crossed_ : stood_inside_).note(-c.gap, time, c);
 }
 
 void Recorder::tally(const World& world, double time, double duration) {
@@ -215,7 +218,6 @@ void Recorder::snapshot(const World& world, const State& state, Recording& recor
 void Recorder::warn_of_shortfalls(const World& world, std::vector<std::string>& warnings) const {
   auto name = [&](int body) { return body >= 0 ? world.model.bodies[body].name : std::string("the ground"); };
   auto at = [](const Shortfall& s) { return " at " + std::to_string(std::lround(1e3 * s.time)) + " ms"; };
-  auto in_millimetres = [](const Shortfall& s) { return std::to_string(std::lround(1e3 * s.amount)) + " mm"; };
   auto told = [](double value) {
     std::ostringstream text;
     text << std::setprecision(value < 99.5 ? 2 : 4) << value;
@@ -223,8 +225,9 @@ void Recorder::warn_of_shortfalls(const World& world, std::vector<std::string>& 
   };
   constexpr const char* kCompare = "; see whether runs of other steps say the same of what follows";
   if (too_deep_.amount > 0)
-    warnings.push_back(name(too_deep_.body_a) + " was pressed " + in_millimetres(too_deep_) + " into " + name(too_deep_.body_b) +
-                       at(too_deep_) + ", more than its thickness: too soft for this blow; give them more stiffness");
+    warnings.push_back(name(too_deep_.body_a) + " was pressed " + told(1e3 * too_deep_.amount) + " mm into " +
+                       name(too_deep_.body_b) + at(too_deep_) +
+                       ", more than its thickness: too soft for this blow; give them more stiffness");
   if (world.unsettled.amount > kToldUnsettled)
     warnings.push_back("the forces between " + name(world.unsettled.body_a) + " and " + name(world.unsettled.body_b) +
                        at(world.unsettled) + " were solved to " + told(world.unsettled.amount) + " m/s only, something is jammed" +

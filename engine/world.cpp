@@ -105,11 +105,18 @@ double pair_margin(const World& world, const State& state, int a, int b) {
   return kSpare + world.step * ((state.V_WB[a].v - state.V_WB[b].v).norm() + turning + g * world.step);
 }
 
+double World::overlap_at_start(int a, int b) const {
+  double depth = 0;
+  for (const Overlap& met : overlaps)
+    if (std::minmax(met.a, met.b) == std::minmax(a, b)) depth = std::max(depth, met.depth);
+  return depth;
+}
+
 void warn_of_overlap(World& world, int a, int b, double gap) {
   constexpr double kTold = 1e-3;  // [m]
   if (gap > -kTold) return;
   auto name = [&](int body) { return body >= 0 ? world.model.bodies[body].name : std::string("the ground"); };
-  world.overlap_at_start = true;
+  world.overlaps.push_back({a, b, -gap});
   world.diagnostics.warnings.push_back(name(a) + " and " + name(b) + " overlap by " + std::to_string(std::lround(-gap * 1e3)) +
                                        " mm at the start; they are moved apart gently");
 }

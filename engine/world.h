@@ -184,6 +184,12 @@ struct Shortfall {
   }
 };
 
+/// Two bodies that stand inside each other before anything has moved.
+struct Overlap {
+  int a = -1, b = -1;
+  double depth = 0;  // [m]
+};
+
 struct World {
   World(const Model&, const Plan&, const RunOptions&);
 
@@ -238,11 +244,13 @@ struct World {
   double added = 0;          // [J]
   double spring_energy = 0;  // [J] in the suspensions now
   Diagnostics diagnostics;
-  Shortfall unsettled;  // [m/s] conditions that the solver left unmet
-  bool overlap_at_start = false;
+  Shortfall unsettled;            // [m/s] conditions that the solver left unmet
+  std::vector<Overlap> overlaps;  // at the start
   std::vector<Event> events;
   std::vector<ContactRecord> exchanges;  // at an instant and by no constraint (Kudlich-Slibar), over the whole run
   std::optional<Failure> failure;
+
+  double overlap_at_start(int a, int b) const;  // [m] 0 if they stood apart
 };
 
 /// Largest distance [m] body `b` can travel towards anything in this step, with a little to spare.

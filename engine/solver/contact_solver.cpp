@@ -136,14 +136,18 @@ Vec3 ContactSolver::velocity(int member, int rows) const {
   return u;
 }
 
-double ContactSolver::residual(const std::vector<Constraint>& all, const std::vector<int>& members) const {
-  double largest = 0;
+ContactSolver::Miss ContactSolver::largest_miss(const std::vector<Constraint>& all, const std::vector<int>& members) const {
+  Miss largest;
   for (int i = 0; i < static_cast<int>(members.size()); ++i) {
     const Constraint& c = all[members[i]];
     const double r = natural_residual(c, velocity(i, c.rows), own_[i], bounded_ ? bound_[i] : -1.0);
-    if (!(r <= largest)) largest = r;  // what is not a number stays visible
+    if (!(r <= largest.residual)) largest = {r, members[i]};  // what is not a number stays visible
   }
   return largest;
+}
+
+double ContactSolver::residual(const std::vector<Constraint>& all, const std::vector<int>& members) const {
+  return largest_miss(all, members).residual;
 }
 
 /// One Gauss-Seidel sweep; returns the largest change of velocity it made.
@@ -288,14 +292,7 @@ SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector
       for (int i = 0; i < count; ++i) all[members[i]].impulse = L_sliding_[i];
     }
   }
-  if (!(report.residual <= tolerance)) {
-    double most = -1;
-    for (int i = 0; i < count; ++i) {
-      const Constraint& c = all[members[i]];
-      const double own = natural_residual(c, velocity(i, c.rows), own_[i], -1.0);
-      if (own > most) most = own, report.worst = members[i];
-    }
-  }
+  if (!(report.residual <= tolerance)) report.worst = largest_miss(all, members).constraint;
   for (int i = 0; i < count; ++i) {
     Constraint& c = all[members[i]];
     c.u_after = velocity(i, c.rows) - softened_[i] * c.impulse;  // what the bodies do, as the books have it

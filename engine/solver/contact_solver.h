@@ -51,6 +51,11 @@ class ContactSolver {
   /// Where the friction bounds come from: the impulses there are, or beyond all of them.
   enum class Bounds { sliding, held };
   void follow_bounds(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, Bounds from, SolveReport&);
+  struct Miss {
+    double residual = 0;
+    int constraint = -1;
+  };
+  Miss largest_miss(const std::vector<Constraint>&, const std::vector<int>& members) const;
   double residual(const std::vector<Constraint>&, const std::vector<int>& members) const;
   /// What Newton takes care of: nothing, contacts more than the bodies have freedoms, chains of contacts that jam each other.
   enum class Care { none, redundant, jammed };

@@ -139,28 +139,32 @@ bool factor_in_place(double* A, std::size_t n, std::size_t* pivots) {
   return true;
 }
 
+/// Takes four columns by their factors from x[begin] to x[end - 1], the first of them first.
 #if defined(__x86_64__)
 __attribute__((target_clones("avx2", "default")))
 #endif
+void take_from(double* x, std::size_t begin, std::size_t end, const double* const (&columns)[kPanel], const double (&factors)[kPanel]) {
+  for (std::size_t i = begin; i < end; i += kPanel) {
+    Four sum, q0, q1, q2, q3;
+    std::memcpy(&sum, x + i, sizeof sum);
+    std::memcpy(&q0, columns[0] + i, sizeof q0);
+    std::memcpy(&q1, columns[1] + i, sizeof q1);
+    std::memcpy(&q2, columns[2] + i, sizeof q2);
+    std::memcpy(&q3, columns[3] + i, sizeof q3);
+    sum = sum - q0 * factors[0] - q1 * factors[1] - q2 * factors[2] - q3 * factors[3];
+    std::memcpy(x + i, &sum, sizeof sum);
+  }
+}
+
 void substitute(const double* A, std::size_t n, const std::size_t* pivots, double* b) {
   for (std::size_t first = 0; first < n; first += kPanel) {
-    const std::size_t end = first + kPanel;
     const double *p0 = A + first * n, *p1 = p0 + n, *p2 = p1 + n, *p3 = p2 + n;
-    for (std::size_t k = first; k < end; ++k) std::swap(b[k], b[pivots[k]]);
+    for (std::size_t k = first; k < first + kPanel; ++k) std::swap(b[k], b[pivots[k]]);
     const double f0 = b[first];
     const double f1 = b[first + 1] -= p0[first + 1] * f0;
     const double f2 = b[first + 2] = b[first + 2] - p0[first + 2] * f0 - p1[first + 2] * f1;
     const double f3 = b[first + 3] = b[first + 3] - p0[first + 3] * f0 - p1[first + 3] * f1 - p2[first + 3] * f2;
-    for (std::size_t i = end; i < n; i += kPanel) {
-      Four x, q0, q1, q2, q3;
-      std::memcpy(&x, b + i, sizeof x);
-      std::memcpy(&q0, p0 + i, sizeof q0);
-      std::memcpy(&q1, p1 + i, sizeof q1);
-      std::memcpy(&q2, p2 + i, sizeof q2);
-      std::memcpy(&q3, p3 + i, sizeof q3);
-      x = x - q0 * f0 - q1 * f1 - q2 * f2 - q3 * f3;
-      std::memcpy(b + i, &x, sizeof x);
-    }
+    take_from(b, first + kPanel, n, {p0, p1, p2, p3}, {f0, f1, f2, f3});
   }
   for (std::size_t first = n; first > 0;) {
     first -= kPanel;
@@ -170,16 +174,7 @@ void substitute(const double* A, std::size_t n, const std::size_t* pivots, doubl
     const double f2 = x[2] = (x[2] - p3[first + 2] * f3) / p2[first + 2];
     const double f1 = x[1] = (x[1] - p3[first + 1] * f3 - p2[first + 1] * f2) / p1[first + 1];
     const double f0 = x[0] = (x[0] - p3[first] * f3 - p2[first] * f2 - p1[first] * f1) / p0[first];
-    for (std::size_t i = 0; i < first; i += kPanel) {
-      Four sum, q0, q1, q2, q3;
-      std::memcpy(&sum, b + i, sizeof sum);
-      std::memcpy(&q0, p0 + i, sizeof q0);
-      std::memcpy(&q1, p1 + i, sizeof q1);
-      std::memcpy(&q2, p2 + i, sizeof q2);
-      std::memcpy(&q3, p3 + i, sizeof q3);
-      sum = sum - q3 * f3 - q2 * f2 - q1 * f1 - q0 * f0;
-      std::memcpy(b + i, &sum, sizeof sum);
-    }
+    take_from(b, 0, first, {p3, p2, p1, p0}, {f3, f2, f1, f0});
   }
 }
 

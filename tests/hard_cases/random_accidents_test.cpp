@@ -138,7 +138,7 @@ TEST(RandomAccident, SaysWhereItFallsShort) {
       return std::any_of(d.warnings.begin(), d.warnings.end(),
                          [&](const std::string& w) { return w.find(words) != std::string::npos; });
     };
-    EXPECT_FALSE(d.warnings.empty()) << seed;
+    EXPECT_FALSE(d.warnings.empty()) << seed << " holds by now: take another that does not";
     EXPECT_EQ(told("deg beyond its range"), degrees(d.max_joint_angle_error) > 0.5) << seed;
     EXPECT_EQ(told("were solved to"), d.max_solver_residual > 1e-3) << seed;
     EXPECT_TRUE(told("mm inside") || deepest(it, false) < 2e-3) << seed;  // snapshots do not see every step
