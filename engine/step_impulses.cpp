@@ -72,14 +72,7 @@ bool Stepper::friction_gave_way(World& world) const {
 
 /// How the constraints named answer to each other's impulses.
 void Stepper::assemble_solver(World& world, const std::vector<int>& members) {
-  world.response.clear();
-  for (const int i : members) {
-    const Constraint& c = world.constraints[i];
-    if (c.body_a >= 0) world.response.touch(world.topology, c.body_a);
-    if (c.body_b >= 0) world.response.touch(world.topology, c.body_b);
-  }
-  world.response.compute(world.topology, world.impulse);
-  world.solver.assemble(world.topology, world.response, world.constraints, members);
+  world.solver.assemble(world.topology, world.impulse, world.constraints, members);
 }
 
 void Stepper::factor_for_impulses(World& world, const State& state, const std::vector<JointDamper>* dampers) {

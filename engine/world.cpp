@@ -29,7 +29,6 @@ World::World(const Model& m, const Plan& p, const RunOptions& o)
   for (const Effect* effect : p.active) meter.effects.push_back({effect->name, 0, 0});
   smooth.reset(topology);
   impulse.reset(topology);
-  response.reset(topology);
   const std::size_t n = m.bodies.size();
   reach.assign(n, 0);
   awake.assign(n, 1);
@@ -51,7 +50,7 @@ World::World(const Model& m, const Plan& p, const RunOptions& o)
   dampers.resize(m.joints.size());
   resistances.resize(m.joints.size());
   constraints.reserve(kRoom);
-  solver.reserve(kRoom, n);
+  solver.reserve(topology, kRoom);
   active_trees.reserve(topology.trees.size());
   events.reserve(kRoom);
 }

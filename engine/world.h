@@ -19,7 +19,6 @@
 #include "engine/solver/articulation.h"
 #include "engine/solver/constraint.h"
 #include "engine/solver/contact_solver.h"
-#include "engine/solver/response.h"
 #include "engine/state.h"
 
 namespace engine {
@@ -199,7 +198,6 @@ struct World {
   Topology topology;
   Articulation smooth;   // of the stage at hand, undamped
   Articulation impulse;  // at the start of the step, with joint resistance
-  Response response;
   ContactSolver solver;
 
   std::vector<double> tree_mass;  // [kg] per tree

@@ -13,7 +13,7 @@ constexpr double kFree = 1e3;  // [-] weight of what a stiff joint carries again
 
 struct Unknown {
   int body_up = -1, body_down = -1;  // pushed up, pushed down
-  Eigen::Vector3d wrench;            // Fz, Mx, My about the world's origin for one unit
+  Eigen::Vector3d wrench;            // Fz, Mx, My about the tree's first body for one unit
   double weight = 1;
 };
 
@@ -45,7 +45,7 @@ Quat axes_of(const Model& model, const Topology& topology, int tree) {
   return first ? model.bodies[first->body].X_WB.q : Quat::Identity();
 }
 
-/// A tree's bodies at rest, seen from axes in which the ground under them is level.
+/// A tree's bodies at rest, seen from its first body in axes in which the ground under them is level.
 struct Standing {
   std::vector<Pose> X;  // per body of the model
   Vec3 gravity;
@@ -54,7 +54,8 @@ struct Standing {
 Standing stand(const Model& model, const Topology& topology, int tree) {
   const Pose turn{Vec3::Zero(), axes_of(model, topology, tree).conjugate()};
   Standing out{{}, turn.q * model.settings.gravity};
-  for (const Body& body : model.bodies) out.X.push_back(turn * body.X_WB);
+  const Vec3 from = model.bodies[topology.links[topology.trees[tree].begin].body].X_WB.p;
+  for (const Body& body : model.bodies) out.X.push_back(turn * Pose{body.X_WB.p - from, body.X_WB.q});
   return out;
 }
 
@@ -68,7 +69,7 @@ double ground_under(const Model& model, const Standing& standing, const Topology
       sum += (standing.X[vehicle.body] * wheel.hub_B).z() - wheel.radius;
       ++count;
     }
-  return count > 0 ? sum / count : model.ground.height;
+  return sum / count;
 }
 
 /// Gravity as a tree feels it that stands or rolls: on a slope its brakes hold it from the start, or it gathers speed along its

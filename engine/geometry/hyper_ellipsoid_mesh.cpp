@@ -1,4 +1,5 @@
-// For each triangle near the body, in the mesh frame:
+// For each triangle near the body, in the axes of the mesh and counted from the body's centre, so that where on a flat panel it is
+// met does not change a last digit of how:
 //   face    the support point against the face normal, if it projects into the triangle (eq. (70) with the point inside, as asked)
 //   edge    the normal m of the cone between the faces of a convex edge whose support point projects onto the edge: there the
 //           distance m.(p - q) of the support point p from a point q of the edge is largest. There is one just where the support
@@ -35,9 +36,11 @@ struct Scene {
   const TriangleMesh& mesh;
   double margin;
   double least;                           // [m] smallest gap that can be of this side
-  std::vector<SurfaceContact>& out;       // in the mesh frame
-  SmallVector<Vec3, 5> last_points = {};  // [m] mesh frame
+  std::vector<SurfaceContact>& out;       // all points: mesh axes, from the body's centre
+  SmallVector<Vec3, 5> last_points = {};  // [m]
   Vec3 last_normal = Vec3::Zero();
+
+  Vec3 vertex(int v) const { return mesh.vertices()[static_cast<std::size_t>(v)] - X_MA.p; }
 
   /// The deepest point against a face of this normal and, of a body with flat sides, the corners of its side, of rank 1 to 4: those
   /// of the last normal are kept, for a panel may have thousands of triangles.
@@ -46,17 +49,18 @@ struct Scene {
     last_normal = normal;
     last_points.clear();
     const Vec3 down_A = X_MA.q.conjugate() * -normal;
-    last_points.push_back(X_MA * support_point(shape, down_A));
+    last_points.push_back(X_MA.q * support_point(shape, down_A));
     if (shape.exponent >= kFlatExponent)
-      for (const Vec3& direction : corner_directions(shape, down_A)) last_points.push_back(X_MA * support_point(shape, direction));
+      for (const Vec3& direction : corner_directions(shape, down_A))
+        last_points.push_back(X_MA.q * support_point(shape, direction));
     return last_points;
   }
 };
 
-bool inside(const TriangleMesh& mesh, int triangle, const Vec3& p) {
-  const Triangle& t = mesh.triangles()[triangle];
-  const Vec3& n = mesh.face_normals()[triangle];
-  const Vec3 &a = mesh.vertices()[t[0]], &b = mesh.vertices()[t[1]], &c = mesh.vertices()[t[2]];
+bool inside(const Scene& s, int triangle, const Vec3& p) {
+  const Triangle& t = s.mesh.triangles()[triangle];
+  const Vec3& n = s.mesh.face_normals()[triangle];
+  const Vec3 a = s.vertex(t[0]), b = s.vertex(t[1]), c = s.vertex(t[2]);
   const double area = n.dot((b - a).cross(c - a));
   return n.dot((b - a).cross(p - a)) >= -kBorder * area && n.dot((c - b).cross(p - b)) >= -kBorder * area &&
          n.dot((a - c).cross(p - c)) >= -kBorder * area;
@@ -64,18 +68,18 @@ bool inside(const TriangleMesh& mesh, int triangle, const Vec3& p) {
 
 void touch_face(Scene& s, int triangle) {
   const Vec3& n = s.mesh.face_normals()[triangle];
-  const double offset = n.dot(s.mesh.vertices()[s.mesh.triangles()[triangle][0]]);
+  const double offset = n.dot(s.vertex(s.mesh.triangles()[triangle][0]));
   std::uint32_t rank = kDeepest;  // first, then the corners
   for (const Vec3& p : s.points_against(n)) {
     const double gap = n.dot(p) - offset;
-    if (gap < s.margin && gap >= s.least && inside(s.mesh, triangle, p - gap * n)) s.out.push_back({p, p - gap * n, n, gap, rank});
+    if (gap < s.margin && gap >= s.least && inside(s, triangle, p - gap * n)) s.out.push_back({p, p - gap * n, n, gap, rank});
     rank = rank == kDeepest ? 1 : rank + 1;
   }
 }
 
 /// The contact at a mesh point p (on an edge or a vertex) with normal against the gauge gradient there.
 bool point_contact(const Scene& s, const Vec3& p, SurfaceContact& c) {
-  const Vec3 p_A = s.X_MA.inverse() * p;
+  const Vec3 p_A = s.X_MA.q.conjugate() * p;
   const Vec3 g = gauge_gradient(s.shape, p_A);
   if (g.squaredNorm() == 0) return false;
   const Vec3 m_A = -g.normalized();
@@ -122,12 +126,12 @@ bool in_cone_of_vertex(const TriangleMesh& mesh, int vertex, const Vec3& normal,
 
 /// Where the body reaches farthest against a normal.
 struct Reached {
-  Vec3 point;       // [m] mesh frame
+  Vec3 point;       // [m] mesh axes, from the centre
   Support support;  // in body axes
 };
 Reached reached(const Scene& s, const Vec3& normal) {
   const Support support = engine::support(s.shape, s.X_MA.q.conjugate() * -normal);
-  return {s.X_MA * support.point, support};
+  return {s.X_MA.q * support.point, support};
 }
 
 /// Of a round body. Where the point reached projects beyond an end, that vertex is worth a look with the normal found.
@@ -135,8 +139,8 @@ void touch_edge_round(Scene& s, int triangle, int edge, std::vector<VertexTouch>
   constexpr double kTight = 1e-12;  // [-], [m]
   const Triangle& t = s.mesh.triangles()[triangle];
   const int from = t[static_cast<std::size_t>(edge)], to = t[static_cast<std::size_t>((edge + 1) % 3)];
-  const Vec3& start = s.mesh.vertices()[from];
-  const Vec3 along = s.mesh.vertices()[to] - start;
+  const Vec3 start = s.vertex(from);
+  const Vec3 along = s.mesh.vertices()[to] - s.mesh.vertices()[from];
   const Vec3& n = s.mesh.face_normals()[triangle];
   const Vec3 out = along.cross(n).normalized();  // in the face, across the edge
   const double beyond_this = out.dot(s.points_against(n)[0] - start);
@@ -185,7 +189,7 @@ void touch_edge_round(Scene& s, int triangle, int edge, std::vector<VertexTouch>
 /// The normal whose support point lies over the vertex, from a guess: Newton on the distance, which is largest there.
 void touch_vertex_round(Scene& s, const VertexTouch& guess) {
   constexpr double kTight = 1e-10;  // [m]
-  const Vec3& vertex = s.mesh.vertices()[guess.vertex];
+  const Vec3 vertex = s.vertex(guess.vertex);
   SurfaceContact c;
   c.normal = guess.normal;
   Reached at = reached(s, c.normal);
@@ -226,10 +230,10 @@ void touch_vertex_round(Scene& s, const VertexTouch& guess) {
 /// Of a body with flat sides.
 void touch_edge_flat(Scene& s, int triangle, int edge) {
   const Triangle& t = s.mesh.triangles()[triangle];
-  const Vec3& from = s.mesh.vertices()[t[edge]];
-  const Vec3 along = s.mesh.vertices()[t[(edge + 1) % 3]] - from;
-  const Pose X_AM = s.X_MA.inverse();
-  const double at = least_gauge(s.shape, X_AM * from, X_AM.q * along);
+  const Vec3 from = s.vertex(t[edge]);
+  const Vec3 along = s.mesh.vertices()[t[(edge + 1) % 3]] - s.mesh.vertices()[t[edge]];
+  const Quat q_AM = s.X_MA.q.conjugate();
+  const double at = least_gauge(s.shape, q_AM * from, q_AM * along);
   if (at <= 0 || at >= 1) return;  // a vertex's business
   SurfaceContact c;
   if (!point_contact(s, from + at * along, c)) return;
@@ -245,14 +249,13 @@ void touch_edge_flat(Scene& s, int triangle, int edge) {
 template <class IsNear>
 void touch_vertex_flat(Scene& s, int vertex, const IsNear& is_near) {
   SurfaceContact c;
-  if (point_contact(s, s.mesh.vertices()[vertex], c) && in_cone_of_vertex(s.mesh, vertex, c.normal, 1e-9, is_near))
-    s.out.push_back(c);
+  if (point_contact(s, s.vertex(vertex), c) && in_cone_of_vertex(s.mesh, vertex, c.normal, 1e-9, is_near)) s.out.push_back(c);
 }
 
-std::uint32_t key_of(const SurfaceContact& c, const Pose& X_MA, double exponent) {
+std::uint32_t key_of(const SurfaceContact& c, const Quat& q_MA, double exponent) {
   // main direction of the normal and, of a body with corners, which of a face's points it is, or else the octant of the point:
   // steady while the body slides from triangle to triangle, and while a round one rolls
-  const Vec3 p_A = exponent < kFlatExponent ? Vec3(Vec3::Zero()) : Vec3(X_MA.inverse() * c.p_a);
+  const Vec3 p_A = exponent < kFlatExponent ? Vec3(Vec3::Zero()) : Vec3(q_MA.conjugate() * c.p_a);
   int axis = 0;
   c.normal.cwiseAbs().maxCoeff(&axis);
   const bool of_face = exponent >= kFlatExponent && c.key > 0;
@@ -334,7 +337,7 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
   Scene scene{shape, X_MA, mesh, margin, least - kPassed * shape.semi_axes.minCoeff(), scratch.candidates};
   auto pass = [&](const Vec3& n, double offset, const Aabb& branch) {
     for (const Vec3& p : scene.points_against(n)) {
-      const Vec3 on_plane = p - (n.dot(p) - offset) * n;
+      const Vec3 at = X_MA.p + p, on_plane = at - (n.dot(at) - offset) * n;
       const bool above =
           (on_plane.array() > branch.lower.array() - kSlack).all() && (on_plane.array() < branch.upper.array() + kSlack).all();
       if (above) return false;
@@ -415,9 +418,9 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
   std::uint32_t used = 0;
   for (SurfaceContact& c : out) {
     scratch.apart = std::min(scratch.apart, c.gap);
-    c.key = key_of(c, X_MA, shape.exponent) + 64 * used++;
-    c.p_a = X_WM * c.p_a;
-    c.p_b = X_WM * c.p_b;
+    c.key = key_of(c, X_MA.q, shape.exponent) + 64 * used++;
+    c.p_a = X_WA.p + X_WM.q * c.p_a;
+    c.p_b = X_WA.p + X_WM.q * c.p_b;
     c.normal = X_WM.q * c.normal;
   }
   // the running number only tells apart what shares a key: give it back where the key is unique

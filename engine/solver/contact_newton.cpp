@@ -76,7 +76,7 @@ bool ContactSolver::factor_linearised(const std::vector<Constraint>& all, const 
     }
   }
   for (int m = 0; m < n; ++m) {
-    const double* response = G_.data() + static_cast<std::size_t>(unknown_[m]) * static_cast<std::size_t>(size_);
+    const double* response = G_.data() + static_cast<std::size_t>(unknown_[m]) * stride_;
     double* column = newton_.column(m);
     for (const Run& run : runs_) column = std::copy_n(response + run.first, run.length, column);
   }

@@ -23,21 +23,21 @@ constexpr double kNearBound = 1e-2;      // [m/s] change of a step after which N
 
 }  // namespace
 
-void ContactSolver::reserve(std::size_t constraints, std::size_t bodies) {
-  const std::size_t rows = 3 * constraints;
+void ContactSolver::reserve(const Topology& topology, std::size_t constraints) {
+  response_.reset(topology, constraints);
+  const std::size_t rows = whole_rows(3 * constraints);
   G_.reserve(rows * rows);
   newton_.reserve(rows);
   for (std::vector<Row>* list : {&rule_, &factored_rule_}) list->reserve(rows);
   L_start_.reserve(constraints);
   L_sliding_.reserve(constraints);
-  Y_.reserve(bodies);
   own_.reserve(constraints);
   for (std::vector<double>* list : {&u_, &L_, &u_kept_, &L_kept_, &u_start_, &u_sliding_, &bound_, &softened_}) list->reserve(rows);
   for (std::vector<int>* list : {&offset_, &unknown_}) list->reserve(rows);
   runs_.reserve(rows);
 }
 
-void ContactSolver::assemble(const Topology& topology, const Response& response, const std::vector<Constraint>& all,
+void ContactSolver::assemble(const Topology& topology, const Articulation& articulation, const std::vector<Constraint>& all,
                              const std::vector<int>& members) {
   const int count = static_cast<int>(members.size());
   offset_.resize(count);
@@ -46,45 +46,10 @@ void ContactSolver::assemble(const Topology& topology, const Response& response,
     offset_[i] = size_;
     size_ += all[members[i]].rows;
   }
-  G_.resize(static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_));  // all of it is written
-  u_.resize(size_);
-
-  // bodies stand in the order in which the constraints name them: only those up to i are asked for
-  const std::vector<int>& bodies = response.touched();
-  std::size_t named = 0;
-  auto name_until = [&](int body) {
-    if (body < 0) return;
-    const auto place = std::find(bodies.begin(), bodies.end(), body);
-    named = std::max(named, static_cast<std::size_t>(place - bodies.begin()) + 1);
-  };
-  Y_.resize(topology.tree_of_body.size());
-  for (int i = 0; i < count; ++i) {
-    const Constraint& ci = all[members[i]];
-    name_until(ci.body_a);
-    name_until(ci.body_b);
-    // Y_t = rows of i through the joints to body t
-    for (std::size_t n = 0; n < named; ++n) {
-      const int t = bodies[n];
-      const int tree = topology.tree_of_body[t];
-      const bool via_a = ci.body_a >= 0 && topology.tree_of_body[ci.body_a] == tree;
-      const bool via_b = ci.body_b >= 0 && topology.tree_of_body[ci.body_b] == tree;
-      Y_[t].fill(0);
-      if (via_a) add_rows_through(ci.J_a.data(), response.between(topology, t, ci.body_a).data(), Y_[t]);
-      if (via_b) add_rows_through(ci.J_b.data(), response.between(topology, t, ci.body_b).data(), Y_[t]);
-    }
-    for (int k = 0; k <= i; ++k) {
-      const Constraint& ck = all[members[k]];
-      std::array<double, 12> g{};  // four by three, the last row empty
-      if (ck.body_a >= 0) add_rows_met(Y_[ck.body_a], ck.J_a.data(), g);
-      if (ck.body_b >= 0) add_rows_met(Y_[ck.body_b], ck.J_b.data(), g);
-      for (int r = 0; r < ci.rows; ++r)
-        for (int q = 0; q < ck.rows; ++q) {
-          const double response_rq = g[static_cast<std::size_t>(4 * q + r)];
-          G_[static_cast<std::size_t>(offset_[k] + q) * size_ + offset_[i] + r] = response_rq;
-          G_[static_cast<std::size_t>(offset_[i] + r) * size_ + offset_[k] + q] = response_rq;
-        }
-    }
-  }
+  stride_ = whole_rows(static_cast<std::size_t>(size_));
+  G_.resize(stride_ * static_cast<std::size_t>(size_));  // all of it is written
+  u_.assign(stride_, 0.0);
+  response_.compute(topology, articulation, all, members, offset_, stride_, G_);
   note_own_responses(all, members);
   soften_dead_centres(all, members);
 }
@@ -115,18 +80,16 @@ void ContactSolver::soften_dead_centres(const std::vector<Constraint>& all, cons
     const double smallest = Eigen::SelfAdjointEigenSolver<Mat3>(A, Eigen::EigenvaluesOnly).eigenvalues()[0];
     if (smallest >= least) continue;
     softened_[i] = least - smallest;
-    for (int r = 0; r < 3; ++r)
-      own_[i](r, r) = G_[static_cast<std::size_t>(offset_[i] + r) * static_cast<std::size_t>(size_ + 1)] += softened_[i];
+    for (int r = 0; r < 3; ++r) own_[i](r, r) = G_[static_cast<std::size_t>(offset_[i] + r) * (stride_ + 1)] += softened_[i];
   }
 }
 
 void ContactSolver::add_to_velocity(int column, int rows, const Vec3& change) {
-  const auto size = static_cast<std::size_t>(size_);
-  const double* g = G_.data() + static_cast<std::size_t>(column) * size;
+  const double* g = G_.data() + static_cast<std::size_t>(column) * stride_;
   if (rows == 3) {
-    add_three_columns(g, change.data(), u_.data(), size);
+    add_three_columns(g, change.data(), u_.data(), stride_);
   } else {  // limits and closed loops
-    for (std::size_t r = 0; r < size; ++r) u_[r] += g[r] * change[0];
+    for (std::size_t r = 0; r < stride_; ++r) u_[r] += g[r] * change[0];
   }
 }
 

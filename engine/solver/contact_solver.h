@@ -14,7 +14,6 @@
 #include "engine/solver/constraint.h"
 #include "engine/solver/dense_system.h"
 #include "engine/solver/response.h"
-#include "engine/solver/wide_products.h"
 
 namespace engine {
 
@@ -27,11 +26,11 @@ struct SolveReport {
 
 class ContactSolver {
  public:
-  /// Buffers for so many constraints and bodies, so that no step allocates.
-  void reserve(std::size_t constraints, std::size_t bodies);
+  /// Buffers for so many constraints, so that no step allocates.
+  void reserve(const Topology&, std::size_t constraints);
 
-  /// Builds G for the constraints named. Their rows and bodies must be set.
-  void assemble(const Topology&, const Response&, const std::vector<Constraint>&, const std::vector<int>& members);
+  /// Builds G for the constraints named. Their rows and bodies must be set, and their bodies' trees factorised.
+  void assemble(const Topology&, const Articulation&, const std::vector<Constraint>&, const std::vector<int>& members);
 
   /// Solves; impulses of the constraints are start value and result, u_after is set. `tolerance` [m/s].
   SolveReport solve(std::vector<Constraint>&, const std::vector<int>& members, double tolerance);
@@ -66,9 +65,7 @@ class ContactSolver {
   void go_back(std::vector<Constraint>&, const std::vector<int>& members);
   int linearise(const std::vector<Constraint>&, const std::vector<int>& members);
   Vec3 velocity(int member, int rows) const;
-  double G(int row, int column) const {
-    return G_[static_cast<std::size_t>(column) * static_cast<std::size_t>(size_) + static_cast<std::size_t>(row)];
-  }
+  double G(int row, int column) const { return G_[static_cast<std::size_t>(column) * stride_ + static_cast<std::size_t>(row)]; }
 
   /// What Newton asks of one row.
   struct Row {
@@ -88,11 +85,13 @@ class ContactSolver {
   bool bounded_ = false;          // friction bounds are held at bound_
   std::vector<double> bound_;     // [N s] per member
   std::vector<double> softened_;  // [1/kg] per member: by which it answers more than its bodies do
+  Response response_;
   int size_ = 0;
-  std::vector<int> offset_;  // per member
-  std::vector<double> G_;    // column-major size_ x size_
-  std::vector<Mat3> own_;    // per member: its block on the diagonal; of one row the rest is a unit matrix
-  std::vector<double> u_;
+  std::size_t stride_ = 0;    // whole_rows(size_)
+  std::vector<int> offset_;   // per member
+  std::vector<double> G_;     // column-major stride_ x size_
+  std::vector<Mat3> own_;     // per member: its block on the diagonal; of one row the rest is a unit matrix
+  std::vector<double> u_;     // stride_
   DenseSystem newton_;        // of the rows that can change
   std::vector<int> unknown_;  // row of G per unknown
   struct Run {
@@ -103,7 +102,6 @@ class ContactSolver {
   std::vector<Row> factored_rule_;  // of the matrix in newton_
   std::vector<double> L_, u_kept_, L_kept_, u_start_, u_sliding_;
   std::vector<Vec3> L_start_, L_sliding_;
-  std::vector<ThreeRows> Y_;  // per body: how it answers the rows of one constraint
 };
 
 }  // namespace engine

@@ -1,32 +1,42 @@
-// How bodies answer impulses on each other through their joints: blocks of the inverse of the factorised system.
+// How the rows of an island's conditions answer each other's impulses through the joints: G = J W J^T.
+//
+// W, the inverse of the factorised system, is a sum over the freedoms that joints and roots leave: at each link a force gives way
+// by its D, and the X of the links below carry that motion on to a body (articulation.h). D has no more rank than the link has
+// freedoms, D = Q Q^T, so G = Y^T Y with a row of Y for each freedom: the rows of J carried up from their bodies to the root as
+// forces are, and at each link asked by Q^T how they work its freedoms. A contact meets only the freedoms on its own way, no block
+// of W is ever formed, and G is symmetric and no eigenvalue of it negative but for rounding.
 #pragma once
 
 #include <vector>
 
 #include "engine/solver/articulation.h"
+#include "engine/solver/constraint.h"
+#include "engine/solver/wide_products.h"
 
 namespace engine {
 
 class Response {
  public:
-  void reset(const Topology&);
+  /// Buffers for the links there are and so many constraints.
+  void reset(const Topology&, std::size_t constraints);
 
-  /// Marks a body whose blocks will be asked for. Call for all, then compute().
-  void touch(const Topology&, int body);
-  void compute(const Topology&, const Articulation&);
-  void clear();
-
-  /// Velocity (6) of body i for a unit impulse (6) on body j: 6x6. Both touched, same tree.
-  const Mat6& between(const Topology&, int i, int j) const;
-  const std::vector<int>& touched() const { return touched_; }
+  /// Writes G [1/kg] of the constraints named: `size` columns, each of `stride` rows (whole_rows(size)); the rows of constraint
+  /// members[i] begin at offset[i]. Beyond `size` they are zero.
+  void compute(const Topology&, const Articulation&, const std::vector<Constraint>&, const std::vector<int>& members,
+               const std::vector<int>& offset, std::size_t stride, std::vector<double>& G);
 
  private:
-  std::vector<int> slot_of_body_;         // place of a body in its tree's list, -1: not marked
-  std::vector<std::vector<int>> marked_;  // per tree: bodies marked with all their ancestors
-  std::vector<int> trees_;                // trees with marks
-  std::vector<std::size_t> base_;         // per tree, into blocks_
-  std::vector<Mat6> blocks_;
-  std::vector<int> touched_;
+  void mark(const Topology&, int body);
+  void follow(const Topology&, const Articulation&, int body);
+  void meet(const Topology&, int body_a, int body_b);
+
+  std::vector<int> first_;   // per link: its first freedom in Y, -1: not marked
+  std::vector<int> marked_;  // links that stand on some row's way to the root, ascending
+  std::vector<int> rank_;    // per link: its freedoms
+  std::vector<Mat6> Q_;      // per link: as many columns as freedoms
+  std::vector<Passed> way_;  // of one body to its root
+  std::vector<int> met_;     // freedoms on the ways of one constraint's bodies, ascending
+  std::vector<double> Y_;    // freedoms x stride
 };
 
 }  // namespace engine

@@ -6,31 +6,8 @@ namespace engine {
 namespace {
 
 using Four = double __attribute__((vector_size(4 * sizeof(double))));
-using Two = double __attribute__((vector_size(2 * sizeof(double))));
 
 }  // namespace
-
-#if defined(__x86_64__)
-__attribute__((target_clones("avx2", "default")))
-#endif
-void multiply_by_six(const double* A, const double* in, double* out, std::size_t columns) {
-  Four upper[6];
-  Two lower[6];
-  for (int k = 0; k < 6; ++k) {
-    std::memcpy(&upper[k], A + 6 * k, sizeof(Four));
-    std::memcpy(&lower[k], A + 6 * k + 4, sizeof(Two));
-  }
-  for (std::size_t c = 0; c < columns; ++c, in += 6, out += 6) {
-    Four u = upper[0] * in[0];
-    Two l = lower[0] * in[0];
-    for (int k = 1; k < 6; ++k) {
-      u += upper[k] * in[k];
-      l += lower[k] * in[k];
-    }
-    std::memcpy(out, &u, sizeof(Four));
-    std::memcpy(out + 4, &l, sizeof(Two));
-  }
-}
 
 #if defined(__x86_64__)
 __attribute__((target_clones("avx2", "default")))
@@ -44,33 +21,49 @@ void add_three_columns(const double* G, const double* x, double* sum, std::size_
 #if defined(__x86_64__)
 __attribute__((target_clones("avx2", "default")))
 #endif
-void add_rows_through(const double* J, const double* W, ThreeRows& sum) {
-  Four column[6];
-  for (int k = 0; k < 6; ++k) column[k] = Four{J[k], J[6 + k], J[12 + k], 0};
-  for (int t = 0; t < 6; ++t) {
-    Four part = column[0] * W[t];
-    for (int k = 1; k < 6; ++k) part += column[k] * W[6 * k + t];
-    Four total;
-    std::memcpy(&total, &sum[4 * t], sizeof total);
-    total += part;
-    std::memcpy(&sum[4 * t], &total, sizeof total);
+void carry_up(const double* J, const Passed* way, std::size_t links, double* Y, std::size_t stride) {
+  Four force[6];
+  for (int t = 0; t < 6; ++t) force[t] = Four{J[t], J[6 + t], J[12 + t], 0};
+  for (const Passed* link = way; link != way + links; ++link) {
+    for (int k = 0; k < link->freedoms; ++k) {
+      const double* q = link->Q + 6 * k;
+      Four work = force[0] * q[0];
+      for (int t = 1; t < 6; ++t) work += force[t] * q[t];
+      double* at = Y + (link->first + static_cast<std::size_t>(k)) * stride;
+      Four sum;
+      std::memcpy(&sum, at, sizeof sum);
+      sum += work;
+      std::memcpy(at, &sum, sizeof sum);
+    }
+    if (!link->X) return;
+    Four passed[6];
+    for (int t = 0; t < 6; ++t) {
+      const double* x = link->X + 6 * t;
+      passed[t] = force[0] * x[0];
+      for (int k = 1; k < 6; ++k) passed[t] += force[k] * x[k];
+    }
+    std::memcpy(force, passed, sizeof force);
   }
 }
 
 #if defined(__x86_64__)
 __attribute__((target_clones("avx2", "default")))
 #endif
-void add_rows_met(const ThreeRows& Y, const double* J, std::array<double, 12>& sum) {
-  Four column[6];
-  std::memcpy(column, Y.data(), sizeof column);
-  for (int q = 0; q < 3; ++q) {
-    const double* row = J + 6 * q;
-    const Four even = column[0] * row[0] + (column[2] * row[2] + column[4] * row[4]);
-    const Four odd = column[1] * row[1] + (column[3] * row[3] + column[5] * row[5]);
-    Four total;
-    std::memcpy(&total, &sum[4 * q], sizeof total);
-    total += even + odd;
-    std::memcpy(&sum[4 * q], &total, sizeof total);
+void meet_rows(const double* Y, std::size_t stride, const int* freedoms, std::size_t count, std::size_t row, std::size_t columns,
+               double* G) {
+  for (std::size_t r = 0; r < stride; r += 8) {
+    Four g[3][2] = {};
+    for (std::size_t k = 0; k < count; ++k) {
+      const double* y = Y + static_cast<std::size_t>(freedoms[k]) * stride;
+      Four lower, upper;
+      std::memcpy(&lower, y + r, sizeof lower);
+      std::memcpy(&upper, y + r + 4, sizeof upper);
+      for (std::size_t c = 0; c < 3; ++c) {  // a column too many costs less than asking
+        g[c][0] += lower * y[row + c];
+        g[c][1] += upper * y[row + c];
+      }
+    }
+    for (std::size_t c = 0; c < columns; ++c) std::memcpy(G + (row + c) * stride + r, g[c], sizeof g[c]);
   }
 }
 

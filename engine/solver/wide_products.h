@@ -1,24 +1,34 @@
 // The products that take most of a step with contacts, in wide vectors where the processor has them, with the same bits everywhere.
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 namespace engine {
 
-/// out = A in; A 6 x 6, `in` and `out` 6 x `columns`, all column-major, `out` apart from the others.
-void multiply_by_six(const double* A, const double* in, double* out, std::size_t columns);
+/// Rows filled up to whole vectors, two at a time.
+inline std::size_t whole_rows(std::size_t rows) {
+  return (rows + 7) / 8 * 8;
+}
 
 /// sum += G x; G `rows` x 3, column-major.
 void add_three_columns(const double* G, const double* x, double* sum, std::size_t rows);
 
-/// Three rows of six, column-major with a fourth, empty row.
-using ThreeRows = std::array<double, 24>;
+/// A link that a force passes on its way to the root: what it becomes is X^T of it, and Q^T of it works the link's freedoms, whose
+/// places are from `first` on. X and Q 6 x 6, column-major; X null: the root.
+struct Passed {
+  const double* X;
+  const double* Q;
+  int freedoms;
+  std::size_t first;
+};
 
-/// sum += J W^T; J 3 x 6, row-major, W 6 x 6, column-major.
-void add_rows_through(const double* J, const double* W, ThreeRows& sum);
+/// Carries the three rows of J (3 x 6, row-major) up a way: Y[place * stride + r] += what row r does to the freedom of that place.
+/// Adds a zero to Y[place * stride + 3].
+void carry_up(const double* J, const Passed* way, std::size_t links, double* Y, std::size_t stride);
 
-/// sum += Y J^T; J 3 x 6, row-major, sum 4 x 3, column-major, its last row empty.
-void add_rows_met(const ThreeRows& Y, const double* J, std::array<double, 12>& sum);
+/// G = Y^T Y, the `columns` (1 to 3) of it from `row` on, each of `stride` rows (whole_rows): summed over the freedoms listed, all
+/// others being zero in these columns.
+void meet_rows(const double* Y, std::size_t stride, const int* freedoms, std::size_t count, std::size_t row, std::size_t columns,
+               double* G);
 
 }  // namespace engine

@@ -141,7 +141,7 @@ void add_car(Model& model, const std::shared_ptr<const engine::TriangleMesh>& me
   Body body;
   body.name = "car";
   body.mass = 1500;
-  body.inertia_B = Vec3::Constant(1e9).asDiagonal();  // the comparison's car moves along x alone
+  body.inertia_B = Vec3::Constant(1e60).asDiagonal();  // the comparison's car never turns, not by a last digit
   body.shape = engine::MeshShape{mesh, {}};
   body.X_WB.p = at;
   body.V_WB.v = {11, 0, 0};

@@ -171,44 +171,17 @@ void damp(Model& model, double damping) {  // [N m s/rad]
     for (engine::ArticulationAngle& angle : joint.angles) angle.damping = damping;
 }
 
-/// Of a common scene with joints damped as in the comparison; `change` is made to each start.
+/// Of a common scene with joints damped as in the comparison, shifted or tilted; `change` is made to each start.
+enum class Aside { shifted, tilted };
 template <class Change>
-Spread spread(const std::string& scene, double step, int starts, const Change& change) {
-  return spread_of(starts, [&](double shift) {
-    Model model = benchmark::common_scene(scene, step, shift);
+Spread spread(const std::string& scene, double step, Aside aside, int starts, const Change& change) {
+  return spread_of(starts, [&](double by) {
+    Model model = benchmark::common_scene(scene, step, aside == Aside::shifted ? by : 0);
     damp(model, kDampingOfComparison);
+    if (aside == Aside::tilted) benchmark::tilt(model, by);
     change(model);
     return model;
   });
-}
-
-/// How far [m] the figure struck by the car comes to be from where it would be if it had only been moved aside, its farthest body,
-/// at such times; the geometric mean over shifts of 1 to 6 micrometres. The car's front is flat: in exact numbers nothing would
-/// part.
-void parting(double step) {
-  constexpr double kTimes[] = {0.3, 0.5, 0.7, 0.9};
-  const auto run = [&](double shift) {
-    Model model = benchmark::common_scene("vehicle", step, shift);
-    damp(model, kDampingOfComparison);
-    model.settings.duration = 1;
-    return engine::simulate(model);
-  };
-  const Recording first = run(0);
-  const std::vector<int> figure = benchmark::common_scene("vehicle", step).persons.front().bodies;
-  double logarithms[std::size(kTimes)] = {};
-  for (int k = 1; k <= 6; ++k) {
-    const engine::Vec3 aside(0, k * 1e-6, 0);
-    const Recording other = run(aside.y());
-    for (std::size_t i = 0; i < std::size(kTimes); ++i) {
-      const auto &a = first.at(kTimes[i]).bodies, &b = other.at(kTimes[i]).bodies;
-      double farthest = 0;
-      for (const int body : figure) farthest = std::max(farthest, (a[body].X_WB.p + aside - b[body].X_WB.p).norm());
-      logarithms[i] += std::log(std::max(farthest, 1e-16)) / 6;
-    }
-  }
-  std::printf("vehicle, step %.2g ms, starts 1 to 6 micrometres aside part by, in the mean:", step * 1e3);
-  for (std::size_t i = 0; i < std::size(kTimes); ++i) std::printf(" %.1f s %.1e m", kTimes[i], std::exp(logarithms[i]));
-  std::printf("\n");
 }
 
 void ensemble(const std::vector<Peer>& peers) {
@@ -217,57 +190,49 @@ void ensemble(const std::vector<Peer>& peers) {
   const auto as_it_is = [](Model&) {};
   for (const std::string scene : {"throw", "vehicle"})
     for (const double step : {1e-3, 8e-4, 5e-4}) {
-      const Spread s = spread(scene, step, 20, as_it_is);
+      const Spread s = spread(scene, step, Aside::shifted, 20, as_it_is);
       std::printf("%-8s step %.2g ms: mean %.4f m, standard deviation %.2f mm", scene.c_str(), step * 1e3, s.mean,
                   1e3 * s.deviation);
       for (const Peer& peer : peers) std::printf(", %s %.1f mm", peer.name.c_str(), 1e3 * spread_of(peer, scene, step).deviation);
       std::printf("\n");
     }
-  const auto tilted = [&](const std::string& scene, double step, bool capsules) {
-    return spread_of(20, [&](double angle) {
-      Model model = benchmark::common_scene(scene, step);
-      damp(model, kDampingOfComparison);
-      benchmark::tilt(model, angle);
-      if (capsules) benchmark::give_capsules(model);
-      return model;
-    });
+  const auto tilted = [](const std::string& scene, double step, const auto& change, int starts = 20) {
+    return 1e3 * spread(scene, step, Aside::tilted, starts, change).deviation;
   };
-  std::printf("The same, tilted by 0 to 19 microradians instead\n");
+  std::printf("The same, tilted by 0 to 19 microradians instead: standard deviation\n");
   for (const std::string scene : {"throw", "vehicle"})
     for (const double step : {1e-3, 5e-4})
-      std::printf("%-8s step %.2g ms: standard deviation %.2f mm\n", scene.c_str(), step * 1e3,
-                  1e3 * tilted(scene, step, false).deviation);
-  std::printf("Segments as capsules, step 1 ms: vehicle shifted %.2f mm, tilted %.2f mm, throw tilted %.2f mm\n",
-              1e3 * spread("vehicle", 1e-3, 20, [](Model& m) { benchmark::give_capsules(m); }).deviation,
-              1e3 * tilted("vehicle", 1e-3, true).deviation, 1e3 * tilted("throw", 1e-3, true).deviation);
-  for (const double step : {1e-3, 9.8e-4, 2.5e-4}) parting(step);
+      std::printf("%-8s step %.2g ms: %.2f mm\n", scene.c_str(), step * 1e3, tilted(scene, step, as_it_is));
+  std::printf("Tilted, step 1 ms\n");
+  for (const std::string scene : {"throw", "vehicle"})
+    std::printf("%-8s segments as capsules: %.2f mm\n", scene.c_str(), tilted(scene, 1e-3, benchmark::give_capsules));
   const auto tight = [](Model& m) { m.settings.solver_tolerance = 1e-8; };
-  std::printf("vehicle, solver tolerance 1e-8 m/s: %.2f mm\n", 1e3 * spread("vehicle", 1e-3, 20, tight).deviation);
+  std::printf("vehicle, solver tolerance 1e-8 m/s: %.2f mm\n", tilted("vehicle", 1e-3, tight));
   const auto apart = [](Model& m) { m.settings.effects["self_contact"] = engine::Force::off; };
-  std::printf("vehicle, no contact between the figure's own parts: %.2f mm\n", 1e3 * spread("vehicle", 1e-3, 20, apart).deviation);
+  std::printf("vehicle, no contact between the figure's own parts: %.2f mm\n", tilted("vehicle", 1e-3, apart));
   const auto damped = [](double damping) { return [damping](Model& m) { damp(m, damping); }; };
   for (const double damping : {0.5, 2.0})
-    std::printf("vehicle, joints damped by %g N m s/rad: %.2f mm\n", damping,
-                1e3 * spread("vehicle", 1e-3, 20, damped(damping)).deviation);
-  for (const double damping : {0.1, 2.0}) {
-    std::printf("vehicle at other speeds, joints damped by %g N m s/rad, five starts:", damping);
-    for (const double speed : {8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0}) {
-      const auto at_speed = [&](Model& m) {
-        damped(damping)(m);
-        for (engine::Body& body : m.bodies)
-          if (body.vehicle >= 0) body.V_WB.v.x() = speed;
-      };
-      std::printf(" %g m/s %.1f mm", speed, 1e3 * spread("vehicle", 1e-3, 5, at_speed).deviation);
+    std::printf("vehicle, joints damped by %g N m s/rad: %.2f mm\n", damping, tilted("vehicle", 1e-3, damped(damping)));
+  for (const std::string scene : {"throw", "vehicle"})
+    for (const double damping : {0.1, 2.0}) {
+      std::printf("%-8s joints damped by %g N m s/rad, ten starts:", scene.c_str(), damping);
+      for (const double speed : {8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0}) {
+        const auto at_speed = [&](Model& m) {
+          damp(m, damping);
+          for (engine::Body& body : m.bodies)
+            if (body.V_WB.v.x() > 0) body.V_WB.v.x() = speed;
+        };
+        std::printf(" %g m/s %.1f mm", speed, tilted(scene, 1e-3, at_speed, 10));
+      }
+      std::printf("\n");
     }
-    std::printf("\n");
-  }
   const Model pedestrian = pedestrian_case();
   const Spread s = spread_of(20, [&](double shift) {
     Model model = pedestrian;
     for (const int b : model.persons.front().bodies) model.bodies[b].X_WB.p.y() += shift;
     return model;
   });
-  std::printf("sedan_pedestrian_40kmh: mean %.4f m, standard deviation %.2f mm\n", s.mean, 1e3 * s.deviation);
+  std::printf("cases/sedan_pedestrian_40kmh shifted: mean %.4f m, standard deviation %.2f mm\n", s.mean, 1e3 * s.deviation);
   std::printf("\n");
 }
 

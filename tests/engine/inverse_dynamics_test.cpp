@@ -1,9 +1,11 @@
 // Forward dynamics of the factorised joints, undone by Newton's and Euler's equations written anew: what was put in must come back.
+// And the response of contacts, made from the factors, against the motion that each of their rows gives all bodies.
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "engine/solver/articulation.h"
+#include "engine/solver/response.h"
 #include "tests/engine/experiment.h"
 
 namespace {
@@ -192,6 +194,97 @@ TEST_P(JointKinds, InverseDynamicsGivesBackForcesAndJointTorques) {
       if (axes.count == 3) continue;
       EXPECT_LT(alpha.norm(), 1e-9 * size) << trial;
     }
+  }
+}
+
+TEST_P(JointKinds, RowsAnswerEachOtherAsTheBodiesMoveUnderThem) {
+  // a chain and two bodies that hang on its first, one of them on an axis; and a free body: two trees
+  Random random(60 + static_cast<unsigned>(GetParam()));
+  for (int trial = 0; trial < 40; ++trial) {
+    Experiment e = chain(GetParam(), random);
+    for (const auto& [kind, parent] :
+         {std::pair{JointKind::revolute, 0}, std::pair{JointKind::spherical, 0}, std::pair{JointKind::fixed, -1}}) {
+      const int child = static_cast<int>(e.model.bodies.size());
+      Body body;
+      body.mass = random.between(0.01, 20);
+      body.inertia_B = random.inertia();
+      e.model.bodies.push_back(body);
+      Joint joint;
+      joint.kind = kind;
+      joint.parent = parent;
+      joint.child = child;
+      joint.X_PF = {random.vector(0.3), random.attitude()};
+      joint.X_CF = {random.vector(0.3), random.attitude()};
+      Pose X{random.vector(1), random.attitude()};
+      if (parent >= 0) {
+        const Quat turned = kind == JointKind::spherical ? random.attitude() : Quat(Eigen::AngleAxisd(0.7, Vec3::UnitY()));
+        X.q = e.X[0].q * joint.X_PF.q * turned * joint.X_CF.q.conjugate();
+        X.p = e.X[0] * joint.X_PF.p - X.q * joint.X_CF.p;
+        e.model.joints.push_back(joint);
+      }
+      e.X.push_back(X);
+    }
+    const int bodies = static_cast<int>(e.X.size());
+
+    // contacts of all pairs, with the world and with themselves, and limits of one row between them
+    std::vector<Constraint> all;
+    std::vector<int> members, offset;
+    int size = 0;
+    for (int a = 0; a < bodies; ++a)
+      for (int b = -1; b < a; ++b) {
+        Constraint c;
+        c.rows = (a + b) % 3 == 0 ? 1 : 3;
+        c.body_a = a;
+        c.body_b = b;
+        for (int r = 0; r < c.rows; ++r) {
+          c.J_a.row(r) << random.vector(1).transpose(), random.vector(1).transpose();
+          if (b >= 0) c.J_b.row(r) << random.vector(1).transpose(), random.vector(1).transpose();
+        }
+        if (all.size() % 7 == 3) {
+          all.push_back(c);  // one that is not asked for
+          continue;
+        }
+        members.push_back(static_cast<int>(all.size()));
+        offset.push_back(size);
+        size += c.rows;
+        all.push_back(c);
+      }
+    std::vector<JointDamper> dampers(e.model.joints.size());
+    for (JointDamper& damper : dampers) damper = {random.inertia(), trial % 2 == 0};
+    const Topology topology = build_topology(e.model, {});
+    ASSERT_EQ(topology.trees.size(), 2u);
+    Articulation articulation(e.model, Articulation::Keeps::all_trees);
+    articulation.reset(topology);
+    for (const int tree : {0, 1}) articulation.factor(topology, tree, e.X, &dampers);
+    Response response;
+    response.reset(topology, all.size());
+    const std::size_t stride = whole_rows(static_cast<std::size_t>(size));
+    std::vector<double> G(stride * static_cast<std::size_t>(size), std::numeric_limits<double>::quiet_NaN());
+    for (int again = 0; again < 2; ++again) response.compute(topology, articulation, all, members, offset, stride, G);
+
+    const Eigen::Map<const Eigen::MatrixXd> found(G.data(), static_cast<Eigen::Index>(stride), size);
+    double largest = 0;
+    for (std::size_t j = 0; j < members.size(); ++j)
+      for (int q = 0; q < all[members[j]].rows; ++q) {
+        const Constraint& push = all[members[j]];
+        std::vector<Vec6> force(e.X.size(), Vec6::Zero()), a(e.X.size(), Vec6::Zero());
+        force[push.body_a] += push.J_a.row(q).transpose();
+        if (push.body_b >= 0) force[push.body_b] += push.J_b.row(q).transpose();
+        for (const int tree : {0, 1}) articulation.solve(topology, tree, force, a, Articulation::Bias::zero);
+        for (std::size_t i = 0; i < members.size(); ++i)
+          for (int r = 0; r < all[members[i]].rows; ++r) {
+            const Constraint& c = all[members[i]];
+            double expected = c.J_a.row(r).dot(a[c.body_a]);
+            if (c.body_b >= 0) expected += c.J_b.row(r).dot(a[c.body_b]);
+            const double here = found(offset[i] + r, offset[j] + q);
+            const double size_of_both = std::sqrt(found(offset[i] + r, offset[i] + r) * found(offset[j] + q, offset[j] + q));
+            largest = std::max(largest, std::abs(here - expected) / size_of_both);
+            EXPECT_EQ(here, found(offset[j] + q, offset[i] + r)) << "not symmetric";
+          }
+      }
+    // rounding of inertias that differ by a thousand
+    EXPECT_LT(largest, 1e-10) << trial;
+    EXPECT_TRUE(found.bottomRows(static_cast<Eigen::Index>(stride) - size).isZero(0)) << trial;
   }
 }
 

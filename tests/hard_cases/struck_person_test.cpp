@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/hard_cases/hard_case.h"
+#include "tests/hard_cases/meshes.h"
 
 namespace hard_cases {
 namespace {
@@ -33,6 +34,43 @@ TEST_P(StruckPerson, HoldsTogetherAndNeverGainsEnergy) {
   EXPECT_LT(largest, 5);
   EXPECT_LT(sum, 20);
   EXPECT_NEAR(it.recording.end_time(), 3, 1e-9);
+}
+
+class StruckPersonAside : public testing::TestWithParam<Setting> {};
+INSTANTIATE_TEST_SUITE_P(At, StruckPersonAside, testing::ValuesIn(kSettings));
+
+TEST_P(StruckPersonAside, MovesTheSameToTheLastBitWhereverTheFlatFrontMeetsIt) {
+  // the box never turns, so where along its front the person stands changes nothing before a limb meets an edge; a last digit of
+  // it would be decimetres at the end
+  auto struck = [](double aside) {
+    return run("struck_person", GetParam(), {"body.box.velocity=11 0 0 m/s", "simulation.duration=1 s"},
+               [aside](engine::Model& model) {
+                 for (engine::Body& body : model.bodies)
+                   if (body.person >= 0) {
+                     body.X_WB.p.y() += aside;
+                   } else {
+                     body.shape = engine::MeshShape{box_mesh({1, 0.9, 0.4}), {}};
+                     body.inertia_B = engine::Vec3::Constant(1e60).asDiagonal();
+                   }
+               });
+  };
+  const Outcome first = struck(0);
+  for (const double aside : {1e-6, 19e-6, 1e-3, 0.05}) {
+    const Outcome other = struck(aside);
+    ASSERT_EQ(other.recording.snapshots.size(), first.recording.snapshots.size());
+    double farthest = 0;
+    bool same = true;
+    for (std::size_t i = 0; i < first.recording.snapshots.size(); ++i)
+      for (std::size_t b = 0; b < first.model.bodies.size(); ++b) {
+        if (first.model.bodies[b].person < 0) continue;
+        const auto &x = first.recording.snapshots[i].bodies[b], &y = other.recording.snapshots[i].bodies[b];
+        same = same && x.V_WB.v == y.V_WB.v && x.V_WB.w == y.V_WB.w && x.X_WB.q.coeffs() == y.X_WB.q.coeffs();
+        farthest = std::max(farthest, (x.X_WB.p + aside * engine::Vec3::UnitY() - y.X_WB.p).norm());
+      }
+    EXPECT_TRUE(same) << aside;
+    EXPECT_LT(farthest, 2e-8) << aside;  // the grid that a scene is put on (local_frame.h)
+    if (aside == 19e-6) row("struck, 19 um aside", other, "same velocities to the last bit; %.1e m from there", farthest);
+  }
 }
 
 }  // namespace
