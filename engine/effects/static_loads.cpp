@@ -59,7 +59,7 @@ Standing stand(const Model& model, const Topology& topology, int tree) {
   return out;
 }
 
-/// Mean height of the places where a tree's wheels stand.
+/// Mean height of the places where a tree's wheels stand: it has some.
 double ground_under(const Model& model, const Standing& standing, const Topology& topology, int tree) {
   double sum = 0;
   int count = 0;

@@ -32,7 +32,7 @@ void Response::reset(const Topology& topology, std::size_t constraints) {
   marked_.clear();
   marked_.reserve(links);
   way_.reserve(links);
-  met_.reserve(2 * 6 * links);
+  met_.reserve(6 * links);
   Y_.reserve(std::min<std::size_t>(6 * links, 128) * whole_rows(3 * constraints) + 4);
 }
 

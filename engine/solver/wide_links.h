@@ -1,6 +1,5 @@
-// What the factorisation of a tree does with one link, in wide vectors where the processor has them: half of the time that small
-// matrices of plain code take, and the same bits on all processors. Matrices are 3x3 or 6x6 by columns; of six, forces and
-// velocities stand before moments and angular velocities.
+// What the factorisation of a tree does with one link, in wide vectors where the processor has them, with the same bits on all
+// processors. Matrices are 3x3 or 6x6 by columns; of six, forces and velocities stand before moments and angular velocities.
 #pragma once
 
 namespace engine {
