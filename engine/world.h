@@ -28,6 +28,17 @@ namespace engine {
 struct Clearance {
   double least = -std::numeric_limits<double>::infinity();  // [m] not known yet; negative: as deep as they met
   Pose X;
+  double most = std::numeric_limits<double>::infinity();  // [m] of two that met
+
+  /// Two surfaces were seen `apart` now. What was inside by more than it has gone since is inside still, where a look finds nothing
+  /// of it: over a crack in a mesh, say.
+  void note(double apart, const Pose& X_now, double reach) {
+    const double way = std::isfinite(least) ? least - by_now(X_now, reach) : 0;
+    const bool missed = most + way < 0 && apart > most + way;
+    least = missed ? least - way : apart;
+    most = missed ? most + way : apart < 0 ? apart : std::numeric_limits<double>::infinity();
+    X = X_now;
+  }
 
   /// Farther apart than `margin` still, wherever the second body has gone since? Its points lie within `reach` of its centre [m].
   bool beyond(double margin, const Pose& X_now, double reach) const { return least > margin && by_now(X_now, reach) > margin; }

@@ -65,7 +65,7 @@ void find_contacts_of(World& world, const State& state, const MeshPairRun& run, 
     if (pair.clearance.beyond(margin, X_MA, world.reach[pair.body])) continue;
     contacts_with_mesh(std::get<HyperEllipsoid>(round.shape), state.X_WB[pair.body], *pair.mesh, X_WM, margin,
                        pair.clearance.by_now(X_MA, world.reach[pair.body]), world.mesh_scratch, touches);
-    pair.clearance = {world.mesh_scratch.apart, X_MA};
+    pair.clearance.note(world.mesh_scratch.apart, X_MA, world.reach[pair.body]);
     const double mu = std::min(round.surface.friction_body.at(state.time), mesh.surface.friction_body.at(state.time));
     const double e = std::max(round.surface.restitution_body.at(state.time), mesh.surface.restitution_body.at(state.time));
     const std::size_t first = world.constraints.size();

@@ -36,7 +36,7 @@ void find(World& world, const State& state, int self) {
     if (pair.clearance.beyond(margin, state.X_WB[pair.body], world.reach[pair.body])) continue;
     contacts_with_mesh(shape, state.X_WB[pair.body], *pair.mesh, Pose{}, margin,
                        pair.clearance.by_now(state.X_WB[pair.body], world.reach[pair.body]), world.mesh_scratch, touches);
-    pair.clearance = {world.mesh_scratch.apart, state.X_WB[pair.body]};
+    pair.clearance.note(world.mesh_scratch.apart, state.X_WB[pair.body], world.reach[pair.body]);
     const Ground& ground = world.model.ground;
     const double t = state.time;
     const double e = std::max(body.surface.restitution_ground.at(t), ground.surface.restitution_ground.at(t));

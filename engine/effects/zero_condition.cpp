@@ -70,7 +70,7 @@ void watch_meshes(World& world, State& state, bool warn) {
     if (pair.clearance.beyond(margin, X_MA, reach)) continue;
     contacts_with_mesh(std::get<HyperEllipsoid>(world.model.bodies[pair.body].shape), state.X_WB[pair.body], *pair.mesh, X_WM,
                        margin, pair.clearance.by_now(X_MA, reach), world.mesh_scratch, found);
-    pair.clearance = {world.mesh_scratch.apart, X_MA};
+    pair.clearance.note(world.mesh_scratch.apart, X_MA, reach);
     for (const SurfaceContact& touch : found)
       if (touches(world, state, touch, pair.body, pair.mesh_body)) release(world, state, pair.body, pair.mesh_body, touch.p_a);
     if (warn && waits(world, state, pair.body))

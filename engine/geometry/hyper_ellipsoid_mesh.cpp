@@ -384,7 +384,7 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
   for (const int t : scratch.triangles) {
     touch_face(scene, t);
     for (int e = 0; e < 3; ++e) {
-      if (!felt(mesh.edge_kind(t, e))) continue;
+      if (!(flat ? felt(mesh.edge_kind(t, e)) : felt_by_round(mesh.edge_kind(t, e)))) continue;
       const int other = mesh.neighbour(t, e);
       if (other >= 0 && other < t && is_near(other)) continue;  // once for both
       if (flat) {

@@ -11,6 +11,7 @@ namespace {
 constexpr double kWeld = 1e-5;         // [m]
 constexpr double kDegenerate = 1e-12;  // [-] area / longest edge squared
 constexpr double kFlat = 1e-3;         // [rad] dihedral angle below which an edge is part of a flat face
+constexpr double kLevel = 1e-11;       // [rad] below which two faces are one plane, to rounding of their corners
 constexpr int kLeaf = 4;               // triangles
 
 /// Maps every vertex to the first one within the weld distance, by a grid of that pitch sorted along with its neighbours.
@@ -160,7 +161,10 @@ void TriangleMesh::connect() {
       // a face bends away from the other's plane: convex
       const Vec3 far_b = vertices_[triangles_[b.triangle][(b.edge + 2) % 3]] - vertices_[a.low];
       const double angle = std::atan2(n_a.cross(n_b).norm(), n_a.dot(n_b));
-      const EdgeKind kind = angle < kFlat ? EdgeKind::flat : (n_a.dot(far_b) < 0 ? EdgeKind::convex : EdgeKind::concave);
+      const bool convex = n_a.dot(far_b) < 0;
+      const EdgeKind kind = angle >= kFlat             ? (convex ? EdgeKind::convex : EdgeKind::concave)
+                            : convex && angle > kLevel ? EdgeKind::slight
+                                                       : EdgeKind::flat;
       edge_kinds_[a.triangle][a.edge] = edge_kinds_[b.triangle][b.edge] = kind;
       neighbours_[a.triangle][a.edge] = b.triangle;
       neighbours_[b.triangle][b.edge] = a.triangle;

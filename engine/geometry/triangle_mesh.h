@@ -17,11 +17,18 @@ struct Aabb {
   Vec3 upper = Vec3::Constant(-1e300);
 };
 
-/// Whether contact normals may leave the face at this edge: a convex edge may, a flat or concave one must not be felt.
-enum class EdgeKind : std::uint8_t { flat, convex, concave, open };
+/// Whether contact normals may leave the face at this edge: a convex edge may, a flat or concave one must not be felt. slight:
+/// convex, but by so little that flat sides pass over it.
+enum class EdgeKind : std::uint8_t { flat, slight, convex, concave, open };
 
 inline bool felt(EdgeKind kind) {
   return kind == EdgeKind::convex || kind == EdgeKind::open;
+}
+
+/// The point by which a round body reaches farthest goes from face to face with the normal, by its radius of curvature times the
+/// angle, however slight: where it is over neither face only the edge between them is met.
+inline bool felt_by_round(EdgeKind kind) {
+  return felt(kind) || kind == EdgeKind::slight;
 }
 
 /// Immutable after construction. Triangles are counter-clockwise seen from outside.

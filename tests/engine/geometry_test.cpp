@@ -236,6 +236,32 @@ TEST(MeshContact, FallsThroughBetweenNoFacesEdgesAndCornersAtAnyGap) {
   }
 }
 
+TEST(MeshContact, PassesASlightRidgeWithoutACrack) {
+  // A limb's point of support goes over a millimetre for a fifth of a milliradian: over a ridge as slight as those between the
+  // triangles of a bonnet there is a strip in which it stands over neither face.
+  const HyperEllipsoid limb{{0.18, 0.045, 0.045}, 2.5};
+  MeshContactScratch scratch;
+  ContactPoints found;
+  for (const double slope : {1e-15, 1e-12, 1e-10, 1e-9, 1e-8, 1e-6, 1e-4, 4.9e-4, 1e-3}) {
+    const TriangleMesh mesh({{0, -1, 0}, {0, 1, 0}, {1, 0, -slope}, {-1, 0, -slope}}, {{0, 2, 1}, {0, 1, 3}});
+    for (const double depth : {-5e-4, 1e-3, 0.011}) {
+      double before = 0;
+      for (int k = -300; k <= 300; ++k) {
+        const Pose X{{1e-5 * k, 0.013, 0.045 - depth}, Quat::Identity()};
+        contacts_with_mesh(limb, X, mesh, {}, 2e-3, -1, scratch, found);
+        ASSERT_FALSE(found.empty()) << "slope " << slope << ", depth " << depth << ", " << 1e-2 * k << " mm beside the ridge";
+        double gap = 1;
+        for (const SurfaceContact& c : found) gap = std::min(gap, c.gap);
+        EXPECT_NEAR(gap, -depth, 3e-3 * slope + 1e-12);  // the faces fall away by no more
+        if (k > -300) {
+          EXPECT_LE(std::abs(gap - before), 1.01e-5 * slope + 1e-12) << slope << " " << depth << " " << k;
+        }
+        before = gap;
+      }
+    }
+  }
+}
+
 TEST(MeshContact, IsNotFeltThroughTheBodyFromBehind) {
   // a floor, and above the sphere's centre a scrap that faces down, as a fold of a bonnet's edge faces the inside of a car
   std::vector<Vec3> vertices = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {-1, -1, 0.11}, {1, -1, 0.11}, {0, 1, 0.11}};
