@@ -6,7 +6,8 @@
 //           points of both faces project beyond the edge, so that nothing falls between faces and edges at whatever gap
 //   vertex  the same at a corner, for normals in the cone of its edges; looked at where a support point projects beyond an edge's
 //           end
-// Flat and concave edges are never felt, and a convex edge only inside its cone, so a sheet of triangles acts as one surface.
+// Flat and concave edges are never felt, and a convex edge only inside its cone, so a sheet of triangles acts as one surface; a
+// round body feels the slightest convex edge, a flat-sided one only what stands out of the plane.
 //
 // Of a body with flat sides, whose support points jump, an edge is met at the point p where the gauge N is least, with normal
 // -grad N(p) if that lies in the cone; gap from the support function, f(m) = m.(c - p) - h(m), second order in m's error.
