@@ -8,7 +8,7 @@
 //   H_p += X0^T H_c X            f_p += X^T f_c
 // after Featherstone (1983). What is inverted is K, as large as the joint has freedoms, and never the inertia of a light body.
 // A damper C between c and p (3x3 on the relative angular velocity, times the step) adds S_w^T C S_w to K.
-// How bodies answer each other follows from X and D alone: W_ii = D_i + X_i W_pp X_i^T, W_ij = X_i W_pj (made use of in response.h).
+// How bodies answer each other follows from X and D alone: W_ii = D_i + X_i W_pp X_i^T, W_ij = X_i W_pj: see response.h.
 #pragma once
 
 #include <vector>
