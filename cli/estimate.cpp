@@ -19,6 +19,8 @@
 namespace cli {
 namespace {
 
+constexpr double kEnoughToLoad = 200e6;  // [byte] for any scene of the library
+
 namespace fs = std::filesystem;
 
 constexpr double kProbe = 2;      // [s] of the clock spent on simulating
@@ -179,6 +181,17 @@ double parse_bytes(const std::string& option, const std::string& text) {
   if (problem != std::errc() || !(bytes >= 1e6) || !(bytes <= 1e15))
     throw UsageError(fmt::format("{} is \"{}\", must be an amount of memory from 1 MB on, like \"2 GB\"", option, text));
   return bytes;
+}
+
+LoadingLimit::LoadingLimit(double ceiling) {
+  if (ceiling <= 0 || getrlimit(RLIMIT_DATA, &before_) != 0) return;
+  rlimit limit = before_;
+  limit.rlim_cur = std::min(limit.rlim_max, static_cast<rlim_t>(std::max(ceiling, kEnoughToLoad)));
+  held_ = setrlimit(RLIMIT_DATA, &limit) == 0;
+}
+
+LoadingLimit::~LoadingLimit() {
+  if (held_) setrlimit(RLIMIT_DATA, &before_);
 }
 
 void hold_to_memory(const Estimate& estimate, double ceiling, int& workers, bool quiet) {

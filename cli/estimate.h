@@ -1,6 +1,8 @@
 // What a job will cost, before it starts: found by doing a little of it.
 #pragma once
 
+#include <sys/resource.h>
+
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -39,6 +41,21 @@ nlohmann::ordered_json estimate_json(const Estimate&);
 std::string bytes_text(double bytes);
 /// "2 GB", "512 MB", "1.5GiB". Throws UsageError.
 double parse_bytes(const std::string& option, const std::string& text);
+
+/// While it lives, what the scene's author wrote (meshes, pictures) takes no more memory than --max-memory, or than any sound scene
+/// needs where that is less: what the job needs is then told from the estimate, which draws three frames without the limit.
+class LoadingLimit {
+ public:
+  /// [byte]; 0: no limit.
+  explicit LoadingLimit(double ceiling);
+  ~LoadingLimit();
+  LoadingLimit(const LoadingLimit&) = delete;
+  LoadingLimit& operator=(const LoadingLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  bool held_ = false;
+};
 
 /// Holds this process and those it starts to the ceiling; what then does not fit ends with "not enough memory". Before it, throws
 /// UsageError when the estimate says that the job does not fit, and lowers `workers` where fewer drawing processes do.

@@ -128,6 +128,26 @@ void refuse_existing_frames(const FilmPlan& plan) {
 
 }  // namespace
 
+void refuse_existing_files(const FilmPlan& plan) {
+  // what is there may be a part of this very run: looked at when its fingerprint is known
+  const bool replace = plan.job.overwrite || plan.resume;
+  if (plan.job.container == Container::png_sequence && !replace) refuse_existing_frames(plan);
+  if (render::is_video(plan.job.container)) refuse_existing(plan.job.output, replace);
+  for (const double time : plan.stills) refuse_existing(still_file(plan, time), replace);
+}
+
+bool is_frame_of(const render::FilmJob& job, const std::string& name) {
+  return number_in(name, job.output.filename().string()).has_value();
+}
+
+bool is_file_of(const FilmPlan& plan, const std::string& name) {
+  const std::string output = plan.job.output.filename().string();
+  if (plan.job.container == Container::png_sequence) return is_frame_of(plan.job, name);
+  if (render::is_video(plan.job.container)) return name == output || name == output + ".whole";
+  return std::any_of(plan.stills.begin(), plan.stills.end(),
+                     [&](double time) { return still_file(plan, time).filename() == name; });
+}
+
 void look_at_frames(const render::FilmJob& job, const std::function<void(const fs::path&, int)>& look) {
   const fs::path folder = job.output.parent_path();
   std::error_code missing;
@@ -171,11 +191,7 @@ FilmPlan plan_film(const FilmArguments& wish, scenes::Scene& scene) {
   plan.resume = wish.resume;
   plan.whole = wish.frames.empty() && wish.from.empty() && wish.to.empty();
   if (wish.resume && wish.overwrite) throw UsageError("--resume keeps what --overwrite replaces; give one of them");
-  // what is there may be a part of this very run: looked at when its fingerprint is known
-  const bool replace = wish.overwrite || wish.resume;
-  if (plan.job.container == Container::png_sequence && !replace) refuse_existing_frames(plan);
-  if (render::is_video(plan.job.container)) refuse_existing(plan.job.output, replace);
-  for (const double time : plan.stills) refuse_existing(still_file(plan, time), replace);
+  refuse_existing_files(plan);
   // refuses a film too long for its rate
   if (plan.stills.empty()) render::Film(scene.stage, scene.model.settings.duration, plan.job.fps);
   return plan;

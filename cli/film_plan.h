@@ -47,6 +47,14 @@ FilmPlan plan_film(const FilmArguments&, scenes::Scene&);
 /// Makes the folders the film goes into. Throws MachineError when they cannot be written.
 void prepare_output(const FilmPlan&);
 
+/// Throws UsageError when a file of the job is there and may not be replaced.
+void refuse_existing_files(const FilmPlan&);
+
+/// Whether a name is one that the job's pattern makes.
+bool is_frame_of(const render::FilmJob&, const std::string& name);
+/// Whether a name is that of a file the job writes.
+bool is_file_of(const FilmPlan&, const std::string& name);
+
 /// Shows every file that the job's pattern could have made, whoever made it, with its number.
 void look_at_frames(const render::FilmJob&, const std::function<void(const std::filesystem::path&, int number)>& look);
 

@@ -5,10 +5,13 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <string>
+#include <string_view>
 
 #include "cli/exit.h"
 
@@ -53,23 +56,53 @@ void fill_standard_descriptors() {
   }
 }
 
-ssize_t write_message(void*, const char* text, size_t size) {
-  for (size_t sent = 0; sent < size;) {
-    const ssize_t n = ::write(STDERR_FILENO, text + sent, size - sent);
-    if (n <= 0) break;
-    sent += static_cast<size_t>(n);
+/// 0 when all was written.
+int write_all(int to, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t n = ::write(to, text.data(), text.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return errno;
+    text.remove_prefix(static_cast<size_t>(n));
   }
-  return static_cast<ssize_t>(size);
+  return 0;
+}
+
+/// A standard stream as the C library writes to it.
+struct Stream {
+  int descriptor;
+  bool may_fail;          // results that are lost are an error; messages are lost in silence
+  bool after_c2 = false;  // the last byte began one of U+0080 to U+00BF
+};
+Stream results{STDOUT_FILENO, true}, messages{STDERR_FILENO, false};
+
+/// Titles and names are a stranger's: what would move a terminal's cursor, clear it or type into it is shown as a question mark.
+std::string harmless(Stream& stream, std::string_view text) {
+  std::string out(text);
+  for (char& c : out) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7f || (stream.after_c2 && byte >= 0x80 && byte < 0xa0)) c = '?';
+    stream.after_c2 = byte == 0xc2;
+  }
+  return out;
+}
+
+ssize_t write_text(void* cookie, const char* text, size_t size) {
+  Stream& stream = *static_cast<Stream*>(cookie);
+  const int problem = write_all(stream.descriptor, harmless(stream, {text, size}));
+  if (problem == 0 || !stream.may_fail) return static_cast<ssize_t>(size);
+  errno = problem;
+  return 0;
 }
 
 /// Messages that cannot be written are lost, not fatal: a log on a full disk must not cost the film.
-void make_messages_harmless() {
+void take_over_streams() {
   cookie_io_functions_t functions{};
-  functions.write = write_message;
-  if (std::FILE* messages = fopencookie(nullptr, "w", functions)) {
-    std::setvbuf(messages, nullptr, _IONBF, 0);
-    stderr = messages;
+  functions.write = write_text;
+  if (std::FILE* stream = fopencookie(&messages, "w", functions)) {
+    std::setvbuf(stream, nullptr, _IONBF, 0);
+    stderr = stream;
   }
+  if (std::FILE* stream = fopencookie(&results, "w", functions)) stdout = stream;
 }
 
 /// Libraries that promise not to throw run out of memory all the same; then no catch is reached.
@@ -85,25 +118,32 @@ void make_messages_harmless() {
   std::abort();
 }
 
+const char* name_of(int stop) {
+  return stop == SIGINT ? "SIGINT" : stop == SIGHUP ? "SIGHUP" : "SIGTERM";
+}
+
 }  // namespace
 
 Interrupted::Interrupted(int number)
-    : std::runtime_error(fmt::format("stopped by {}; --resume goes on from here", number == SIGINT ? "SIGINT" : "SIGTERM")),
-      signal(number) {}
+    : std::runtime_error(fmt::format("stopped by {}; --resume goes on from here", name_of(number))), signal(number) {}
 
 void prepare_process() {
   std::set_terminate(end_without_memory);
   fill_standard_descriptors();
-  make_messages_harmless();
+  take_over_streams();
   signal(SIGPIPE, SIG_IGN);
   signal(SIGXFSZ, SIG_IGN);
   handle(SIGALRM, end_now);
-  for (const int stop : {SIGINT, SIGTERM}) {
+  for (const int stop : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};
     sigaction(stop, nullptr, &before);
     // who started us with nohup or in the background of a script wants it left alone
     if (before.sa_handler != SIG_IGN) handle(stop, note);
   }
+}
+
+void write_to_terminal(const std::string& text) {
+  write_all(STDERR_FILENO, text);
 }
 
 bool interrupted() {

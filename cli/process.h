@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace cli {
 
@@ -12,9 +13,13 @@ struct Interrupted : std::runtime_error {
 };
 
 /// To be called first. Nothing printed can end up in an output file or end the program, whatever was closed before it was started;
-/// a full disk, a file-size limit or a reader that went away is an error of the call that met it; SIGINT and SIGTERM are noted for
-/// the functions below.
+/// control characters of a scene's texts are shown as question marks;
+/// a full disk, a file-size limit or a reader that went away is an error of the call that met it; SIGINT, SIGTERM and SIGHUP are
+/// noted for the functions below.
 void prepare_process();
+
+/// Our own moves of the cursor, past what makes texts harmless. Lost where it cannot be written.
+void write_to_terminal(const std::string&);
 
 /// Whether a signal asked to stop. Cheap: for loops.
 bool interrupted();

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "cli/process.h"
+
 namespace cli {
 namespace {
 
@@ -73,8 +75,7 @@ void Progress::write(double done, double now) {
   const int full = static_cast<int>(kBarWidth * (total_ > 0 ? std::clamp(done / total_, 0.0, 1.0) : 1.0));
   const std::string bar = std::string(full, '#') + std::string(kBarWidth - full, '.');
   // back to the start of the line and clear it, so that a shorter line leaves nothing behind
-  fmt::print(stderr, "\r\x1b[K{} [{}{}{}] {}", verb_, colour_ ? "\x1b[32m" : "", bar, colour_ ? "\x1b[0m" : "", text);
-  std::fflush(stderr);
+  write_to_terminal(fmt::format("\r\x1b[K{} [{}{}{}] {}", verb_, colour_ ? "\x1b[32m" : "", bar, colour_ ? "\x1b[0m" : "", text));
 }
 
 }  // namespace cli

@@ -1,8 +1,10 @@
 #include "cli/resume.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 
 #include "cli/exit.h"
 #include "render/error.h"
@@ -46,14 +48,15 @@ std::vector<fs::path> surplus(const render::Film& film, const render::FilmJob& j
   return out;
 }
 
-bool is_ours(const fs::path& picture) {
+/// The fingerprint of a picture this program made; empty of any other file.
+std::string fingerprint_of(const fs::path& picture) {
   render::TextChunks chunks;
   try {
-    render::read_png(picture, &chunks);
+    chunks = render::read_png_text(picture);
   } catch (const render::RenderError&) {
-    return false;
+    return "";
   }
-  return value_of(chunks, "version").starts_with("crashreel ") && !value_of(chunks, "fingerprint").empty();
+  return value_of(chunks, "version").starts_with("crashreel ") ? value_of(chunks, "fingerprint") : "";
 }
 
 }  // namespace
@@ -84,9 +87,22 @@ render::Film unfinished(const render::Film& film, const render::FilmJob& job) {
 void remove_surplus(const render::Film& film, const render::FilmJob& job, bool quiet) {
   for (const fs::path& file : surplus(film, job)) {
     std::error_code problem;
-    if (is_ours(file) && fs::remove(file, problem)) continue;
+    if (!fingerprint_of(file).empty() && fs::remove(file, problem)) continue;
     if (!quiet) fmt::print(stderr, "crashreel: warning: {} is no frame of this film; it was left among them\n", file.string());
   }
+}
+
+void remove_frames(const render::FilmJob& frames, bool quiet) {
+  const fs::path folder = frames.output.parent_path();
+  std::vector<fs::path> own;
+  look_at_frames(frames, [&](const fs::path& file, int number) {
+    if (file == render::frame_path(frames, number) && fingerprint_of(file) == frames.metadata.at("fingerprint"))
+      own.push_back(file);
+  });
+  std::error_code problem;
+  for (const fs::path& file : own) fs::remove(file, problem);
+  if (rmdir(folder.c_str()) != 0 && errno == ENOTEMPTY && !quiet)
+    fmt::print(stderr, "crashreel: warning: {} holds files that are no frames of this film; it was left\n", folder.string());
 }
 
 void refuse_surplus(const render::Film& film, const render::FilmJob& job) {

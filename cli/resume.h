@@ -15,6 +15,9 @@ bool is_finished(const std::filesystem::path& picture, const render::Moment&, co
 /// The film without the frames that are finished.
 render::Film unfinished(const render::Film&, const render::FilmJob&);
 
+/// The frames a film was made of, where they have this job's fingerprint, and their folder; what else lies there is left and told.
+void remove_frames(const render::FilmJob& frames, bool quiet);
+
 /// Frames of an earlier, longer run, which would go on where a whole film replaces it: those this program made are removed, others
 /// are told of and left.
 void remove_surplus(const render::Film&, const render::FilmJob&, bool quiet);

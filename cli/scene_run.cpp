@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cli/estimate.h"
 #include "cli/exit.h"
 #include "cli/process.h"
 #include "engine/simulate.h"
@@ -37,9 +38,14 @@ void tell_costs(const engine::Recording& recording) {
 
 }  // namespace
 
+void declare_allow(Arguments& arguments, std::vector<std::string>& allow) {
+  arguments.repeatable("--allow", allow, "DIR", "let the scene name meshes and pictures below this folder too");
+}
+
 void declare_scene_file(Arguments& arguments, SceneArguments& scene) {
   arguments.positional("SCENE", scene.scene, "scene file (TOML)");
   arguments.repeatable("--set", scene.set, "PATH=VALUE", "change a value of the scene: --set vehicle.sedan.speed=\"50 km/h\"");
+  declare_allow(arguments, scene.allow);
   arguments.flag("--json", scene.json, "print the result as JSON");
   arguments.flag("-q,--quiet", scene.quiet, "no progress, no warnings");
   arguments.flag("-v,--verbose", scene.verbose, "tell the effects of the run and what each cost");
@@ -60,10 +66,11 @@ ShowProgress progress_of(const SceneArguments& scene) {
   return scene.progress == "always" ? ShowProgress::always : ShowProgress::automatic;
 }
 
-scenes::Scene load_scene(const SceneArguments& wish) {
+scenes::Scene load_scene(const SceneArguments& wish, double memory_ceiling) {
   std::vector<std::string> overrides = wish.set;
   for (const std::string& effect : wish.effects) overrides.push_back(as_override(effect));
-  scenes::Scene scene = scenes::load(wish.scene, overrides);
+  const LoadingLimit limit(memory_ceiling);
+  scenes::Scene scene = scenes::load(scenes::read_scene_file(wish.scene, {wish.allow.begin(), wish.allow.end()}), overrides);
   if (!wish.quiet) {
     for (const std::string& warning : scene.warnings) fmt::print(stderr, "{}\n", warning);
   }

@@ -16,13 +16,16 @@ struct SceneArguments {
   std::string scene;
   std::vector<std::string> set;      // path.to.key=value
   std::vector<std::string> effects;  // name=on|off|auto
+  std::vector<std::string> allow;    // folders
   std::string progress = "auto";
   bool quiet = false;
   bool verbose = false;
   bool json = false;
 };
 
-/// SCENE, --set, --json, --quiet, --verbose.
+/// --allow, which every command that reads scenes has.
+void declare_allow(Arguments&, std::vector<std::string>& allow);
+/// SCENE, --set, --allow, --json, --quiet, --verbose.
 void declare_scene_file(Arguments&, SceneArguments&);
 /// The same, and --effects NAME=on|off|auto.
 void declare_scene(Arguments&, SceneArguments&);
@@ -31,7 +34,8 @@ void declare_progress(Arguments&, SceneArguments&);
 ShowProgress progress_of(const SceneArguments&);
 
 /// Loads the scene, tells its warnings, and puts program version and forced effects where every picture shows them.
-scenes::Scene load_scene(const SceneArguments&);
+/// With a ceiling [byte] no file that the scene names takes more memory than that while it is read.
+scenes::Scene load_scene(const SceneArguments&, double memory_ceiling = 0);
 
 /// The plan of a loaded scene. Throws UsageError for an effect that does not exist.
 engine::Plan plan_of(const scenes::Scene&);

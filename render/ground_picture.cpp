@@ -9,6 +9,8 @@
 namespace render {
 namespace {
 
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26;  // 8192 x 8192: 600 MB while it is read
+
 std::int32_t mean_of(const GroundPicture::Level& l, int x, int y) {
   std::uint32_t out = 0;
   for (int shift = 0; shift < 32; shift += 8) {
@@ -28,19 +30,22 @@ std::int32_t mean_of(const GroundPicture::Level& l, int x, int y) {
 }  // namespace
 
 std::shared_ptr<const GroundPicture> read_ground_picture(const std::filesystem::path& file, std::string& problem) try {
-  const Image image = read_png(file);
+  Image image = read_png(file, nullptr, kMostPixels);
   auto out = std::make_shared<GroundPicture>();
   GroundPicture::Level level{image.width, image.height, {}};
+  level.texels.reserve(image.rgba.size() / 4);
   for (int y = image.height - 1; y >= 0; --y)
     for (int x = 0; x < image.width; ++x) {
       const std::uint8_t* p =
           &image.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x))];
       level.texels.push_back(static_cast<std::int32_t>(p[0] | p[1] << 8 | p[2] << 16 | static_cast<std::uint32_t>(p[3]) << 24));
     }
+  image = {};
   out->levels.push_back(std::move(level));
   while (out->levels.back().width > 1 || out->levels.back().height > 1) {
     const GroundPicture::Level& last = out->levels.back();
     GroundPicture::Level next{(last.width + 1) / 2, (last.height + 1) / 2, {}};
+    next.texels.reserve(static_cast<std::size_t>(next.width) * static_cast<std::size_t>(next.height));
     for (int y = 0; y < next.height; ++y)
       for (int x = 0; x < next.width; ++x) next.texels.push_back(mean_of(last, 2 * x, 2 * y));
     out->levels.push_back(std::move(next));

@@ -50,8 +50,18 @@ struct SnapshotTest {
   std::vector<Expectation> expectations;
 };
 
+/// A scene file as it was when it was read: what is hashed is what was parsed, also of a pipe and of a file saved meanwhile.
+struct SceneFile {
+  std::filesystem::path path;
+  std::string text;
+  std::vector<std::filesystem::path> allowed;  // folders, besides its own and the program's, whose meshes and pictures it may name
+};
+/// Throws SceneErrors where it cannot be read.
+SceneFile read_scene_file(const std::filesystem::path&, std::vector<std::filesystem::path> allowed = {});
+
 struct Scene {
   std::string title;
+  SceneFile file;
   std::filesystem::path path;
   std::string sha256;                  // of the file's bytes and the overrides
   std::string assets_sha256;           // of the library files and meshes it read
@@ -70,6 +80,7 @@ struct ImportedMesh;
 using MeshShelf = std::map<std::string, std::shared_ptr<const ImportedMesh>>;
 
 /// Reads, checks and completes a scene. Overrides are applied before checking. Throws SceneErrors with everything found.
+Scene load(const SceneFile&, const std::vector<std::string>& overrides = {}, MeshShelf* shelf = nullptr);
 Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides = {}, MeshShelf* shelf = nullptr);
 
 /// JSON Schema (draft 2020-12) of the scene format, from the table the loader reads.

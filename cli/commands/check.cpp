@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/exit.h"
+#include "cli/scene_run.h"
 #include "scenes/scene.h"
 
 namespace cli {
@@ -14,6 +15,7 @@ namespace {
 struct CheckWish {
   std::vector<std::string> scenes;
   std::vector<std::string> set;
+  std::vector<std::string> allow;
   bool json = false;
   bool quiet = false;
 };
@@ -24,9 +26,9 @@ struct Verdict {
   std::vector<std::string> warnings;
 };
 
-Verdict verdict_of(const std::string& file, const std::vector<std::string>& overrides) {
+Verdict verdict_of(const std::string& file, const CheckWish& wish) {
   try {
-    return {file, {}, scenes::load(file, overrides).warnings};
+    return {file, {}, scenes::load(scenes::read_scene_file(file, {wish.allow.begin(), wish.allow.end()}), wish.set).warnings};
   } catch (const scenes::SceneErrors& found) {
     return {file, found.lines, {}};
   }
@@ -36,7 +38,7 @@ int check(const CheckWish& wish) {
   bool all_good = true;
   nlohmann::ordered_json verdicts = nlohmann::ordered_json::array();
   for (const std::string& file : wish.scenes) {
-    const Verdict verdict = verdict_of(file, wish.set);
+    const Verdict verdict = verdict_of(file, wish);
     const bool good = verdict.errors.empty();
     all_good = all_good && good;
     verdicts.push_back({{"scene", file}, {"ok", good}, {"errors", verdict.errors}, {"warnings", verdict.warnings}});
@@ -57,6 +59,7 @@ std::function<int()> declare_check(Arguments& arguments) {
   const auto wish = std::make_shared<CheckWish>();
   arguments.positionals("SCENE", wish->scenes, "scene files (TOML)");
   arguments.repeatable("--set", wish->set, "PATH=VALUE", "change a value of every scene before checking");
+  declare_allow(arguments, wish->allow);
   arguments.flag("--json", wish->json, "print the verdicts as JSON");
   arguments.flag("-q,--quiet", wish->quiet, "errors only");
   return [wish] { return check(*wish); };

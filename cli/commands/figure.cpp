@@ -8,6 +8,7 @@
 #include "cli/apart.h"
 #include "cli/command.h"
 #include "cli/exit.h"
+#include "cli/output/lock.h"
 #include "cli/output/whole_file.h"
 #include "cli/parse.h"
 #include "cli/scene_run.h"
@@ -33,6 +34,15 @@ struct Figure {
 constexpr Figure kFigures[] = {{"site_diagram", render::site_diagram},       {"contact_map", render::contact_map},
                                {"time_histories", render::time_histories},   {"vehicle_histories", render::vehicle_histories},
                                {"stroboscopic", render::stroboscopic_still}, {"contact_sheet", render::contact_sheet}};
+
+constexpr const char* kExtensions[] = {".pdf", ".svg", ".png"};
+
+bool is_a_figure(const std::string& name) {
+  for (const Figure& figure : kFigures)
+    for (const char* extension : kExtensions)
+      if (name == std::string(figure.name) + extension) return true;
+  return false;
+}
 
 /// Last time a vehicle pushed the person before it landed, as the measures take it.
 std::optional<double> released(const engine::Model& model, const engine::Recording& recording, int person, double landed) {
@@ -86,10 +96,10 @@ int draw_figures(const FigureWish& wish) {
                   {"version", fmt::format("crashreel {}", CRASHREEL_VERSION)},
                   {"scene", scene.path.filename().string()},
                   {"scene_sha256", scene.sha256}};
-  for (const Figure& figure : kFigures)
-    for (const char* extension : {".pdf", ".svg", ".png"})
-      refuse_existing(job.folder / (std::string(figure.name) + extension), wish.overwrite);
   make_writable_folder(job.folder);
+  const OutputLock lock(job.folder / "figures", is_a_figure);
+  for (const Figure& figure : kFigures)
+    for (const char* extension : kExtensions) refuse_existing(job.folder / (std::string(figure.name) + extension), wish.overwrite);
 
   const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
   if (recording.failure) scene.stage.warnings.push_back(fmt::format("the model diverged at {:.3f} s", recording.failure->time));

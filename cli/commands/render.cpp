@@ -94,14 +94,18 @@ render::FilmCost draw_frames(const render::Film& film, const render::FilmJob& jo
 render::FilmCost draw_film_by_frames(const render::Film& film, const FilmPlan& plan, const render::Stage& stage,
                                      const engine::Recording& recording, ShowProgress show) {
   const render::FilmJob frames = frames_job(plan.job);
+  const auto clear = [&frames] {
+    clear_parts(frames.output.parent_path(), [&frames](const std::string& name) { return is_frame_of(frames, name); });
+  };
+  clear();
   render::FilmCost cost;
   if (!film_is_finished(plan.job)) {
     make_writable_folder(frames.output.parent_path());
     cost = draw_frames(unfinished(film, frames), frames, stage, recording, show);
     render::join_film(stage, recording, film, frames, plan.job);
   }
-  std::error_code kept;
-  std::filesystem::remove_all(frames.output.parent_path(), kept);
+  clear();  // of workers that died
+  remove_frames(frames, show == ShowProgress::never);
   return cost;
 }
 
@@ -124,7 +128,8 @@ Drawn draw_film(const FilmPlan& plan, const render::Stage& stage, const engine::
 
 int render_scene(const RenderWish& wish, const Arguments& arguments) {
   const double start = clock_seconds();
-  scenes::Scene scene = load_scene(wish.scene);
+  const double ceiling = wish.max_memory.empty() ? 0 : parse_bytes("--max-memory", wish.max_memory);
+  scenes::Scene scene = load_scene(wish.scene, ceiling);
   if (wish.list_cameras) {
     list_cameras(scene, wish.scene.json);
     return kDone;
@@ -132,17 +137,16 @@ int render_scene(const RenderWish& wish, const Arguments& arguments) {
   // what cannot be drawn or written is told before the work, not after it
   FilmPlan plan = plan_film(wish.film, scene);
   const bool video = render::is_video(plan.job.container) && plan.stills.empty();
-  plan.job.metadata["fingerprint"] = fingerprint(video ? ResultKind::whole : ResultKind::frame, scene, arguments);
   plan.job.look_around = check_interrupted;
   if (wish.dry_run) return tell_estimate(scene, plan, wish.scene.json);
-  if (!wish.max_memory.empty()) {
-    const double ceiling = parse_bytes("--max-memory", wish.max_memory);
-    hold_to_memory(estimate_film(scene, plan_of(scene), plan), ceiling, plan.job.workers, wish.scene.quiet);
-  }
+  if (ceiling > 0) hold_to_memory(estimate_film(scene, plan_of(scene), plan), ceiling, plan.job.workers, wish.scene.quiet);
   prepare_output(plan);
-  const OutputLock lock(plan.job.output);
+  const OutputLock lock(plan.job.output, [&plan](const std::string& name) { return is_file_of(plan, name); });
+  refuse_existing_files(plan);  // another run may have held the lock, and be done
 
   const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
+  plan.job.metadata["fingerprint"] =
+      fingerprint(video ? ResultKind::whole : ResultKind::frame, scene, arguments, engine::hash(recording));
   if (recording.failure) scene.stage.warnings.push_back(fmt::format("the model diverged at {:.3f} s", recording.failure->time));
   const Drawn drawn = plan.stills.empty() ? draw_film(plan, scene.stage, recording, progress_of(wish.scene))
                                           : draw_stills(plan, scene.stage, recording);

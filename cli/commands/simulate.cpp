@@ -1,10 +1,12 @@
 // crashreel simulate SCENE -o DIR: trajectory.csv, contacts.csv, summary.json.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/command.h"
 #include "cli/estimate.h"
@@ -30,16 +32,20 @@ struct SimulateWish {
 
 constexpr const char* kFiles[] = {"trajectory.csv", "contacts.csv", "summary.json"};
 
-/// Whether the folder holds the whole result of this run: the summary gets its name last.
-bool is_finished(const std::filesystem::path& folder, const std::string& mark) {
+/// The summary of the whole result of this run, where the folder holds it: the summary gets its name last.
+std::optional<nlohmann::ordered_json> finished(const std::filesystem::path& folder, const std::string& mark) {
   std::ifstream file(folder / "summary.json");
-  if (!file) return false;
-  const auto found = nlohmann::json::parse(file, nullptr, false);
-  if (found.is_object() && found.value("fingerprint", nlohmann::json()) == mark) return true;
-  throw UsageError(
-      fmt::format("{} was not made by this scene with these assets, options and version; give --overwrite in place of "
-                  "--resume, or another -o",
-                  (folder / "summary.json").string()));
+  if (!file) return std::nullopt;
+  auto found = nlohmann::ordered_json::parse(file, nullptr, false);
+  if (!found.is_object() || found.value("fingerprint", nlohmann::ordered_json()) != mark)
+    throw UsageError(
+        fmt::format("{} was not made by this scene with these assets, options and version; give --overwrite in place of "
+                    "--resume, or another -o",
+                    (folder / "summary.json").string()));
+  std::error_code missing;
+  for (const char* name : kFiles)
+    if (!std::filesystem::is_regular_file(folder / name, missing)) return std::nullopt;
+  return found;
 }
 
 int tell_estimate(const scenes::Scene& scene, const SimulateWish& wish) {
@@ -53,23 +59,29 @@ int tell_estimate(const scenes::Scene& scene, const SimulateWish& wish) {
 
 int simulate(const SimulateWish& wish, const Arguments& arguments) {
   // what cannot be written is told before the work, not after it
-  const scenes::Scene scene = load_scene(wish.scene);
+  const double ceiling = wish.max_memory.empty() ? 0 : parse_bytes("--max-memory", wish.max_memory);
+  const scenes::Scene scene = load_scene(wish.scene, ceiling);
   const std::filesystem::path folder = wish.folder;
   if (wish.dry_run) return tell_estimate(scene, wish);
   make_writable_folder(folder);
   if (wish.resume && wish.overwrite) throw UsageError("--resume keeps what --overwrite replaces; give one of them");
+  const OutputLock lock(folder / kFiles[2], [](const std::string& name) {
+    return std::find(std::begin(kFiles), std::end(kFiles), name) != std::end(kFiles);
+  });
   for (const char* name : kFiles) refuse_existing(folder / name, wish.overwrite || wish.resume);
-  const OutputLock lock(folder / kFiles[2]);
   const std::string mark = fingerprint(ResultKind::whole, scene, arguments);
-  if (wish.resume && is_finished(folder, mark)) {
-    fmt::print("{}: finished before\n", folder.string());
-    return kDone;
+  if (wish.resume) {
+    if (const auto summary = finished(folder, mark)) {
+      if (wish.scene.json)
+        fmt::print("{}\n", summary->dump(2));
+      else
+        fmt::print("{}: finished before\n", folder.string());
+      return kDone;
+    }
   }
 
-  if (!wish.max_memory.empty()) {
-    int none = 0;
-    hold_to_memory(estimate_results(scene, plan_of(scene)), parse_bytes("--max-memory", wish.max_memory), none, wish.scene.quiet);
-  }
+  int no_workers = 0;
+  if (ceiling > 0) hold_to_memory(estimate_results(scene, plan_of(scene)), ceiling, no_workers, wish.scene.quiet);
   const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene, Costs::timed);
   const std::vector<engine::Metric> metrics = engine::measure(scene.model, recording);
   nlohmann::ordered_json summary = summary_json(scene, recording, metrics);

@@ -10,9 +10,11 @@
 
 #include "cli/command.h"
 #include "cli/exit.h"
+#include "cli/output/lock.h"
 #include "cli/output/whole_file.h"
 #include "cli/parse.h"
 #include "cli/progress.h"
+#include "cli/scene_run.h"
 #include "cli/snapshot/baselines.h"
 #include "cli/snapshot/check.h"
 #include "cli/snapshot/report.h"
@@ -31,6 +33,7 @@ struct SnapshotWish {
   std::string report = "snapshot-report";
   bool update = false;
   std::vector<std::string> names;
+  std::vector<std::string> allow;
   std::string jobs;
   bool json = false;
   bool quiet = false;
@@ -105,7 +108,9 @@ int snapshot(const SnapshotWish& wish) {
   job.root = fs::is_directory(root) ? root : root.has_parent_path() ? root.parent_path() : fs::path(".");
   job.report = wish.report;
   job.only = wish.names;
+  job.allow.assign(wish.allow.begin(), wish.allow.end());
   job.workers = wish.jobs.empty() ? 0 : parse_integer("--jobs", wish.jobs, 1, 256);
+  const OutputLock lock(wish.report);
   prepare_report(wish.report);
 
   const double start = clock_seconds();
@@ -143,6 +148,7 @@ std::function<int()> declare_snapshot(Arguments& arguments) {
   arguments.option("--report", wish->report, "OUT",
                    "folder for report.html, junit.xml, report.json and pictures; default: snapshot-report");
   arguments.option("-j,--jobs", wish->jobs, "N", "scenes at once, each in a process; default: one a core");
+  declare_allow(arguments, wish->allow);
   arguments.flag("--json", wish->json, "print report.json");
   arguments.flag("-q,--quiet", wish->quiet, "no progress");
   return [wish] { return snapshot(*wish); };

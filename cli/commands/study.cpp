@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/exit.h"
+#include "cli/output/lock.h"
 #include "cli/output/whole_file.h"
 #include "cli/parse.h"
 #include "cli/scene_run.h"
@@ -100,6 +101,11 @@ int run(const StudyWish& wish) {
   if (!wish.target.empty()) study::parse_target(wish.target);  // refused before the work, not after it
   if (wish.effects && wish.picture) throw UsageError("--effects and --picture are studies of their own; give one of them");
   make_writable_folder(run.folder);
+  // one for all kinds of study: they share DIR/runs
+  const OutputLock lock(run.folder / "study", [](const std::string& name) {
+    return name.starts_with("study.") || name.starts_with("effects.") || name.starts_with("picture.");
+  });
+  clear_parts(run.folder / "runs", [](const std::string& name) { return name.ends_with(".json"); });
   refuse_existing_report(wish, wish.effects ? "effects" : wish.picture ? "picture" : "study");
   Report report = wish.effects ? of_effects(scene, run) : wish.picture ? of_picture(wish, scene) : of_accuracy(wish, scene, run);
   report.json["warnings"] = scene.stage.warnings;

@@ -1,5 +1,7 @@
 #include "cli/output/fingerprint.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -10,9 +12,9 @@ namespace cli {
 namespace {
 
 /// Options that say where, how fast and how loud; --set and --effects stand in the scene's own hash.
-constexpr std::array<std::string_view, 14> kIndifferent{"--output",  "--jobs",    "--overwrite",    "--resume",  "--quiet",
+constexpr std::array<std::string_view, 15> kIndifferent{"--output",  "--jobs",    "--overwrite",    "--resume",  "--quiet",
                                                         "--verbose", "--json",    "--progress",     "--dry-run", "--max-memory",
-                                                        "--set",     "--effects", "--list-cameras", "--timings"};
+                                                        "--set",     "--effects", "--list-cameras", "--timings", "--allow"};
 /// Options that choose among the frames of a film.
 constexpr std::array<std::string_view, 4> kChoosing{"--from", "--to", "--frames", "--at"};
 
@@ -22,8 +24,10 @@ bool among(const auto& names, const std::string& name) {
 
 }  // namespace
 
-std::string fingerprint(ResultKind kind, const scenes::Scene& scene, const Arguments& arguments) {
+std::string fingerprint(ResultKind kind, const scenes::Scene& scene, const Arguments& arguments,
+                        std::optional<std::uint64_t> recording) {
   std::string all = CRASHREEL_VERSION "\n" CRASHREEL_LIBRARIES "\n" + scene.sha256 + "\n" + scene.assets_sha256 + "\n";
+  if (recording) all += fmt::format("{:016x}\n", *recording);
   for (const auto& [name, value] : arguments.given()) {
     if (among(kIndifferent, name) || (kind == ResultKind::frame && among(kChoosing, name))) continue;
     all += name + '\0' + value + '\0';

@@ -8,7 +8,6 @@
 #include <system_error>
 
 #include "cli/exit.h"
-#include "render/publish.h"
 
 namespace cli {
 
@@ -28,19 +27,17 @@ void make_writable_folder(const fs::path& folder) {
 void refuse_existing(const fs::path& file, bool overwrite) {
   std::error_code problem;
   if (fs::is_directory(file, problem)) throw UsageError(fmt::format("{} is a folder; name a file", file.string()));
+  if (fs::exists(file, problem) && !fs::is_regular_file(file, problem))
+    throw UsageError(fmt::format("{} is a device or a pipe; name a file", file.string()));
   if (!overwrite && fs::exists(file, problem)) {
     throw UsageError(fmt::format("{} exists; give --overwrite to replace it, or another -o", file.string()));
   }
 }
 
-WholeFile::WholeFile(fs::path file) : file_(std::move(file)), part_(file_.string() + ".part") {
-  stream_ = std::fopen(part_.c_str(), "wb");
-  if (stream_ == nullptr) fail("opening");
-}
+WholeFile::WholeFile(fs::path file) : file_(file), part_(std::move(file)), stream_(part_.stream()) {}
 
 WholeFile::~WholeFile() {
   if (stream_ != nullptr) std::fclose(stream_);
-  if (!published_) std::remove(part_.c_str());
 }
 
 void WholeFile::write(std::string_view text) {
@@ -54,8 +51,7 @@ void WholeFile::close() {
 }
 
 void WholeFile::publish() {
-  render::publish(part_, file_);
-  published_ = true;
+  part_.publish();
 }
 
 void WholeFile::fail(const char* doing) const {

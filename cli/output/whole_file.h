@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "render/publish.h"
+
 namespace cli {
 
 /// Throws MachineError when `folder` is missing or cannot be written; creates it first where only its last part is missing.
@@ -14,7 +16,7 @@ void refuse_existing(const std::filesystem::path& file, bool overwrite);
 
 class WholeFile {
  public:
-  /// Opens FILE.part. Throws MachineError.
+  /// Makes its part. Throws RenderError.
   explicit WholeFile(std::filesystem::path file);
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
@@ -30,9 +32,8 @@ class WholeFile {
   [[noreturn]] void fail(const char* doing) const;
 
   std::filesystem::path file_;
-  std::filesystem::path part_;
+  render::PartFile part_;
   std::FILE* stream_ = nullptr;
-  bool published_ = false;
 };
 
 /// A file of this text and nothing else, whole or not at all.

@@ -17,7 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFolder = "snapshots";
-constexpr const char* kList = "list.txt";
 
 bool wants_a_test(const fs::path& file) {
   try {

@@ -28,6 +28,8 @@ std::vector<Still> stills_of(const scenes::Scene&);
 
 std::filesystem::path baseline_folder(const std::filesystem::path& scene);
 
+constexpr const char* kList = "list.txt";
+
 /// The names in a folder's list.txt; none without one.
 std::set<std::string> listed(const std::filesystem::path& folder);
 void write_list(const std::filesystem::path& folder, const std::set<std::string>&);

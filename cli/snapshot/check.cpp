@@ -38,7 +38,7 @@ Json check_scene(const fs::path& file, const CheckJob& job) {
               {"names", Json::array()},     {"errors", Json::array()},
               {"pictures", Json::array()},  {"measures", Json::array()}};
   try {
-    scenes::Scene scene = scenes::load(file);
+    scenes::Scene scene = scenes::load(scenes::read_scene_file(file, job.allow));
     out["title"] = scene.title;
     std::vector<Still> stills = stills_of(scene);
     for (const Still& still : stills) out["names"].push_back(still.name);

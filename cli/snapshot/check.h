@@ -10,10 +10,11 @@
 namespace cli {
 
 struct CheckJob {
-  std::filesystem::path root;     // names of scenes are told from here
-  std::filesystem::path report;   // its folder `pictures` gets what is to be looked at
-  std::vector<std::string> only;  // patterns of scene or picture names (* and ?); empty: everything
-  int workers = 0;                // 0: one a core
+  std::filesystem::path root;                // names of scenes are told from here
+  std::filesystem::path report;              // its folder `pictures` gets what is to be looked at
+  std::vector<std::string> only;             // patterns of scene or picture names (* and ?); empty: everything
+  std::vector<std::filesystem::path> allow;  // folders besides the scenes' own whose meshes and pictures these may name
+  int workers = 0;                           // 0: one a core
 };
 
 /// What was found of one scene; these keys are those of report.json:

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cli/exit.h"
+#include "cli/output/lock.h"
 #include "cli/output/whole_file.h"
 #include "cli/snapshot/baselines.h"
 #include "cli/snapshot/check.h"
@@ -34,6 +35,7 @@ class Asker {
 };
 
 void relist(const fs::path& folder, const std::string& name, bool is_kept) {
+  const OutputLock lock(folder / kList);  // others may update other pictures of the folder
   std::set<std::string> names = listed(folder);
   if (is_kept ? names.insert(name).second : names.erase(name) > 0) write_list(folder, names);
 }
@@ -48,6 +50,7 @@ std::string question_about(const Json& picture, const fs::path& folder) {
 void accept(Json& picture, const fs::path& folder) {
   const fs::path baseline = picture["baseline"].get<std::string>();
   make_writable_folder(baseline.parent_path());
+  const OutputLock lock(baseline);
   // written anew: the file of the report may be deleted, edited or half of a full disk
   render::write_png(baseline, render::read_png(folder / picture["actual"].get<std::string>()), {}, render::PngEffort::small);
   relist(baseline.parent_path(), picture["name"], true);

@@ -22,9 +22,9 @@ struct Batch {
   void add(const scenes::Scene& scene, const Setting& setting, double cost) {
     std::vector<std::string> overrides = scene.overrides;
     for (const std::string& text : runs_with(setting)) overrides.push_back(text);
-    const scenes::Scene loaded = scenes::load(scene.path, overrides, meshes.get());
+    const scenes::Scene loaded = scenes::load(scene.file, overrides, meshes.get());
     for (int member = 0; member <= setting.members; ++member) {
-      Trial trial{scene.path, overrides, member, cost, timed, "", meshes};
+      Trial trial{scene.file, overrides, member, cost, timed, "", loaded.assets_sha256, meshes};
       trial.fingerprint = fingerprint_of(trial, loaded, program);
       trials.push_back(std::move(trial));
     }
@@ -69,7 +69,7 @@ bool accepted(const scenes::Scene& scene, const std::vector<std::string>& overri
   std::vector<std::string> all = scene.overrides;
   all.insert(all.end(), overrides.begin(), overrides.end());
   try {
-    scenes::load(scene.path, all);
+    scenes::load(scene.file, all);
     return true;
   } catch (const scenes::SceneErrors&) {
     return false;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli/exit.h"
 #include "cli/output/whole_file.h"
 #include "cli/progress.h"
 #include "cli/study/instructions.h"
@@ -48,6 +49,8 @@ std::string fingerprint_of(const Trial& trial, const scenes::Scene& scene, const
 
 Outcome run(const Trial& trial) {
   scenes::Scene scene = scenes::load(trial.scene, trial.overrides, trial.meshes.get());
+  if (trial.assets != scene.assets_sha256)
+    throw MachineError(fmt::format("a file that {} names was changed while the study ran", trial.scene.path.string()));
   perturb(scene.model, trial.member);
   const engine::Plan plan = engine::compile(scene.model);
   InstructionCounter counter;

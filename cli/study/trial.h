@@ -13,12 +13,13 @@
 namespace cli::study {
 
 struct Trial {
-  std::filesystem::path scene;
+  scenes::SceneFile scene;
   std::vector<std::string> overrides;
   int member = 0;                                       // of the ensemble; 0: as it is
   double cost = 1;                                      // expected, in any unit: long trials go first
   bool timed = true;                                    // repeated until its time is known
   std::string fingerprint;                              // of scene, overrides, member and program
+  std::string assets;                                   // hash of the files the scene read when that was made
   std::shared_ptr<scenes::MeshShelf> meshes = nullptr;  // of all trials of a study
 };
 

@@ -68,20 +68,20 @@ void check(cairo_status_t status, const std::filesystem::path& file) {
     throw RenderError(fmt::format("writing the figure {}: {}", file.string(), cairo_status_to_string(status)));
 }
 
-/// Draws into FILE.part and gives it its name when it is whole.
+/// Draws into a part of the file and gives it its name when it is whole.
 template <typename Make, typename Finish>
 std::string write(const Page& page, const std::filesystem::path& file, double scale, const Make& make, const Finish& finish) {
-  const std::filesystem::path part = file.string() + ".part";
+  PartFile part(file);
   {
-    const SurfacePtr surface(make(part.c_str()));
+    const SurfacePtr surface(make(part.path().c_str()));
     check(cairo_surface_status(surface.get()), file);
     const CairoPtr cairo(cairo_create(surface.get()));
     cairo_scale(cairo.get(), scale, scale);
     draw(page, cairo.get());
     check(cairo_status(cairo.get()), file);
-    check(finish(surface.get(), part.c_str()), file);
+    check(finish(surface.get(), part.path().c_str()), file);
   }
-  publish(part, file);
+  part.publish();
   return file.string();
 }
 

@@ -15,7 +15,10 @@ namespace {
 
 constexpr double kPoint = 72 / 25.4;  // points a millimetre
 
-void write_one(cairo_surface_t* surface, const std::filesystem::path& file, const std::function<void(cairo_t*)>& draw) {
+template <class Make>
+void write_one(const Make& make, const std::filesystem::path& file, const std::function<void(cairo_t*)>& draw) {
+  PartFile part(file);
+  cairo_surface_t* surface = make(part.path().c_str(), kSheetWidth * kPoint, kSheetHeight * kPoint);
   cairo_t* c = cairo_create(surface);
   cairo_scale(c, kPoint, kPoint);
   cairo_select_font_face(c, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
@@ -27,7 +30,7 @@ void write_one(cairo_surface_t* surface, const std::filesystem::path& file, cons
   const cairo_status_t status = cairo_surface_status(surface);
   cairo_surface_destroy(surface);
   if (status != CAIRO_STATUS_SUCCESS) throw RenderError("cannot write " + file.string() + ": " + cairo_status_to_string(status));
-  publish(file.string() + ".part", file);
+  part.publish();
 }
 
 }  // namespace
@@ -36,11 +39,14 @@ std::vector<std::string> write_sheets(const std::filesystem::path& folder, const
                                       const std::function<void(cairo_t*)>& draw) {
   require_font();
   const std::filesystem::path pdf = folder / (name + ".pdf"), svg = folder / (name + ".svg");
-  cairo_surface_t* paper = cairo_pdf_surface_create((pdf.string() + ".part").c_str(), kSheetWidth * kPoint, kSheetHeight * kPoint);
-  cairo_pdf_surface_set_metadata(paper, CAIRO_PDF_METADATA_CREATE_DATE, nullptr);  // equal figures, equal files
-  cairo_pdf_surface_set_metadata(paper, CAIRO_PDF_METADATA_TITLE, title.c_str());
-  write_one(paper, pdf, draw);
-  write_one(cairo_svg_surface_create((svg.string() + ".part").c_str(), kSheetWidth * kPoint, kSheetHeight * kPoint), svg, draw);
+  const auto titled = [&title](const char* file, double width, double height) {
+    cairo_surface_t* paper = cairo_pdf_surface_create(file, width, height);
+    cairo_pdf_surface_set_metadata(paper, CAIRO_PDF_METADATA_CREATE_DATE, nullptr);  // equal figures, equal files
+    cairo_pdf_surface_set_metadata(paper, CAIRO_PDF_METADATA_TITLE, title.c_str());
+    return paper;
+  };
+  write_one(titled, pdf, draw);
+  write_one(cairo_svg_surface_create, svg, draw);
   return {pdf.string(), svg.string()};
 }
 

@@ -15,7 +15,7 @@ namespace render {
 constexpr double kSheetWidth = 297, kSheetHeight = 210;  // [mm] A4, landscape
 constexpr double kMargin = 12;                           // [mm]
 
-/// Draws on both; unit millimetre, origin top left. Written as .part, renamed when whole. Returns the files.
+/// Draws on both; unit millimetre, origin top left. Written as a part, renamed when whole. Returns the files.
 std::vector<std::string> write_sheets(const std::filesystem::path& folder, const std::string& name, const std::string& title,
                                       const std::function<void(cairo_t*)>& draw);
 

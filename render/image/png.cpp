@@ -1,7 +1,11 @@
 #include "render/image/png.h"
 
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <libdeflate.h>
 #include <png.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -52,6 +56,57 @@ void refuse_what_the_file_cannot_hold(png_structp png, png_infop info, const std
   if (!unknown && rows / kMost > size) png_error(png, "the file is too short for a picture of its size");
 }
 
+/// A PNG open for reading. Only plain files: a pipe planted among the frames would hold the run for ever.
+class PngReader {
+ public:
+  explicit PngReader(const std::filesystem::path& path) : what_("cannot read " + path.string()), file_(open_plain(path)) {
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, const_cast<char*>(what_.c_str()), fail, ignore);
+    info_ = png_create_info_struct(png_);
+    try {
+      refuse_endless_chunks(file_.get(), png_);
+    } catch (...) {
+      png_destroy_read_struct(&png_, &info_, nullptr);
+      throw;
+    }
+    png_init_io(png_, file_.get());
+    png_set_chunk_cache_max(png_, kMostChunks);
+    png_set_user_limits(png_, kLargest, kLargest);
+    png_set_chunk_malloc_max(png_, 8u << 20);
+  }
+  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+
+  png_structp png() const { return png_; }
+  png_infop info() const { return info_; }
+  /// Of the chunks read so far.
+  TextChunks text() const {
+    TextChunks out;
+    png_textp chunks = nullptr;
+    int count = 0;
+    png_get_text(png_, info_, &chunks, &count);
+    for (int i = 0; i < count; ++i) out[chunks[i].key] = std::string(chunks[i].text, chunks[i].text_length);
+    return out;
+  }
+
+ private:
+  FilePtr open_plain(const std::filesystem::path& path) const {
+    const int handle = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (handle < 0) throw RenderError(what_ + ": " + std::strerror(errno));
+    FilePtr file(fdopen(handle, "rb"));
+    struct stat found {};
+    if (!file) close(handle);
+    if (!file || fstat(handle, &found) != 0) throw RenderError(what_ + ": " + std::strerror(errno));
+    if (!S_ISREG(found.st_mode)) throw RenderError(what_ + ": it is no plain file");
+    return file;
+  }
+
+  std::string what_;
+  FilePtr file_;
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+};
+
 bool is_opaque(const Image& image) {
   unsigned all = 255;
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) all &= image.rgba[i];
@@ -96,10 +151,9 @@ void write_pixels_small(png_structp png, const Image& image, bool opaque) {
 }  // namespace
 
 void write_png(const std::filesystem::path& path, const Image& image, const TextChunks& text, PngEffort effort) {
-  const std::string part = path.string() + ".part";
   const std::string what = "cannot write " + path.string();
-  FilePtr file(std::fopen(part.c_str(), "wb"));
-  if (!file) throw RenderError(what + ": " + std::strerror(errno));
+  PartFile part(path);
+  FilePtr file(part.stream());
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, const_cast<char*>(what.c_str()), fail, ignore);
   png_infop info = png_create_info_struct(png);
   try {
@@ -125,83 +179,57 @@ void write_png(const std::filesystem::path& path, const Image& image, const Text
     (effort == PngEffort::small ? write_pixels_small : write_pixels_fast)(png, image, opaque);
     png_destroy_write_struct(&png, &info);
     if (std::fclose(file.release()) != 0) throw RenderError(what + ": " + std::strerror(errno));
-    publish(part, path);
+    part.publish();
   } catch (...) {
     if (png) png_destroy_write_struct(&png, &info);
-    file.reset();
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
     throw;
   }
 }
 
-Image read_png(const std::filesystem::path& path, TextChunks* text) {
-  const std::string what = "cannot read " + path.string();
-  FilePtr file(std::fopen(path.c_str(), "rb"));
-  if (!file) throw RenderError(what + ": " + std::strerror(errno));
-  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, const_cast<char*>(what.c_str()), fail, ignore);
-  png_infop info = png_create_info_struct(png);
+Image read_png(const std::filesystem::path& path, TextChunks* text, std::uint64_t most_pixels) {
+  PngReader reader(path);
+  png_structp png = reader.png();
+  png_infop info = reader.info();
+  png_read_info(png, info);
+  if (std::uint64_t{png_get_image_width(png, info)} * png_get_image_height(png, info) > most_pixels)
+    png_error(png, fmt::format("it has more than {} million pixels", most_pixels >> 20).c_str());
+  refuse_what_the_file_cannot_hold(png, info, path);
+  png_set_expand(png);
+  png_set_scale_16(png);
+  png_set_gray_to_rgb(png);
+  png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
   Image image;
-  try {
-    refuse_endless_chunks(file.get(), png);
-    png_init_io(png, file.get());
-    png_set_chunk_cache_max(png, kMostChunks);
-    png_set_user_limits(png, kLargest, kLargest);
-    png_set_chunk_malloc_max(png, 8u << 20);
-    png_read_info(png, info);
-    refuse_what_the_file_cannot_hold(png, info, path);
-    png_set_expand(png);
-    png_set_scale_16(png);
-    png_set_gray_to_rgb(png);
-    png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
-    png_set_interlace_handling(png);
-    png_read_update_info(png, info);
-    image.width = static_cast<int>(png_get_image_width(png, info));
-    image.height = static_cast<int>(png_get_image_height(png, info));
-    image.rgba.resize(png_get_rowbytes(png, info) * static_cast<std::size_t>(image.height));
-    std::vector<png_bytep> rows;
-    for (int y = 0; y < image.height; ++y)
-      rows.push_back(image.rgba.data() + png_get_rowbytes(png, info) * static_cast<std::size_t>(y));
-    png_read_image(png, rows.data());
-    png_read_end(png, info);
-    if (text) {
-      png_textp chunks = nullptr;
-      int count = 0;
-      png_get_text(png, info, &chunks, &count);
-      for (int i = 0; i < count; ++i) (*text)[chunks[i].key] = std::string(chunks[i].text, chunks[i].text_length);
-    }
-  } catch (...) {
-    png_destroy_read_struct(&png, &info, nullptr);
-    throw;
-  }
-  png_destroy_read_struct(&png, &info, nullptr);
+  image.width = static_cast<int>(png_get_image_width(png, info));
+  image.height = static_cast<int>(png_get_image_height(png, info));
+  const std::size_t row = png_get_rowbytes(png, info);
+  image.rgba.resize(row * static_cast<std::size_t>(image.height));
+  std::vector<png_bytep> rows;
+  for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y) rows.push_back(image.rgba.data() + row * y);
+  png_read_image(png, rows.data());
+  png_read_end(png, info);
+  if (text) *text = reader.text();
   return image;
 }
 
+TextChunks read_png_text(const std::filesystem::path& path) {
+  PngReader reader(path);
+  png_read_info(reader.png(), reader.info());
+  return reader.text();
+}
+
 PngFormat png_format(const std::filesystem::path& path) {
-  const std::string what = "cannot read " + path.string();
-  FilePtr file(std::fopen(path.c_str(), "rb"));
-  if (!file) throw RenderError(what + ": " + std::strerror(errno));
-  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, const_cast<char*>(what.c_str()), fail, ignore);
-  png_infop info = png_create_info_struct(png);
+  PngReader reader(path);
+  png_structp png = reader.png();
+  png_infop info = reader.info();
+  png_read_info(png, info);
+  const int colours = png_get_color_type(png, info);
   PngFormat format;
-  try {
-    refuse_endless_chunks(file.get(), png);
-    png_init_io(png, file.get());
-    png_set_chunk_cache_max(png, kMostChunks);
-    png_set_user_limits(png, kLargest, kLargest);
-    png_set_chunk_malloc_max(png, 8u << 20);
-    png_read_info(png, info);
-    const int colours = png_get_color_type(png, info);
-    format.bit_depth = png_get_bit_depth(png, info);
-    format.palette = colours == PNG_COLOR_TYPE_PALETTE;
-    format.grey = (colours & PNG_COLOR_MASK_COLOR) == 0;
-    format.alpha = (colours & PNG_COLOR_MASK_ALPHA) != 0 || png_get_valid(png, info, PNG_INFO_tRNS) != 0;
-  } catch (...) {
-    png_destroy_read_struct(&png, &info, nullptr);
-    throw;
-  }
-  png_destroy_read_struct(&png, &info, nullptr);
+  format.bit_depth = png_get_bit_depth(png, info);
+  format.palette = colours == PNG_COLOR_TYPE_PALETTE;
+  format.grey = (colours & PNG_COLOR_MASK_COLOR) == 0;
+  format.alpha = (colours & PNG_COLOR_MASK_ALPHA) != 0 || png_get_valid(png, info, PNG_INFO_tRNS) != 0;
   return format;
 }
 

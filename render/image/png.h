@@ -1,6 +1,7 @@
 // PNG files by libpng. Text chunks carry the provenance.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -15,12 +16,15 @@ using TextChunks = std::map<std::string, std::string>;
 /// alpha where all is opaque.
 enum class PngEffort { fast, small };
 
-/// Writes PATH.part and renames it when whole. Throws RenderError with the path and the reason.
+/// Writes a part and renames it when whole. Throws RenderError with the path and the reason.
 void write_png(const std::filesystem::path&, const Image&, const TextChunks& = {}, PngEffort = PngEffort::fast);
 
 /// Any PNG as RGBA, 8 bits (16 bits are rounded, palettes and greys expanded, missing alpha is opaque). Refuses more than 16384
-/// pixels a side. Throws RenderError.
-Image read_png(const std::filesystem::path&, TextChunks* text = nullptr);
+/// pixels a side, and more than `most_pixels` in all. Throws RenderError.
+Image read_png(const std::filesystem::path&, TextChunks* text = nullptr, std::uint64_t most_pixels = std::uint64_t{1} << 28);
+
+/// The text chunks that stand before the pixels, which are not read. Throws RenderError.
+TextChunks read_png_text(const std::filesystem::path&);
 
 /// How a file keeps its pixels.
 struct PngFormat {

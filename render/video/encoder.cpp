@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "render/error.h"
 #include "render/publish.h"
@@ -100,12 +103,22 @@ void write_subtitles(AVFormatContext* out, AVStream* stream, const Story& story,
   av_packet_free(&packet);
 }
 
+/// A film of the container we write and no other: left to guess, the library takes a text for a list of files and opens those.
+AVFormatContext* open_film(const std::string& file, const char* container) {
+  AVFormatContext* in = nullptr;
+  AVDictionary* options = nullptr;
+  av_dict_set(&options, "protocol_whitelist", "file", 0);
+  const int opened = avformat_open_input(&in, url(file).c_str(), av_find_input_format(container), &options);
+  av_dict_free(&options);
+  check(opened, "cannot read " + file);
+  return in;
+}
+
 /// Copies the fragmented file into one with its index in front.
 void remux(const std::string& from, const std::string& to, std::int64_t frames, const std::map<std::string, std::string>& metadata,
            const Story& story) {
-  AVFormatContext* in = nullptr;
+  AVFormatContext* in = open_film(from, "mov");
   AVFormatContext* out = nullptr;
-  check(avformat_open_input(&in, url(from).c_str(), nullptr, nullptr), "cannot read back " + from);
   check(avformat_find_stream_info(in, nullptr), "cannot read back " + from);
   check(avformat_alloc_output_context2(&out, nullptr, "mp4", url(to).c_str()), "cannot write " + to);
   AVStream* stream = avformat_new_stream(out, nullptr);
@@ -149,7 +162,7 @@ void rgba_to_i420(const Image& image, std::uint8_t* out) {
 
 struct VideoEncoder::Impl {
   std::filesystem::path output;
-  std::string part, whole;
+  std::optional<PartFile> part;
   std::map<std::string, std::string> metadata;
   Story story;
   bool lossless = false;
@@ -159,23 +172,17 @@ struct VideoEncoder::Impl {
   AVFrame* frame = nullptr;
   AVPacket* packet = nullptr;
   std::int64_t next = 0;
-  bool finished = false;
 
   // here and not in the encoder's own destructor: a constructor that throws leaves nothing behind either
-  ~Impl() {
-    release();
-    if (finished || part.empty()) return;
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    std::filesystem::remove(whole, ignored);
-  }
+  ~Impl() { release(); }
 
   void open(int width, int height, double fps) {
     const std::string what = "cannot write " + output.string();
     const char* name = lossless ? "ffv1" : "libx264";
     const AVCodec* coder = avcodec_find_encoder_by_name(name);
     if (!coder) throw RenderError(what + ": this libavcodec has no " + name);
-    check(avformat_alloc_output_context2(&format, nullptr, lossless ? "matroska" : "mp4", url(part).c_str()), what);
+    check(avformat_alloc_output_context2(&format, nullptr, lossless ? "matroska" : "mp4", url(part->path().string()).c_str()),
+          what);
     stream = avformat_new_stream(format, nullptr);
     codec = avcodec_alloc_context3(coder);
     codec->width = width;
@@ -228,10 +235,10 @@ struct VideoEncoder::Impl {
     } else {
       av_dict_set(&options, "movflags", "frag_keyframe+empty_moov", 0);
     }
-    check(avio_open(&format->pb, url(part).c_str(), AVIO_FLAG_WRITE), what);
+    check(avio_open(&format->pb, url(part->path().string()).c_str(), AVIO_FLAG_WRITE), what);
     check(avformat_write_header(format, &options), what);
     av_dict_free(&options);
-    write_subtitles(format, subtitles, story, false, part);
+    write_subtitles(format, subtitles, story, false, output.string());
   }
 
   void load(const std::uint8_t* picture) {
@@ -261,7 +268,7 @@ struct VideoEncoder::Impl {
       check(got, "cannot encode " + output.string());
       av_packet_rescale_ts(packet, codec->time_base, stream->time_base);
       packet->stream_index = 0;
-      check(av_interleaved_write_frame(format, packet), "cannot write " + part);
+      check(av_interleaved_write_frame(format, packet), "cannot write " + output.string());
     }
   }
   void release() {
@@ -286,8 +293,7 @@ VideoEncoder::VideoEncoder(const std::filesystem::path& output, int width, int h
                                   height + height % 2));
   av_log_set_level(AV_LOG_ERROR);
   m.output = output;
-  m.part = output.string() + ".part";
-  m.whole = output.string() + ".whole.part";
+  m.part.emplace(output);
   m.metadata = metadata;
   m.story = story;
   m.open(width, height, fps);
@@ -308,25 +314,24 @@ void VideoEncoder::finish() {
   Impl& m = *impl_;
   check(avcodec_send_frame(m.codec, nullptr), "cannot encode " + m.output.string());
   m.drain();
-  check(av_write_trailer(m.format), "cannot write " + m.part);
-  close_file(m.format->pb, m.part);
+  check(av_write_trailer(m.format), "cannot write " + m.output.string());
+  close_file(m.format->pb, m.output.string());
   m.release();
-  if (m.lossless) {
-    publish(m.part, m.output);
-  } else {
-    remux(m.part, m.whole, m.next, m.metadata, m.story);
-    publish(m.whole, m.output);
-    std::filesystem::remove(m.part);
-  }
-  m.finished = true;
+  if (m.lossless) return m.part->publish();
+  PartFile whole(m.output, ".whole");
+  remux(m.part->path().string(), whole.path().string(), m.next, m.metadata, m.story);
+  whole.publish();
 }
 
 std::map<std::string, std::string> read_film_metadata(const std::filesystem::path& film) {
   av_log_set_level(AV_LOG_QUIET);
-  AVFormatContext* in = nullptr;
-  check(avformat_open_input(&in, url(film.string()).c_str(), nullptr, nullptr), "cannot read " + film.string());
+  AVFormatContext* in = open_film(film.string(), film.extension() == ".mkv" ? "matroska" : "mov");
   std::map<std::string, std::string> out;
-  for (const AVDictionaryEntry* e = nullptr; (e = av_dict_get(in->metadata, "", e, AV_DICT_IGNORE_SUFFIX));) out[e->key] = e->value;
+  for (const AVDictionaryEntry* e = nullptr; (e = av_dict_get(in->metadata, "", e, AV_DICT_IGNORE_SUFFIX));) {
+    std::string key = e->key;  // Matroska spells names in capitals
+    std::transform(key.begin(), key.end(), key.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    out[key] = e->value;
+  }
   avformat_close_input(&in);
   return out;
 }

@@ -19,7 +19,7 @@ void rgba_to_i420(const Image&, std::uint8_t* out);
 class VideoEncoder {
  public:
   /// OUT.mkv is lossless, anything else an MP4. An MP4's sizes must be even (RenderError names the next even one). Writes fragments
-  /// to OUT.part: a kill leaves what was encoded readable.
+  /// to a part: a kill leaves what was encoded readable.
   VideoEncoder(const std::filesystem::path& output, int width, int height, double fps,
                const std::map<std::string, std::string>& metadata, const Story& story = {});
   ~VideoEncoder();

@@ -93,12 +93,14 @@ render::MaterialKind read_material_kind(Reader&, std::string_view key);
     "restitution_ground", Type::schedule, Dimension::none, "", "The same against the ground.", kShare                          \
   }
 
+/// The file that a key names, in the scene's folder or the program's. Only below these, or a folder the user allows, does a scene
+/// read: otherwise it would choose what on this machine is opened. Empty after an error, which is collected.
+std::filesystem::path asset_file(Builder&, Reader&, std::string_view key, const std::string& kind);
+
 /// The library beside the scene format: poses, persons, vehicles. CRASHREEL_HOME first, then where the program was built.
 std::filesystem::path home_folder();
-/// SHA-256 of a file's bytes.
-std::string file_hash(const std::filesystem::path&);
-/// scene's folder first, then the library: `name`.toml under `kind` ("persons"). Empty when there is none.
-std::filesystem::path library_file(Builder&, const std::string& kind, const std::string& name);
+/// scene's folder first, then the library: `name`.toml under `kind` ("persons"). None when there is no such file.
+std::optional<Value> library_entry(Builder&, const std::string& kind, const std::string& name);
 std::vector<std::string> library_names(const Builder&, const std::string& kind);
 
 }  // namespace scenes

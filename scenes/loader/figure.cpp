@@ -228,8 +228,8 @@ PersonSize read_size(Builder& builder, Reader& person, Reader& figure) {
 
 Figure read_figure(Builder& builder, Reader& person, PersonSize& size) {
   const std::string name = person.text("figure");
-  const auto file = library_file(builder, "persons", name);
-  if (file.empty()) {
+  const auto tree = library_entry(builder, "persons", name);
+  if (!tree) {
     const auto names = library_names(builder, "persons");
     const std::string guess = nearest(name, names);
     person.fail("figure", fmt::format("is not in the library of persons ({}){}", fmt::join(names, ", "),
@@ -237,8 +237,7 @@ Figure read_figure(Builder& builder, Reader& person, PersonSize& size) {
     return {};
   }
   const std::size_t errors_before = builder.errors.count();
-  const Value tree = parse_file(file);
-  Reader r(tree, kFigureSection, name, builder.errors);
+  Reader r(*tree, kFigureSection, name, builder.errors);
   size = read_size(builder, person, r);
   if (!(size.stature > 0) || !(size.mass > 0) || builder.errors.count() != errors_before) return {};
   const double along = size.stature / r.number("stature");

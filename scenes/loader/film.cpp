@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scenes/loader/builder.h"
+#include "scenes/loader/sha256.h"
 
 namespace scenes {
 namespace {
@@ -306,23 +307,24 @@ void read_output(Builder& builder, Reader r) {
   }
 }
 
+/// Of what is drawn, not of a second look at the file.
+std::string pixels_hash(const render::GroundPicture& picture) {
+  const render::GroundPicture::Level& level = picture.levels.front();
+  return sha256(fmt::format("{}x{}", level.width, level.height) +
+                sha256({reinterpret_cast<const char*>(level.texels.data()), level.texels.size() * sizeof level.texels[0]}));
+}
+
 /// A picture beside the scene, or of the program.
 void read_ground_picture(Builder& builder, Reader& r, render::RoadLook& look) {
-  const std::string name = r.text("picture");
-  std::error_code ignored;
-  std::filesystem::path file = builder.folder / name;
-  if (!std::filesystem::is_regular_file(file, ignored)) file = home_folder() / name;
-  if (!std::filesystem::is_regular_file(file, ignored)) {
-    r.fail("picture", fmt::format("must be a PNG file; there is no {} and no {}", (builder.folder / name).string(), file.string()));
-    return;
-  }
+  const std::filesystem::path file = asset_file(builder, r, "picture", "a PNG file");
+  if (file.empty()) return;
   std::string problem;
   look.picture = render::read_ground_picture(file, problem);
   if (!look.picture) {
     r.fail("picture", problem);
     return;
   }
-  builder.assets += file_hash(file);
+  builder.assets += pixels_hash(*look.picture);
   const engine::Vec3 corner = r.vector("picture_corner");
   look.picture_x = corner.x();
   look.picture_y = corner.y();

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 #include "scenes/loader/builder.h"
 #include "scenes/loader/sha256.h"
@@ -44,22 +42,13 @@ const Key kSceneKeys[] = {
     {"closed_form", Type::table, Dimension::none, "", "Answers known in closed form.", kAny, {}, &kClosedFormSection},
 };
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  return bytes.str();
-}
-
-std::string hash_of(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  std::string all = bytes_of(file);
+std::string hash_of(std::string all, const std::vector<std::string>& overrides) {
   for (const std::string& text : overrides) all += '\0' + text;
   return sha256(all);
 }
 
 /// A scene beside another is no pose, person or vehicle, though it may be called like one (cyclist.toml).
-bool is_scene(const std::filesystem::path& file) {
-  const Value root = parse_file(file);
+bool is_scene(const Value& root) {
   for (const char* section : {"simulation", "vehicle", "person", "body", "camera", "output"})
     if (root.find(section)) return true;
   return false;
@@ -107,21 +96,19 @@ std::filesystem::path home_folder() {
   return home && *home ? std::filesystem::path(home) : std::filesystem::path(CRASHREEL_HOME_DEFAULT);
 }
 
-std::string file_hash(const std::filesystem::path& file) {
-  return sha256(bytes_of(file));
-}
-
-std::filesystem::path library_file(Builder& builder, const std::string& kind, const std::string& name) {
-  if (name.empty() || name.find('/') != std::string::npos) return {};
+std::optional<Value> library_entry(Builder& builder, const std::string& kind, const std::string& name) {
+  if (name.empty() || name.find('/') != std::string::npos) return std::nullopt;
   std::error_code ignored;
   for (const auto& folder : {builder.folder, builder.folder / kind, home_folder() / "scenes/library" / kind}) {
     const auto file = folder / (name + ".toml");
     if (!std::filesystem::is_regular_file(file, ignored)) continue;
-    if (folder == builder.folder && is_scene(file)) continue;
-    builder.assets += file_hash(file);
-    return file;
+    const std::string text = read_text(file);
+    Value entry = parse_text(text, file.string());
+    if (folder == builder.folder && is_scene(entry)) continue;
+    builder.assets += sha256(text);
+    return entry;
   }
-  return {};
+  return std::nullopt;
 }
 
 std::vector<std::string> library_names(const Builder& builder, const std::string& kind) {
@@ -136,18 +123,27 @@ std::vector<std::string> library_names(const Builder& builder, const std::string
   return out;
 }
 
+SceneFile read_scene_file(const std::filesystem::path& file, std::vector<std::filesystem::path> allowed) {
+  return {file, read_text(file), std::move(allowed)};
+}
+
 Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides, MeshShelf* shelf) {
-  Value root = parse_file(file);
+  return load(read_scene_file(file), overrides, shelf);
+}
+
+Scene load(const SceneFile& file, const std::vector<std::string>& overrides, MeshShelf* shelf) {
+  Value root = parse_text(file.text, file.path.string());
   for (const std::string& text : overrides) apply_override(root, text);
 
   Builder builder;
-  builder.folder = file.parent_path();
+  builder.folder = file.path.parent_path();
+  builder.scene.file = file;
   builder.shelf = shelf;
   Reader r(root, scene_section(), "", builder.errors);
   builder.scene.title = r.text("title");
-  builder.scene.path = file;
+  builder.scene.path = file.path;
   builder.scene.overrides = overrides;
-  builder.scene.sha256 = hash_of(file, overrides);
+  builder.scene.sha256 = hash_of(file.text, overrides);
   r.text("description");
 
   collect_names(builder, root);

@@ -203,19 +203,14 @@ std::shared_ptr<const ImportedMesh> import_mesh(Builder& builder, Reader& r, std
     r.fail(key, fmt::format("must be a mesh file of a known kind: {}", fmt::join(kFormats, " ")));
     return nullptr;
   }
-  std::error_code ignored;
-  std::filesystem::path file = builder.folder / name;
-  if (!std::filesystem::is_regular_file(file, ignored)) file = home_folder() / name;
-  if (!std::filesystem::is_regular_file(file, ignored)) {
-    r.fail(key, fmt::format("must be a mesh file; there is no {} and no {}", (builder.folder / name).string(), file.string()));
-    return nullptr;
-  }
+  const std::filesystem::path file = asset_file(builder, r, key, "a mesh file");
+  if (file.empty()) return nullptr;
   auto& cached = builder.meshes[file.string()];
   if (cached) return cached;
   std::shared_ptr<const ImportedMesh> imported;
   if (builder.shelf) imported = (*builder.shelf)[file.string()];
   std::string problem;
-  if (!imported) imported = bring_in(file, extension, problem);
+  if (!imported) imported = bring_in(std::filesystem::canonical(file), extension, problem);
   if (!imported) {
     r.fail(key, fmt::format("could not be imported: {}", problem));
     return nullptr;

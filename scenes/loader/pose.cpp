@@ -107,15 +107,14 @@ Pose read_pose(Builder& builder, Reader& person, const Figure& figure) {
   Pose out;
   for (const FigureJoint& joint : figure.joints) out.angles.emplace_back(joint.angles.size(), 0.0);
   const std::string name = person.text("pose");
-  const auto file = library_file(builder, "poses", name);
-  if (file.empty()) {
+  const auto tree = library_entry(builder, "poses", name);
+  if (!tree) {
     const auto names = library_names(builder, "poses");
     const std::string guess = nearest(name, names);
     person.fail("pose", fmt::format("is not in the library of poses ({}){}", fmt::join(names, ", "),
                                     guess.empty() ? "" : fmt::format("; did you mean \"{}\"?", guess)));
   } else {
-    const Value tree = parse_file(file);
-    Reader r(tree, kPoseSection, name, builder.errors);
+    Reader r(*tree, kPoseSection, name, builder.errors);
     out.roll = r.number("roll");
     out.pitch = r.number("pitch");
     if (auto angles = r.table("angles")) apply_angles(*angles, Source::pose, figure, out);

@@ -67,13 +67,18 @@ void hash_block(std::array<Word, 8>& h, const std::array<Word, 64>& k, const uns
 std::string sha256(std::string_view bytes) {
   static const Constants constants;
   std::array<Word, 8> h = constants.h;
-  // the message, a one bit, zeros, and the length in bits as 64 bits
-  std::string padded(bytes);
+  const auto take = [&h](std::string_view blocks) {
+    for (std::size_t at = 0; at < blocks.size(); at += 64)
+      hash_block(h, constants.k, reinterpret_cast<const unsigned char*>(blocks.data()) + at);
+  };
+  const std::size_t whole = bytes.size() / 64 * 64;
+  take(bytes.substr(0, whole));
+  // the rest of the message, a one bit, zeros, and the length in bits as 64 bits
+  std::string padded(bytes.substr(whole));
   padded += '\x80';
   while (padded.size() % 64 != 56) padded += '\0';
   for (int shift = 56; shift >= 0; shift -= 8) padded += static_cast<char>((std::uint64_t{bytes.size()} * 8) >> shift);
-  for (std::size_t at = 0; at < padded.size(); at += 64)
-    hash_block(h, constants.k, reinterpret_cast<const unsigned char*>(padded.data()) + at);
+  take(padded);
   std::string out;
   for (Word word : h) out += fmt::format("{:08x}", word);
   return out;

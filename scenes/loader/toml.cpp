@@ -133,7 +133,7 @@ Value parse_text(std::string_view toml_text, const std::string& name) {
   }
 }
 
-Value parse_file(const std::filesystem::path& file) {
+std::string read_text(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::error_code ignored;
   if (!in || std::filesystem::is_directory(file, ignored)) {
@@ -146,7 +146,11 @@ Value parse_file(const std::filesystem::path& file) {
     if (text.size() > kLargestFile)
       throw SceneErrors{{fmt::format("{}: is larger than {} MB, this is no scene file", file.string(), kLargestFile >> 20)}};
   }
-  return parse_text(text, file.string());
+  return text;
+}
+
+Value parse_file(const std::filesystem::path& file) {
+  return parse_text(read_text(file), file.string());
 }
 
 namespace {

@@ -46,6 +46,8 @@ const Value& empty_table();
 /// As it would be written in a scene: numbers short, texts in quotes, arrays in brackets; long ones are cut.
 std::string written(const Value&);
 
+/// The bytes of a file, at most what a scene can be. Throws SceneErrors when it cannot be read.
+std::string read_text(const std::filesystem::path& file);
 /// Reads a file into a tree. Throws SceneErrors with file:line:column for broken TOML, or when the file cannot be read.
 Value parse_file(const std::filesystem::path& file);
 Value parse_text(std::string_view toml, const std::string& name);

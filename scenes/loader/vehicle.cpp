@@ -123,8 +123,7 @@ const Key kKeys[] = {
 std::optional<Value> with_model(Builder& builder, Reader& r) {
   const std::string name = r.text("model");
   if (name.empty()) return r.value();
-  const auto file = library_file(builder, "vehicles", name);
-  if (!file.empty()) return overlaid(parse_file(file), r.value());
+  if (const auto model = library_entry(builder, "vehicles", name)) return overlaid(*model, r.value());
   const auto names = library_names(builder, "vehicles");
   const std::string guess = nearest(name, names);
   r.fail("model", fmt::format("is not in the library of vehicles ({}){}", fmt::join(names, ", "),
