@@ -8,6 +8,8 @@
 #include <sstream>
 #include <string>
 
+#include "engine/math/functions.h"
+
 namespace engine {
 namespace {
 
@@ -26,7 +28,7 @@ constexpr double kToldCrossed = 0.05;               // [m] two vehicles: half th
 ContactState state_of(const Constraint& c, double gap_speed) {
   if (c.impulse[0] <= 0) return gap_speed < 0 ? ContactState::approach : ContactState::separate;
   if (c.u_before[0] < -0.1) return ContactState::impact;
-  const double slip = std::hypot(c.u_after[1], c.u_after[2]);
+  const double slip = math::hypot(c.u_after[1], c.u_after[2]);
   return slip > 1e-3 ? ContactState::slide : ContactState::stick;
 }
 
@@ -113,11 +115,11 @@ void Recorder::tally(const World& world, double time, double duration) {
     r.point = c.point;
     r.normal = c.frame.col(0);
     r.depth = -c.gap;
-    r.slip = std::hypot(c.u_after[1], c.u_after[2]);
+    r.slip = math::hypot(c.u_after[1], c.u_after[2]);
     const ContactState state = state_of(c, c.u_before[0]);
     if (r.state != ContactState::impact || r.normal_impulse == 0) r.state = state;
     r.normal_impulse += c.impulse[0];
-    r.tangential_impulse += std::hypot(c.impulse[1], c.impulse[2]);
+    r.tangential_impulse += math::hypot(c.impulse[1], c.impulse[2]);
     at->impulse += c.frame * c.impulse;
     at->duration += duration;
   }

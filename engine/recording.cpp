@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "engine/math/functions.h"
+
 namespace engine {
 namespace {
 
@@ -77,7 +79,7 @@ Snapshot Recording::at(double time) const {
     const BodyState& from = a.bodies[b];
     const BodyState& to = later->bodies[b];
     out.bodies[b].X_WB.p = hermite(from.X_WB.p, from.V_WB.v, to.X_WB.p, to.V_WB.v, span, s);
-    out.bodies[b].X_WB.q = from.X_WB.q.slerp(s, to.X_WB.q);
+    out.bodies[b].X_WB.q = math::slerp(from.X_WB.q, to.X_WB.q, s);
     out.bodies[b].V_WB.v = (1 - s) * from.V_WB.v + s * to.V_WB.v;
     out.bodies[b].V_WB.w = (1 - s) * from.V_WB.w + s * to.V_WB.w;
   }

@@ -19,6 +19,7 @@
 #include "engine/divergence.h"
 #include "engine/effects/effect.h"
 #include "engine/effects/effects.h"
+#include "engine/math/functions.h"
 #include "engine/step_bounds.h"
 
 namespace engine {
@@ -179,7 +180,7 @@ double Stepper::integrate(World& world, const State& state, double h) {
   const Meter::Span span(world.meter, Phase::integration);
   CompliantContacts* compliant = compliant_ ? &*compliant_ : nullptr;
   // the error a second of turning leaves goes with w (w h)^4: parts in number with w^(5/4) would keep it what it is at the bound
-  const double for_turning = std::pow(turning_ * h / kSmoothTurn, 2.0);
+  const double for_turning = turning_ * h / kSmoothTurn * (turning_ * h / kSmoothTurn);
   const double wanted = std::max(for_turning, smooth_.fastest_swing() / kSmoothSwing * h);
   const int parts = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, kMostParts));
   FirstStage first;  // stands where impulses act
@@ -281,7 +282,7 @@ double Stepper::attempt(World& world, State& state, double h) {
     return stop(world, state, smooth_.swinging_body(), kJointsEffect.name, kSwingsTooFast);
   if (error > world.model.settings.adaptive_tolerance && taken > shortest) {
     ++world.diagnostics.substeps;
-    const double share = std::clamp(0.9 * std::pow(world.model.settings.adaptive_tolerance / error, 0.2), 0.1, 0.7);
+    const double share = std::clamp(0.9 * math::pow(world.model.settings.adaptive_tolerance / error, 0.2), 0.1, 0.7);
     next_step_ = std::max(share * taken, shortest);
     assemble_constraints(world, state, next_step_);
     return attempt(world, state, next_step_);
@@ -320,7 +321,7 @@ double Stepper::attempt(World& world, State& state, double h) {
   if (cut) ++world.diagnostics.substeps;
   if (next_step_ > 0 && !cut && !crossed) {
     const double tolerance = world.model.settings.adaptive_tolerance;
-    const double growth = error > 0 ? std::clamp(0.9 * std::pow(tolerance / error, 0.2), 0.5, 2.0) : 2.0;
+    const double growth = error > 0 ? std::clamp(0.9 * math::pow(tolerance / error, 0.2), 0.5, 2.0) : 2.0;
     next_step_ = growth * taken < world.model.settings.step ? std::max(growth * taken, shortest) : 0;
   }
   if (impulses) {

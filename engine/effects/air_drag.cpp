@@ -15,6 +15,7 @@
 #include "engine/effects/effects.h"
 #include "engine/effects/words.h"
 #include "engine/geometry/mesh_overlap.h"
+#include "engine/math/functions.h"
 
 namespace engine {
 namespace {
@@ -45,7 +46,7 @@ Vec3 sections_of(const Body& body) {
   if (const auto* shape = std::get_if<HyperEllipsoid>(&body.shape)) {
     const Vec3& a = shape->semi_axes;
     const double n = shape->exponent;
-    const double fullness = 4 * std::exp(2 * std::lgamma(1 + 1 / n) - std::lgamma(1 + 2 / n));  // pi for n = 2, 4 for a box
+    const double fullness = 4 * math::exp(2 * math::lgamma(1 + 1 / n) - math::lgamma(1 + 2 / n));  // pi for n = 2, 4 for a box
     return fullness * Vec3(a.y() * a.z(), a.x() * a.z(), a.x() * a.y());
   }
   if (const auto* shape = std::get_if<MeshShape>(&body.shape)) {
@@ -109,7 +110,7 @@ double greatest_speed(const Model& model) {
     if (model.ground.plane) high = std::max(high, body.X_WB.p.z() - model.ground.height);
   }
   if (!model.ground.plane) high = 0.5 * g * T * T;
-  return std::hypot((1 + restitution) * fastest, std::sqrt(2 * g * high));
+  return math::hypot((1 + restitution) * fastest, std::sqrt(2 * g * high));
 }
 
 Bound bound_before(const Model& model) {

@@ -13,6 +13,7 @@
 #include "engine/effects/words.h"
 #include "engine/geometry/mesh_overlap.h"
 #include "engine/geometry/point_mesh.h"
+#include "engine/math/functions.h"
 
 namespace engine {
 namespace {
@@ -78,7 +79,7 @@ void begin(World& world, const State&, int) {
         for (int i = 0; i < kRing; ++i) {
           const double angle = 2 * std::numbers::pi * i / kRing;
           const double radius = wheel.radius - (side == 0 ? 0 : crown_radius(wheel));
-          const Vec3 spoke(radius * std::cos(angle), 0.5 * side * wheel.width, radius * std::sin(angle));
+          const Vec3 spoke(radius * math::cos(angle), 0.5 * side * wheel.width, radius * math::sin(angle));
           world.surface_points[b].push_back({wheel.hub_B + spoke, index});
         }
       ++index;
@@ -98,7 +99,7 @@ Aabb box_of(const World& world, const State& state, int body) {
   if (const int v = world.model.bodies[body].vehicle; v >= 0)
     for (const Wheel& wheel : world.model.vehicles[v].wheels) {
       const Vec3 hub = state.X_WB[body] * wheel.hub_B;
-      const double r = std::hypot(wheel.radius, 0.5 * wheel.width) + 2 * wheel.travel;
+      const double r = math::hypot(wheel.radius, 0.5 * wheel.width) + 2 * wheel.travel;
       box.lower = box.lower.cwiseMin((hub.array() - r).matrix());
       box.upper = box.upper.cwiseMax((hub.array() + r).matrix());
     }

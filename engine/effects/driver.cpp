@@ -6,6 +6,7 @@
 
 #include "engine/effects/effects.h"
 #include "engine/effects/words.h"
+#include "engine/math/functions.h"
 
 namespace engine {
 namespace {
@@ -81,7 +82,7 @@ void steer_along_path(World& world, const State& state, int v) {
     left -= (1 - share) * length;
   }
   const Vec3 goal_B = X.q.conjugate() * Vec3(path[segment] + share * (path[segment + 1] - path[segment]) - at);
-  const double wanted = std::atan2(2 * wheelbase * goal_B.y(), goal_B.head<2>().squaredNorm());
+  const double wanted = math::atan2(2 * wheelbase * goal_B.y(), goal_B.head<2>().squaredNorm());
   const double step = vehicle.path.rate * world.step;
   double& steer = world.path_steer[v];
   steer = std::clamp(std::clamp(wanted, steer - step, steer + step), -vehicle.path.largest, vehicle.path.largest);

@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "engine/effects/effects.h"
 #include "engine/effects/words.h"
+#include "engine/math/functions.h"
 
 namespace engine {
 namespace {
@@ -20,7 +20,7 @@ Finding look(const Model& model) {
   if (moving == 0) return {false, "no body that can move", ""};
   if (g.squaredNorm() == 0) return {false, "simulation.gravity is 0", ""};
   std::string reason = number(g.norm()) + " m/s^2 on " + counted(moving, "body", "bodies") + ", " + number(mass) + " kg together";
-  const double slope = std::acos(std::clamp(-g.normalized().z(), -1.0, 1.0)) * 180 / std::numbers::pi;
+  const double slope = math::acos(std::clamp(-g.normalized().z(), -1.0, 1.0)) * 180 / std::numbers::pi;
   if (slope > 1e-3) reason += "; the ground slopes by " + number(slope) + " deg";
   return {true, reason, ""};
 }

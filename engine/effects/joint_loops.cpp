@@ -5,6 +5,7 @@
 
 #include "engine/effects/effects.h"
 #include "engine/effects/words.h"
+#include "engine/math/functions.h"
 #include "engine/solver/joint_rows.h"
 
 namespace engine {
@@ -83,7 +84,7 @@ void find(World& world, const State& state, int self) {
 void after_step(World& world, State& state, int self) {
   const double h = world.step;
   if (world.joint_load.empty()) return;
-  const double forget = std::exp(-h / kGrasp);
+  const double forget = math::exp(-h / kGrasp);
   for (const int j : world.topology.loops) world.joint_load[j] *= forget;
   for (const Constraint& c : world.constraints) {
     if (c.effect != self || c.kind != ConstraintKind::bilateral) continue;

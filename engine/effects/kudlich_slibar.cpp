@@ -9,6 +9,7 @@
 #include "engine/effects/effects.h"
 #include "engine/effects/words.h"
 #include "engine/geometry/mesh_overlap.h"
+#include "engine/math/functions.h"
 #include "engine/solver/kudlich_slibar.h"
 
 namespace engine {
@@ -64,7 +65,7 @@ Pose mesh_pose(const World& world, const State& state, int body, double ahead) {
   const Twist& V = state.V_WB[body];
   Pose X = state.X_WB[body];
   X.p += ahead * V.v;
-  if (const double w = V.w.norm(); w > 0) X.q = Quat(Eigen::AngleAxisd(ahead * w, V.w / w)) * X.q;
+  if (const double w = V.w.norm(); w > 0) X.q = math::rotation(ahead * w, V.w / w) * X.q;
   return X * mesh_of(world, body).X_BM;
 }
 

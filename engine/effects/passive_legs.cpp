@@ -1,5 +1,7 @@
 #include "engine/effects/passive_legs.h"
 
+#include "engine/math/functions.h"
+
 namespace engine {
 
 std::vector<PassiveLeg> passive_legs(const Model& model) {
@@ -27,12 +29,13 @@ Flexion flexion_of(const Joint& joint, const Pose& X_WP, const Pose& X_WC) {
   constexpr double kSteepest = 0.1;  // [-] cosine of the side angle: beyond 84 deg the axis turns no further
   const Mat3 R_WP = X_WP.q.toRotationMatrix();
   const Mat3 R = R_WP.transpose() * X_WC.q.toRotationMatrix();
-  const double cosine = std::hypot(R(0, 2), R(2, 2));
+  const double cosine = math::hypot(R(0, 2), R(2, 2));
   Flexion out;
-  out.angle = joint.flexes_about * std::atan2(R(0, 2), R(2, 2));
+  out.angle = joint.flexes_about * math::atan2(R(0, 2), R(2, 2));
   // axes of the three turns in the parent: y, R_y x, R_y R_x z; the first of their reciprocal basis
   const double tangent = -R(1, 2) / std::max(cosine, kSteepest);
-  const Vec3 gradient_P(tangent * std::sin(joint.flexes_about * out.angle), 1, tangent * std::cos(joint.flexes_about * out.angle));
+  const Vec3 gradient_P(tangent * math::sin(joint.flexes_about * out.angle), 1,
+                        tangent * math::cos(joint.flexes_about * out.angle));
   out.gradient_W = joint.flexes_about * (R_WP * gradient_P);
   return out;
 }

@@ -8,6 +8,7 @@
 #include "engine/effects/static_loads.h"
 #include "engine/effects/words.h"
 #include "engine/laws/tyre.h"
+#include "engine/math/functions.h"
 
 namespace engine {
 namespace {
@@ -139,7 +140,7 @@ void add_wheel(World& world, const State& state, WheelState& wheel, const Footin
   c.body_a = vehicle.body;
   c.record_a = vehicle.body;
   c.point = footing.point;
-  const Vec3 forward = X.q * Vec3(std::cos(wheel.steer), std::sin(wheel.steer), 0);
+  const Vec3 forward = X.q * Vec3(math::cos(wheel.steer), math::sin(wheel.steer), 0);
   const Vec3 t1 = (forward - forward.dot(footing.normal) * footing.normal).normalized();
   c.frame << footing.normal, t1, footing.normal.cross(t1);
   const Vec3 r = c.point - X.p;
@@ -201,9 +202,9 @@ void after_step(World& world, State& state, int) {
     const Wheel& spec = world.model.vehicles[wheel.vehicle].wheels[wheel.wheel];
     wheel.impulse = c.impulse;
     const double grip = c.friction * c.impulse[0];
-    const bool sliding = std::hypot(c.impulse[1], c.impulse[2]) >= 0.999 * grip && grip > 0;
+    const bool sliding = math::hypot(c.impulse[1], c.impulse[2]) >= 0.999 * grip && grip > 0;
     wheel.locked = sliding && wheel.brake > 0 && std::abs(c.impulse[1] - c.rolling_drive) < 0.999 * c.rolling_bound;
-    wheel.slip = sliding ? std::hypot(wheel.locked ? c.u_after[1] : 0.0, c.u_after[2]) : 0;
+    wheel.slip = sliding ? math::hypot(wheel.locked ? c.u_after[1] : 0.0, c.u_after[2]) : 0;
     if (!wheel.locked) state.wheel_spin[c.wheel] += world.step * c.u_after[1] / spec.radius;
     // the engine's work is a source, not a loss: the books took it with the whole impulse
     const double work = engine_share(c) * 0.5 * (c.u_before[1] + c.u_after[1]);

@@ -6,18 +6,28 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/math/functions.h"
+
 namespace engine {
 namespace {
 
 /// Curvature radii are infinite on the flat faces of n > 2; capped at this many times the size they do no harm to Newton's method.
 constexpr double kLargestRadius = 1e3;
 
-double power(double base, double exponent) {
-  if (exponent == 1 || base == 1) return base;
-  if (exponent == 2) return base * base;
-  if (exponent == 0.5) return std::sqrt(base);
-  if (exponent == 1.5) return base * std::sqrt(base);
-  return std::pow(base, exponent);
+/// base^exponent of three bases >= 0. One of them is mostly 1, where all are shares of the largest.
+Vec3 powers(const Vec3& bases, double exponent) {
+  if (exponent == 1) return bases;
+  if (exponent == 2) return bases.cwiseAbs2();
+  if (exponent == 0.5) return bases.cwiseSqrt();
+  if (exponent == 1.5) return bases.cwiseProduct(bases.cwiseSqrt());
+  const int alone = bases[0] == 1 ? 0 : bases[1] == 1 ? 1 : 2;
+  const int i = (alone + 1) % 3, j = (alone + 2) % 3;
+  const Eigen::Vector2d two = math::two_powers(bases[i], bases[j], exponent);
+  Vec3 out;
+  out[i] = two[0];
+  out[j] = two[1];
+  out[alone] = bases[alone] == 1 ? 1 : math::two_powers(bases[alone], 1, exponent)[0];
+  return out;
 }
 
 /// (sum (w_i)^p)^(1/p) for w >= 0.
@@ -25,21 +35,23 @@ double norm_p(const Vec3& w, double p) {
   if (p == 2) return w.norm();
   const double largest = w.maxCoeff();
   if (largest == 0) return 0;
-  double sum = 0;
-  for (int i = 0; i < 3; ++i) sum += power(w[i] / largest, p);
-  return largest * power(sum, 1 / p);
+  return largest * math::two_powers(powers(w / largest, p).sum(), 1, 1 / p)[0];
+}
+
+double cube(double x) {
+  return x * x * x;
 }
 
 /// Integral of x^2 over the body per a^2 and volume: k(2) = 1/5, k(inf) = 1/3.
 double second_moment(double n) {
-  return std::tgamma(3 / n) * std::tgamma(1 + 3 / n) / (std::tgamma(1 / n) * std::tgamma(1 + 5 / n));
+  return math::tgamma(3 / n) * math::tgamma(1 + 3 / n) / (math::tgamma(1 / n) * math::tgamma(1 + 5 / n));
 }
 
 }  // namespace
 
 double volume(const HyperEllipsoid& shape) {
   const double n = shape.exponent;
-  return 8 * shape.semi_axes.prod() * std::pow(std::tgamma(1 + 1 / n), 3) / std::tgamma(1 + 3 / n);
+  return 8 * shape.semi_axes.prod() * cube(math::tgamma(1 + 1 / n)) / math::tgamma(1 + 3 / n);
 }
 
 Vec3 principal_inertia(const HyperEllipsoid& shape, double mass) {
@@ -57,17 +69,12 @@ Support support(const HyperEllipsoid& shape, const Vec3& direction) {
   // s_i = a_i (w_i/h)^(1/(n-1)) with h^q = sum w_i^q, q = n/(n-1)
   const Vec3 w = shape.semi_axes.cwiseProduct(direction.cwiseAbs());
   const double largest = w.maxCoeff();
-  Vec3 powers;
-  double sum = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double u = w[i] / largest;
-    powers[i] = u == 0 ? 0 : power(u, 1 / (shape.exponent - 1));
-    sum += u * powers[i];
-  }
-  const double scale = 1 / power(sum, 1 / shape.exponent);
+  const Vec3 u = w / largest, u_q1 = powers(u, 1 / (shape.exponent - 1));
+  const double sum = u.dot(u_q1);
+  const double scale = math::two_powers(sum, 1, -1 / shape.exponent)[0];
   Support out;
   out.value = largest * sum * scale;
-  for (int i = 0; i < 3; ++i) out.point[i] = std::copysign(shape.semi_axes[i] * scale * powers[i], direction[i]);
+  for (int i = 0; i < 3; ++i) out.point[i] = std::copysign(shape.semi_axes[i] * scale * u_q1[i], direction[i]);
   return out;
 }
 
@@ -98,11 +105,10 @@ double gauge(const HyperEllipsoid& shape, const Vec3& x) {
 Vec3 gauge_gradient(const HyperEllipsoid& shape, const Vec3& x) {
   const double N = gauge(shape, x);
   if (N == 0) return Vec3::Zero();
+  const Vec3 w = x.cwiseAbs().cwiseQuotient(shape.semi_axes) / N;
+  const Vec3 steepness = powers(w, shape.exponent - 1).cwiseQuotient(shape.semi_axes);
   Vec3 g;
-  for (int i = 0; i < 3; ++i) {
-    const double w = std::abs(x[i]) / (shape.semi_axes[i] * N);
-    g[i] = std::copysign(power(w, shape.exponent - 1) / shape.semi_axes[i], x[i]);
-  }
+  for (int i = 0; i < 3; ++i) g[i] = std::copysign(steepness[i], x[i]);
   return g;
 }
 
@@ -111,10 +117,8 @@ Mat3 gauge_hessian(const HyperEllipsoid& shape, const Vec3& x) {
   if (N == 0) return Mat3::Zero();
   const Vec3 g = gauge_gradient(shape, x);
   Mat3 H = -g * g.transpose();
-  for (int i = 0; i < 3; ++i) {
-    const double w = std::abs(x[i]) / (shape.semi_axes[i] * N);
-    H(i, i) += (n == 2 ? 1 : power(w, n - 2)) / (shape.semi_axes[i] * shape.semi_axes[i]);
-  }
+  const Vec3 w = x.cwiseAbs().cwiseQuotient(shape.semi_axes) / N;
+  H.diagonal() += (n == 2 ? Vec3(Vec3::Ones()) : powers(w, n - 2)).cwiseQuotient(shape.semi_axes.cwiseAbs2());
   return H * ((n - 1) / N);
 }
 

@@ -19,6 +19,7 @@
 #include <limits>
 
 #include "engine/geometry/face_corners.h"
+#include "engine/math/functions.h"
 
 namespace engine {
 namespace {
@@ -149,12 +150,12 @@ void touch_edge_round(Scene& s, int triangle, int edge, std::vector<VertexTouch>
   // the cone: cos(angle) n + sin(angle) out, from this face to the other; of a border to the edge of the sheet
   const int other = s.mesh.neighbour(triangle, edge);
   const Vec3 n_far = other >= 0 ? s.mesh.face_normals()[other] : out;
-  const double widest = std::atan2(out.dot(n_far), n.dot(n_far));
+  const double widest = math::atan2(out.dot(n_far), n.dot(n_far));
   // slope of the distance along the cone: where it is zero the point reached lies over the edge
   Vec3 normal;
   Vec3 point;
   auto slope = [&](double angle) {
-    const double c = std::cos(angle), sn = std::sin(angle);
+    const double c = math::cos(angle), sn = math::sin(angle);
     normal = c * n + sn * out;
     point = reached(s, normal).point;
     return (c * out - sn * n).dot(point - start);

@@ -13,6 +13,8 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/math/functions.h"
+
 namespace engine {
 namespace {
 
@@ -70,7 +72,7 @@ struct Found {
 double climb_about(const Pair& pair, const Vec3& w, double tolerance, Vec3& n) {
   constexpr double kFirst = 1e-7, kGrowth = 6, kFarthest = 0.5;  // [rad]
   const Vec3 across = w.cross(n), along = w.dot(n) * w;
-  auto turned = [&](double angle) -> Vec3 { return std::cos(angle) * (n - along) + std::sin(angle) * across + along; };
+  auto turned = [&](double angle) -> Vec3 { return math::cos(angle) * (n - along) + math::sin(angle) * across + along; };
   auto slope = [&](double angle) {
     const Vec3 m = turned(angle);
     return w.cross(m).dot(pair.d - pair.support_sum(m));
@@ -139,7 +141,7 @@ Found settle(const Pair& pair, Found at, double tolerance) {
     for (int k = 0; k < kAround && moved <= 2 * tolerance; ++k) {
       const Vec3 t = n.unitOrthogonal();
       const double turn = std::numbers::pi * k / kAround;
-      moved = climb_about(pair, std::cos(turn) * t + std::sin(turn) * n.cross(t), tolerance, n);
+      moved = climb_about(pair, math::cos(turn) * t + math::sin(turn) * n.cross(t), tolerance, n);
     }
     if (moved <= 2 * tolerance) break;
   }
@@ -236,7 +238,7 @@ std::optional<SurfaceContact> search(const HyperEllipsoid& A, const Pose& X_WA, 
       for (int k = 0; k < kSweep; ++k) {
         const double z = 1 - (2 * k + 1.0) / kSweep, turn = kGoldenAngle * k;
         const double r = std::sqrt(1 - z * z);
-        const Vec3 n(r * std::cos(turn), r * std::sin(turn), z);
+        const Vec3 n(r * math::cos(turn), r * math::sin(turn), z);
         const double g = pair.gap(n);
         if (g <= promise || std::any_of(tried.begin(), tried_end, [&](const Vec3& t) { return n.dot(t) > 0.9; })) continue;
         promise = g;

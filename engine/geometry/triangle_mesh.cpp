@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/math/functions.h"
+
 namespace engine {
 namespace {
 
@@ -160,7 +162,7 @@ void TriangleMesh::connect() {
       const Vec3& n_b = face_normals_[b.triangle];
       // a face bends away from the other's plane: convex
       const Vec3 far_b = vertices_[triangles_[b.triangle][(b.edge + 2) % 3]] - vertices_[a.low];
-      const double angle = std::atan2(n_a.cross(n_b).norm(), n_a.dot(n_b));
+      const double angle = math::atan2(n_a.cross(n_b).norm(), n_a.dot(n_b));
       const bool convex = n_a.dot(far_b) < 0;
       const EdgeKind kind = angle >= kFlat             ? (convex ? EdgeKind::convex : EdgeKind::concave)
                             : convex && angle > kLevel ? EdgeKind::slight

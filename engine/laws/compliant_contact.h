@@ -2,7 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
+
+#include "engine/math/functions.h"
 
 namespace engine {
 
@@ -23,7 +24,7 @@ inline double compliant_normal_force(double S, double e, double depth, double se
     case ContactPhase::separate:
       return e * S * depth;
     case ContactPhase::resting:
-      return S * depth * (e + (1 - e) * 0.5 * (1 - std::tanh(separating / smoothing)));
+      return S * depth * (e + (1 - e) * 0.5 * (1 - math::tanh(separating / smoothing)));
   }
   return 0;
 }

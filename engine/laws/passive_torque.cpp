@@ -1,8 +1,9 @@
 #include "engine/laws/passive_torque.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
+
+#include "engine/math/functions.h"
 
 namespace engine {
 
@@ -13,13 +14,13 @@ PassiveTorques passive_torques(const Vec3& flexion) {
   const Vec3 within = (flexion / kDegree - at).cwiseEqual(Vec3::Zero()).cast<double>();
   const double hip = at[0], knee = at[1], ankle = -at[2];
 
-  const double extended = std::exp(1.4655 - .0034 * knee - .0750 * hip);
-  const double flexed = std::exp(1.3403 - .0226 * knee + .0305 * hip);
-  const double calf = std::exp(1.800 - .0460 * ankle - .0352 * knee + .0217 * hip);
-  const double bent = std::exp(-3.971 - .0004 * ankle + .0495 * knee - .0128 * hip);
-  const double straight = std::exp(2.220 - .150 * knee);
-  const double toes_up = std::exp(2.1016 - .0843 * ankle - .0176 * knee);
-  const double toes_down = std::exp(-7.9763 + .1949 * ankle + .0008 * knee);
+  const double extended = math::exp(1.4655 - .0034 * knee - .0750 * hip);
+  const double flexed = math::exp(1.3403 - .0226 * knee + .0305 * hip);
+  const double calf = math::exp(1.800 - .0460 * ankle - .0352 * knee + .0217 * hip);
+  const double bent = math::exp(-3.971 - .0004 * ankle + .0495 * knee - .0128 * hip);
+  const double straight = math::exp(2.220 - .150 * knee);
+  const double toes_up = math::exp(2.1016 - .0843 * ankle - .0176 * knee);
+  const double toes_down = math::exp(-7.9763 + .1949 * ankle + .0008 * knee);
 
   PassiveTorques out;
   out.torque = {extended - flexed + 8.072, calf - bent - 4.820 + straight, -(toes_up - toes_down - 1.792)};

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/math/functions.h"
+
 namespace engine {
 namespace {
 
@@ -26,7 +28,7 @@ SlipCurve at_load(const SlipCurve& one, const SlipCurve& two, double p, double f
 }
 
 double norm(double x, double y) {
-  return std::hypot(x, y);
+  return math::hypot(x, y);
 }
 
 /// Both directions joined.
@@ -65,7 +67,7 @@ Combined combine(const TmEasyTyre& tyre, double load, double mu, double s_x, dou
 Grip linear_grip(double load, double mu, double saturation_angle, double v_x, double) {
   const double speed = std::abs(v_x);
   if (speed < kSlowest) return {std::numeric_limits<double>::infinity(), mu};
-  return {mu * load / (std::tan(saturation_angle) * speed), mu};
+  return {mu * load / (math::tan(saturation_angle) * speed), mu};
 }
 
 double force_of(const SlipCurve& c, double slip) {

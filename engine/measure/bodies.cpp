@@ -3,6 +3,7 @@
 #include <numbers>
 #include <optional>
 
+#include "engine/math/functions.h"
 #include "engine/measure/metrics.h"
 
 namespace engine {
@@ -48,7 +49,7 @@ void measure_body(const Model& model, const Recording& recording, int b, std::ve
   const Pose& first = recording.snapshots.front().bodies[b].X_WB;
   const Pose& last = recording.snapshots.back().bodies[b].X_WB;
   out.push_back({"travel_m", name, (last.p - first.p).head<2>().norm()});
-  out.push_back({"turned_deg", name, first.q.angularDistance(last.q) * 180 / std::numbers::pi});
+  out.push_back({"turned_deg", name, math::angle_between(first.q, last.q) * 180 / std::numbers::pi});
   for (const Event& e : recording.events)
     if (e.kind == "rest" && e.body_a == b) out.push_back({"rest_s", name, e.time});
   if (const auto* shape = std::get_if<HyperEllipsoid>(&model.bodies[b].shape))
@@ -104,7 +105,7 @@ void measure_vehicle(const Model& model, const Recording& recording, int v, std:
   if (std::abs(push.y()) < 1e-6 * push.norm()) push.y() = 0;  // square from behind is 180 deg, not now and then -180
   if (const double energy = deformation_energy(model, recording, vehicle.body); energy > 0)
     out.push_back({"ees_mps", vehicle.name, std::sqrt(2 * energy / model.bodies[vehicle.body].mass)});
-  out.push_back({"pdof_deg", vehicle.name, std::atan2(push.y(), -push.x()) * 180 / std::numbers::pi});
+  out.push_back({"pdof_deg", vehicle.name, math::atan2(push.y(), -push.x()) * 180 / std::numbers::pi});
 }
 
 }  // namespace engine

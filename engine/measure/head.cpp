@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/functions.h"
 #include "engine/measure/metrics.h"
 
 namespace engine {
@@ -71,7 +72,7 @@ double hic(const std::vector<double>& t, const std::vector<double>& a, double wi
     for (std::size_t k = i + 1; k < t.size() && t[k] - t[i] <= window * (1 + 1e-9); ++k) {
       const double span = t[k] - t[i];
       const double mean = (sum[k] - sum[i]) / span;
-      if (mean > 0) best = std::max(best, span * std::pow(mean, 2.5));
+      if (mean > 0) best = std::max(best, span * math::pow(mean, 2.5));
     }
   return best;
 }

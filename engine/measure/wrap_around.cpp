@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/math/functions.h"
 #include "engine/measure/metrics.h"
 
 namespace engine {
@@ -70,7 +71,7 @@ std::optional<double> wrap_around_distance(const Model& model, int b, const Vec3
     tape.push_back(p);
   }
   double length = 0;
-  for (std::size_t i = 1; i < tape.size(); ++i) length += std::hypot(tape[i].x - tape[i - 1].x, tape[i].z - tape[i - 1].z);
+  for (std::size_t i = 1; i < tape.size(); ++i) length += math::hypot(tape[i].x - tape[i - 1].x, tape[i].z - tape[i - 1].z);
   return length;
 }
 

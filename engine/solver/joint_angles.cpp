@@ -1,7 +1,8 @@
 #include "engine/solver/joint_angles.h"
 
 #include <Eigen/LU>
-#include <cmath>
+
+#include "engine/math/functions.h"
 
 namespace engine {
 namespace {
@@ -13,21 +14,21 @@ Mat3 left_jacobian(const Vec3& phi) {
   const double t = phi.norm();
   const Mat3 P = skew(phi);
   if (t < kSmallAngle) return Mat3::Identity() + 0.5 * P + P * P / 6;
-  return Mat3::Identity() + (1 - std::cos(t)) / (t * t) * P + (t - std::sin(t)) / (t * t * t) * P * P;
+  return Mat3::Identity() + (1 - math::cos(t)) / (t * t) * P + (t - math::sin(t)) / (t * t * t) * P * P;
 }
 
 JointAngles swing_twist(const Quat& q_FpFc, const Mat3& R_WFp) {
   JointAngles out;
   Quat q = q_FpFc;
   if (q.w() < 0) q.coeffs() *= -1;
-  const double twist_norm = std::hypot(q.w(), q.z());
+  const double twist_norm = math::hypot(q.w(), q.z());
   const Quat twist = twist_norm > 1e-12 ? Quat(q.w() / twist_norm, 0, 0, q.z() / twist_norm) : Quat::Identity();
   const Quat swing = q * twist.conjugate();
-  const double sine = std::hypot(swing.x(), swing.y());
-  const double angle = 2 * std::atan2(sine, swing.w());
+  const double sine = math::hypot(swing.x(), swing.y());
+  const double angle = 2 * math::atan2(sine, swing.w());
   const double scale = sine < 0.5 * kSmallAngle ? 2.0 : angle / sine;
   const Vec3 phi(scale * swing.x(), scale * swing.y(), 0);
-  out.angle << phi.x(), phi.y(), 2 * std::atan2(twist.z(), twist.w());
+  out.angle << phi.x(), phi.y(), 2 * math::atan2(twist.z(), twist.w());
   Mat3 B = left_jacobian(phi);
   B.col(2) = swing * Vec3::UnitZ();
   out.gradient_W = R_WFp * B.inverse().transpose();
@@ -50,7 +51,7 @@ JointAngles joint_angles(const Joint& joint, const Pose& X_WP, const Pose& X_WC)
       return out;
     case JointKind::revolute: {
       const double sign = q.w() < 0 ? -1 : 1;
-      out.angle[1] = 2 * std::atan2(sign * q.y(), sign * q.w());
+      out.angle[1] = 2 * math::atan2(sign * q.y(), sign * q.w());
       out.gradient_W.col(1) = out.axes_W.col(1) = R_WFp.col(1);
       out.free[1] = true;
       return out;
@@ -58,8 +59,8 @@ JointAngles joint_angles(const Joint& joint, const Pose& X_WP, const Pose& X_WC)
     case JointKind::universal: {
       // R = R_y(alpha) R_x(beta)
       const Mat3 R = q.toRotationMatrix();
-      out.angle[1] = std::atan2(-R(2, 0), R(0, 0));
-      out.angle[0] = std::atan2(-R(1, 2), R(1, 1));
+      out.angle[1] = math::atan2(-R(2, 0), R(0, 0));
+      out.angle[0] = math::atan2(-R(1, 2), R(1, 1));
       out.gradient_W.col(1) = out.axes_W.col(1) = R_WFp.col(1);
       out.gradient_W.col(0) = out.axes_W.col(0) = q_WFc * Vec3::UnitX();
       out.free[0] = out.free[1] = true;

@@ -7,8 +7,8 @@
 // so the limits are not the anatomical half ranges; they are the smallest box that holds the motion through each angle's whole
 // range with the other angles at zero (or their nearest value), and the pose at the start. A universal joint needs none of this.
 #include <algorithm>
-#include <cmath>
 
+#include "engine/math/functions.h"
 #include "scenes/loader/figure.h"
 
 namespace scenes {
@@ -20,11 +20,11 @@ using engine::Vec3;
 /// Swing x, swing y, twist z of R = swing * twist.
 Vec3 swing_twist(Quat r) {
   if (r.w() < 0) r.coeffs() *= -1;
-  const double twist = 2 * std::atan2(r.z(), r.w());
-  Quat swing = r * Quat(Eigen::AngleAxisd(-twist, Vec3::UnitZ()));
+  const double twist = 2 * engine::math::atan2(r.z(), r.w());
+  Quat swing = r * engine::math::rotation(-twist, Vec3::UnitZ());
   if (swing.w() < 0) swing.coeffs() *= -1;
   const double s = swing.vec().norm();
-  const double scale = s < 1e-12 ? 2 : 2 * std::atan2(s, swing.w()) / s;
+  const double scale = s < 1e-12 ? 2 : 2 * engine::math::atan2(s, swing.w()) / s;
   return {scale * swing.x(), scale * swing.y(), twist};
 }
 
@@ -54,7 +54,7 @@ void widen_over_ranges(const FigureJoint& joint, const Quat& q_mid, Vec3& lower,
 
 Quat articulation(const FigureJoint& joint, const std::vector<double>& angles) {
   Quat out = Quat::Identity();
-  for (std::size_t i = 0; i < joint.angles.size(); ++i) out = out * Quat(Eigen::AngleAxisd(angles[i], joint.angles[i].axis));
+  for (std::size_t i = 0; i < joint.angles.size(); ++i) out = out * engine::math::rotation(angles[i], joint.angles[i].axis);
   return out;
 }
 
@@ -72,7 +72,7 @@ void make_universal(const FigureJoint& joint, engine::Joint& out) {
     const double half = (angle.upper - angle.lower) / 2;
     out.angles[static_cast<std::size_t>(axis)] = {-half, half, joint.stiffness, -middle, joint.damping, joint.friction_torque};
     engine::Quat& q = k == 0 ? out.X_PF.q : out.X_CF.q;
-    q = Eigen::AngleAxisd(k == 0 ? middle : -middle, Vec3::Unit(axis));
+    q = engine::math::rotation(k == 0 ? middle : -middle, Vec3::Unit(axis));
   }
 }
 

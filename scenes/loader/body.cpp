@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "engine/math/functions.h"
 #include "scenes/loader/builder.h"
 #include "scenes/loader/mesh.h"
 #include "scenes/loader/mesh_frame.h"
@@ -95,10 +96,11 @@ engine::Quat read_attitude(Reader& r) {
     r.fail("quaternion", "must be four numbers [w, x, y, z] whose squares sum to 1");
     return engine::Quat::Identity();
   }
+  using engine::math::rotation;
   const engine::Vec3 rpy = r.vector("attitude");
   if (rpy.isZero()) return engine::Quat::Identity();
-  return engine::Quat(Eigen::AngleAxisd(rpy.z(), engine::Vec3::UnitZ()) * Eigen::AngleAxisd(rpy.y(), engine::Vec3::UnitY()) *
-                      Eigen::AngleAxisd(rpy.x(), engine::Vec3::UnitX()));
+  return rotation(rpy.z(), engine::Vec3::UnitZ()) * rotation(rpy.y(), engine::Vec3::UnitY()) *
+         rotation(rpy.x(), engine::Vec3::UnitX());
 }
 
 engine::SurfaceProperties read_surface(Reader& r, engine::SurfaceProperties out) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/functions.h"
 #include "scenes/loader/builder.h"
 #include "scenes/loader/sha256.h"
 
@@ -175,7 +176,7 @@ void read_camera(Builder& builder, Reader& r) {
                                    : fmt::format("is no body, vehicle or person of the scene; did you mean \"{}\"?", guess));
   }
   camera.vertical_fov = r.number("fov");
-  if (const auto lens = r.number_if("lens")) camera.vertical_fov = 2 * std::atan(kFilmHeight / 2 / *lens);
+  if (const auto lens = r.number_if("lens")) camera.vertical_fov = 2 * engine::math::atan(kFilmHeight / 2 / *lens);
   if (r.has("lens") && r.has("fov")) r.fail("lens", "says the same as fov; give one of them");
   camera.orbit_radius = r.number("radius");
   camera.orbit_height = r.number("height");

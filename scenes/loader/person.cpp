@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/functions.h"
 #include "scenes/loader/figure.h"
 
 namespace scenes {
@@ -274,10 +275,10 @@ void read_person(Builder& builder, Reader r) {
   const int mount = find_mount(builder, r);
   const engine::Body* ridden = mount < 0 ? nullptr : &model.bodies[static_cast<std::size_t>(mount)];
   const engine::Vec3 ahead = ridden ? engine::Vec3(ridden->X_WB.q * engine::Vec3::UnitX()) : engine::Vec3::UnitX();
-  const double heading = ridden ? std::atan2(ahead.y(), ahead.x()) : r.number("heading");
-  const engine::Quat q_root(Eigen::AngleAxisd(heading, engine::Vec3::UnitZ()) *
-                            Eigen::AngleAxisd(pose.pitch, engine::Vec3::UnitY()) *
-                            Eigen::AngleAxisd(pose.roll, engine::Vec3::UnitX()));
+  const double heading = ridden ? engine::math::atan2(ahead.y(), ahead.x()) : r.number("heading");
+  using engine::math::rotation;
+  const engine::Quat q_root = rotation(heading, engine::Vec3::UnitZ()) * rotation(pose.pitch, engine::Vec3::UnitY()) *
+                              rotation(pose.roll, engine::Vec3::UnitX());
   std::vector<engine::Pose> X_WB = placed(figure, pose, q_root);
   if (ridden) {
     const engine::Vec3 seat = ridden->X_WB * builder.saddles.at(ridden->name);
@@ -289,7 +290,8 @@ void read_person(Builder& builder, Reader r) {
   if (r.has("velocity") && r.has("speed")) r.fail("velocity", "must not be given together with speed");
   const engine::Vec3 v =
       ridden ? ridden->V_WB.v
-             : r.vector_if("velocity").value_or(r.number("speed") * engine::Vec3(std::cos(heading), std::sin(heading), 0));
+             : r.vector_if("velocity")
+                   .value_or(r.number("speed") * engine::Vec3(engine::math::cos(heading), engine::math::sin(heading), 0));
   const engine::Vec3 w = r.vector("angular_velocity");
   const engine::Vec3 cg = centre_of_gravity(figure, X_WB);
   const auto collision = static_cast<engine::CollisionModel>(r.choice("collision"));

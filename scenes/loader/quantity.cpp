@@ -160,7 +160,7 @@ UnitValue take_unit(std::string_view& t, Dimension wanted) {
       out.unknown = symbol.empty() ? std::string(t.substr(0, 1)) : std::string(symbol);
       return out;
     }
-    out.factor *= std::pow(unit->factor, power);
+    for (int k = 0; k < std::abs(power); ++k) power > 0 ? out.factor *= unit->factor : out.factor /= unit->factor;
     out.powers.m += power * unit->powers.m;
     out.powers.kg += power * unit->powers.kg;
     out.powers.s += power * unit->powers.s;

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <cassert>
-#include <cmath>
 
+#include "engine/math/functions.h"
 #include "scenes/loader/reader.h"
 
 namespace scenes {
@@ -11,7 +11,7 @@ namespace {
 
 /// sRGB 0..1 to linear, IEC 61966-2-1.
 float linear(double c) {
-  return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+  return static_cast<float>(c <= 0.04045 ? c / 12.92 : engine::math::pow((c + 0.055) / 1.055, 2.4));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // [simulation]: step, scheme, gravity and which effects are forced.
-#include <cmath>
 
+#include "engine/math/functions.h"
 #include "scenes/loader/builder.h"
 
 namespace scenes {
@@ -80,7 +80,7 @@ void read_settings(Builder& builder, std::optional<Reader> reader) {
   s.contact_law = static_cast<engine::ContactLaw>(r.choice("contact_law"));
   const double g = r.number("gravity");
   const double slope = r.number("slope");
-  s.gravity = {g * std::sin(slope), 0, -g * std::cos(slope)};
+  s.gravity = {g * engine::math::sin(slope), 0, -g * engine::math::cos(slope)};
   if (slope == 0) s.gravity = {0, 0, -g};
   s.adaptive_tolerance = r.number("adaptive_tolerance");
   s.solver_tolerance = r.has("solver_tolerance") ? r.number("solver_tolerance") : profile.solver_tolerance;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/functions.h"
 #include "scenes/loader/builder.h"
 #include "scenes/loader/decimate.h"
 #include "scenes/loader/mesh.h"
@@ -279,10 +280,11 @@ engine::Pose mesh_pose(Builder& builder, Reader& r, const Meshes& meshes, double
   engine::Vec3 at = r.vector("position");
   if (r.has("front")) {
     if (r.has("position")) r.fail("front", "must not be given together with position");
-    at = r.vector("front") - meshes.bodywork->solid->bounds().upper.x() * engine::Vec3(std::cos(heading), std::sin(heading), 0);
+    at = r.vector("front") -
+         meshes.bodywork->solid->bounds().upper.x() * engine::Vec3(engine::math::cos(heading), engine::math::sin(heading), 0);
   }
   at.z() = builder.scene.model.ground.height + r.number("lift");
-  return {at, engine::Quat(Eigen::AngleAxisd(heading, engine::Vec3::UnitZ())) * read_attitude(r)};
+  return {at, engine::math::rotation(heading, engine::Vec3::UnitZ()) * read_attitude(r)};
 }
 
 /// The vehicle that tows this one, -1: none; all that is wrong with it is told.
@@ -321,7 +323,7 @@ void couple(Builder& builder, Reader& r, int tower, const engine::Vec3& coupling
   // a turntable turns about the joint frame's y, which is put upright
   const bool turntable = r.choice("coupling_kind") == 1;
   joint.kind = turntable ? engine::JointKind::revolute : engine::JointKind::spherical;
-  const engine::Quat upright(Eigen::AngleAxisd(0.5 * 3.14159265358979323846, engine::Vec3::UnitX()));
+  const engine::Quat upright = engine::math::rotation(0.5 * std::numbers::pi, engine::Vec3::UnitX());
   joint.X_PF = {hitch_B, upright};
   joint.X_CF = {coupling_B, (body.X_WB.q.conjugate() * front.X_WB.q * upright).normalized()};
   model.joints.push_back(joint);
@@ -378,7 +380,8 @@ void read_vehicle(Builder& builder, Reader scene) {
   body.shape = engine::MeshShape{coarse, X_BM, tolerance};
   body.X_WB = {X_WM * cg, X_WM.q.normalized()};
   if (r.has("velocity") && r.has("speed")) r.fail("velocity", "must not be given together with speed");
-  body.V_WB.v = r.vector_if("velocity").value_or(r.number("speed") * engine::Vec3(std::cos(heading), std::sin(heading), 0));
+  body.V_WB.v =
+      r.vector_if("velocity").value_or(r.number("speed") * engine::Vec3(engine::math::cos(heading), engine::math::sin(heading), 0));
   body.V_WB.w = r.vector("angular_velocity");
   if (const int tower = find_tower(builder, r); tower >= 0 && r.has("coupling"))
     couple(builder, r, tower, r.vector("coupling") - cg, body);

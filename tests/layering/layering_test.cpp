@@ -47,6 +47,7 @@ struct Library {
 
 const std::vector<Library> kLibraries = {
     {"Eigen/.*", {"engine/", "render/", "scenes/", "cli/"}},
+    {"sleef\\.h", {"engine/math/functions.cpp"}},
     {"GL/.*|EGL/.*", {"render/gl/"}},
     {"immintrin\\.h", {"render/shade/lanes.h"}},
     {"lib(av|sw).*", {"render/video/"}},
@@ -110,6 +111,24 @@ std::vector<std::string> broken_walls(const std::string& file, const std::string
     }
     if (!known && !is_standard(include.target))
       out.push_back(file + " includes <" + include.target + ">, which no room is allowed");
+  }
+  return out;
+}
+
+/// Lines that take a function from the C library, or from Eigen that does, whose last bits depend on the processor. What a
+/// recording depends on calls those of engine/math/functions.h.
+std::vector<std::string> undefined_bits(const std::string& file, const std::string& text) {
+  std::vector<std::string> out;
+  if (file.starts_with("engine/math/functions.") || !starts_with_any(file, {"engine/", "scenes/"})) return out;
+  static const std::regex kCall(
+      R"((^|[^\w:.>])(std::|::)?(a?(sin|cos|tan)h?|atan2|exp(2|m1)?|log(2|10|1p)?|pow|cbrt|hypot|[tl]gamma|erfc?)f?\()"
+      R"(|AngleAxis|eulerAngles|[.>](slerp|angularDistance|stableNorm|computeDirect)\(|Rotation2D)");
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const std::string code = line.substr(0, line.find("//"));
+    if (std::regex_search(code, kCall)) out.push_back(file + ":" + std::to_string(number) + ": " + line);
   }
   return out;
 }
@@ -191,6 +210,13 @@ TEST(Layering, EveryIncludeOfOursNamesAFileThatIsThere) {
   EXPECT_THAT(missing, IsEmpty());
 }
 
+TEST(Layering, WhatARecordingDependsOnCallsNoFunctionOfUndefinedBits) {
+  std::vector<std::string> found;
+  for (const auto& [file, text] : sources())
+    for (const std::string& line : undefined_bits(file, text)) found.push_back(line);
+  EXPECT_THAT(found, IsEmpty());
+}
+
 // the checker itself: a wall that lets everything through would pass the tests above
 
 TEST(LayeringChecker, SeesAnArrowUpward) {
@@ -209,6 +235,15 @@ TEST(LayeringChecker, SeesALibraryWhereItDoesNotBelong) {
   EXPECT_THAT(broken_walls("cli/main.cpp", "#include <boost/any.hpp>\n"), SizeIs(1));
   EXPECT_THAT(broken_walls("engine/step.cpp", "#include <vector>\n#include <Eigen/Core>\n#include \"engine/state.h\"\n"),
               IsEmpty());
+}
+
+TEST(LayeringChecker, SeesAFunctionOfUndefinedBits) {
+  for (const char* line : {"x = std::sin(a);", "x = 2 * ::pow(a, b);", "cos(a)", "return hypot(x, y);",
+                           "q = Eigen::AngleAxisd(a, n);", "a.slerp(s, b)", "std::expm1(x)", "std::acosh(x)", "powf(a, b)"})
+    EXPECT_THAT(undefined_bits("engine/step.cpp", line), SizeIs(1)) << line;
+  for (const char* line : {"x = math::sin(a);", "engine::math::pow(a, b)", "// std::sin(a)", "combined.cos(x)", "explain(x)"})
+    EXPECT_THAT(undefined_bits("scenes/loader/body.cpp", line), IsEmpty()) << line;
+  EXPECT_THAT(undefined_bits("render/film.cpp", "x = std::sin(a);"), IsEmpty()) << "pictures are compared within limits";
 }
 
 TEST(LayeringChecker, SeesACircle) {
