@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/effects/effects.h"
+#include "engine/effects/effect.h"
 
 namespace engine {
 namespace {
@@ -23,12 +23,12 @@ int fastest_body(const State& state) {
 }
 
 double energy_of(const World& world, const State& state) {
-  return kinetic_energy(world.model, state) + potential_energy(world.model, state) + world.spring_energy;
+  return kinetic_energy(world.model, state) + potential_energy(world.model, state) + state.energy.springs;
 }
 
 }  // namespace
 
-int lost_body(const State& state) {
+int lost_body(const Motion& state) {
   // what has no square is no number either, and is noticed before a product makes it so; of NaN the comparison is false
   static constexpr double kSquarable = 1e100;
   const auto is_number = [](const Vec3& v) { return (v.array().abs() < kSquarable).all(); };
@@ -41,12 +41,12 @@ int lost_body(const State& state) {
   return -1;
 }
 
-Failure failure_of(const World& world, int body, double time, const char* message) {
+Failure failure_of(const World& world, const std::vector<Constraint>& conditions, int body, double time, const char* message) {
   const bool jointed = std::any_of(world.model.joints.begin(), world.model.joints.end(),
                                    [body](const Joint& j) { return j.parent == body || j.child == body; });
-  const char* effect = jointed ? kJointsEffect.name : kGravityEffect.name;
+  const char* effect = jointed ? "joints" : "gravity";
   double largest = -1;
-  for (const Constraint& c : world.constraints)
+  for (const Constraint& c : conditions)
     if ((c.body_a == body || c.body_b == body) && !(c.impulse.norm() <= largest)) {
       largest = c.impulse.norm();
       effect = world.plan.active[c.effect]->name;
@@ -54,25 +54,27 @@ Failure failure_of(const World& world, int body, double time, const char* messag
   return {time, world.model.bodies[body].name, effect, message};
 }
 
-DivergenceWatch::DivergenceWatch(const World& world, const State& state) : initial_(energy_of(world, state)) {
-  scale_ = kinetic_energy(world.model, state) + world.spring_energy;
+void measure_energy(const World& world, State& state) {
+  state.energy.initial = energy_of(world, state);
+  state.energy.scale = kinetic_energy(world.model, state) + state.energy.springs;
   for (const Body& body : world.model.bodies)
-    if (!body.fixed) scale_ += body.mass * std::max(kGravity, world.model.settings.gravity.norm()) * kFall;
+    if (!body.fixed) state.energy.scale += body.mass * std::max(kGravity, world.model.settings.gravity.norm()) * kFall;
 }
 
-std::optional<Failure> DivergenceWatch::look(const World& world, const State& state) const {
-  if (world.failure) return world.failure;
-  if (const int body = lost_body(state); body >= 0) return failure_of(world, body, state.time, kNotANumber);
+std::optional<Failure> look_for_divergence(const World& world, const State& state, const std::vector<Constraint>& of_last_step) {
+  if (world.log.failure) return world.log.failure;
+  if (const int body = lost_body(state); body >= 0) return failure_of(world, of_last_step, body, state.time, kNotANumber);
   if (state.V_WB.empty()) return std::nullopt;
   const int fastest = fastest_body(state);
   if (speed_of(state.V_WB[fastest]) > kFastest)
-    return failure_of(world, fastest, state.time,
+    return failure_of(world, of_last_step, fastest, state.time,
                       "the motion left every physical bound: a smaller step or other properties may help");
   // what springs give back stands in the books as negative dissipation
-  double unexplained = energy_of(world, state) - initial_ - std::max(0.0, world.added);
-  for (const double d : world.dissipated) unexplained += std::min(0.0, d);
-  if (unexplained > scale_)
-    return failure_of(world, fastest, state.time, "the scene gained more energy than it ever had; a smaller step may help");
+  double unexplained = energy_of(world, state) - state.energy.initial - std::max(0.0, state.energy.added);
+  for (const double d : state.energy.dissipated) unexplained += std::min(0.0, d);
+  if (unexplained > state.energy.scale)
+    return failure_of(world, of_last_step, fastest, state.time,
+                      "the scene gained more energy than it ever had; a smaller step may help");
   return std::nullopt;
 }
 

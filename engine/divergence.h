@@ -12,23 +12,17 @@ inline constexpr const char* kNotANumber = "its motion is no longer a number; a 
 
 /// The first body with a place or velocity that is not a finite number or not one that can be squared, or with an attitude that is
 /// no rotation; -1: none.
-int lost_body(const State&);
+int lost_body(const Motion&);
 
-/// Failure of `body` in the step that ends at `time`: the effect is the one whose constraint pushed it hardest; where none
-/// does, its joints, or what makes it fall.
-Failure failure_of(const World&, int body, double time, const char* message);
+/// Failure of `body` in the step that ends at `time`, over which these conditions acted: the effect is the one whose constraint
+/// pushed it hardest; where none does, its joints, or what makes it fall.
+Failure failure_of(const World&, const std::vector<Constraint>&, int body, double time, const char* message);
 
-class DivergenceWatch {
- public:
-  DivergenceWatch(const World&, const State&);
+/// Energy at the start of a run, by which the watch and the ledger measure.
+void measure_energy(const World&, State&);
 
-  /// What has gone wrong, if anything: numbers that are not finite, speeds that no accident knows, or more energy out of nowhere
-  /// than the scene ever had. Allocates nothing while all is well.
-  std::optional<Failure> look(const World&, const State&) const;
-
- private:
-  double initial_ = 0;  // [J] kinetic and potential at the start
-  double scale_ = 0;    // [J] of the scene
-};
+/// What has gone wrong, if anything: numbers that are not finite, speeds that no accident knows, or more energy out of nowhere
+/// than the scene ever had. Allocates nothing while all is well.
+std::optional<Failure> look_for_divergence(const World&, const State&, const std::vector<Constraint>& of_last_step);
 
 }  // namespace engine

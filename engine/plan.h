@@ -1,7 +1,9 @@
 // Which effects a model calls for, and why. Compiled once before the run.
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/model/model.h"
@@ -9,12 +11,16 @@
 
 namespace engine {
 
-struct Effect;
+struct EffectKind;
 
 /// Every known effect has a line; `active` holds those that run, in the order of the step.
 struct Plan {
   std::vector<PlanLine> lines;
-  std::vector<const Effect*> active;
+  std::vector<const EffectKind*> active;
+
+  bool has(std::string_view effect) const {
+    return std::any_of(lines.begin(), lines.end(), [effect](const PlanLine& l) { return l.active && l.effect == effect; });
+  }
 };
 
 Plan compile(const Model&);

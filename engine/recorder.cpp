@@ -45,8 +45,8 @@ Recorder::Recorder(const World& world, const State& state)
       last_ground_(world.model.persons.size(), 0) {
   tallies_.reserve(kRoom);
   events_.reserve(kRoom);
-  initial_energy_ = kinetic_energy(world.model, state) + potential_energy(world.model, state) + world.spring_energy;
-  last_energy_ = initial_energy_;
+  last_energy_ =
+      kinetic_energy(world.model, state) + potential_energy(world.model, state) + state.energy.springs - state.energy.added;
   // what stands within 2 cm of the ground at the start carries its person
   for (std::size_t b = 0; b < world.model.bodies.size(); ++b) {
     const auto* shape = std::get_if<HyperEllipsoid>(&world.model.bodies[b].shape);
@@ -95,12 +95,12 @@ void Recorder::watch_compression(const World& world, const Constraint& c, double
 void Recorder::watch_bounds(const World& world, const Constraint& c, double time) {
   if (is_compliant(c)) return;
   if (c.kind == ConstraintKind::limit) overturned_.note(-c.gap, time, c);
-  if (is_contact(c) && -c.gap > world.overlap_at_start(c.record_a, c.record_b) + kToldInside)
+  if (is_contact(c) && -c.gap > world.log.overlap_at_start(c.record_a, c.record_b) + kToldInside)
     (c.contact_kind == ContactKind::vehicle_pair ? crossed_ : stood_inside_).note(-c.gap, time, c);
 }
 
-void Recorder::tally(const World& world, double time, double duration) {
-  for (const Constraint& c : world.constraints) {
+void Recorder::tally(const World& world, const std::vector<Constraint>& conditions, double time, double duration) {
+  for (const Constraint& c : conditions) {
     watch_bounds(world, c, time);
     if (c.kind != ConstraintKind::contact) continue;
     watch_events(world, c, time);
@@ -189,8 +189,8 @@ void Recorder::snapshot(const World& world, const State& state, Recording& recor
     s.contacts.push_back(t.record);
   }
   tallies_.clear();
-  for (; exchanges_told_ < world.exchanges.size(); ++exchanges_told_) {
-    ContactRecord c = world.exchanges[exchanges_told_];
+  for (; exchanges_told_ < world.log.exchanges.size(); ++exchanges_told_) {
+    ContactRecord c = world.log.exchanges[exchanges_told_];
     if (since > 0) {
       c.force = c.impulse / since;
       c.normal_force = c.normal_impulse / since;
@@ -198,18 +198,18 @@ void Recorder::snapshot(const World& world, const State& state, Recording& recor
     }
     s.contacts.push_back(c);
   }
-  for (std::size_t i = 0; i < world.wheels.size(); ++i) {
-    const WheelState& w = world.wheels[i];
-    const double h = world.step > 0 ? world.step : 1;
+  for (std::size_t i = 0; i < state.wheels.size(); ++i) {
+    const WheelState& w = state.wheels[i];
+    const double h = state.pace.last > 0 ? state.pace.last : 1;
     s.wheels.push_back({w.vehicle, w.wheel, w.hub, w.contact, w.steer, state.wheel_spin[i], w.impulse[0] / h, w.impulse[1] / h,
                         w.impulse[2] / h, w.slip});
   }
   s.energies.kinetic = kinetic_energy(world.model, state);
-  s.energies.potential = potential_energy(world.model, state) + world.spring_energy;
-  s.energies.dissipated = world.dissipated;
-  s.energies.added = world.added;
-  s.energies.residual = s.energies.kinetic + s.energies.potential - initial_energy_ - world.added;
-  for (const double d : world.dissipated) s.energies.residual += d;
+  s.energies.potential = potential_energy(world.model, state) + state.energy.springs;
+  s.energies.dissipated = state.energy.dissipated;
+  s.energies.added = state.energy.added;
+  s.energies.residual = s.energies.kinetic + s.energies.potential - state.energy.initial - state.energy.added;
+  for (const double d : state.energy.dissipated) s.energies.residual += d;
   const double mechanical = s.energies.kinetic + s.energies.potential - s.energies.added;
   energy_rise_ = std::max(energy_rise_, mechanical - last_energy_);
   last_energy_ = mechanical;
@@ -230,10 +230,10 @@ void Recorder::warn_of_shortfalls(const World& world, std::vector<std::string>& 
     warnings.push_back(name(too_deep_.body_a) + " was pressed " + told(1e3 * too_deep_.amount) + " mm into " +
                        name(too_deep_.body_b) + at(too_deep_) +
                        ", more than its thickness: too soft for this blow; give them more stiffness");
-  if (world.unsettled.amount > kToldUnsettled)
-    warnings.push_back("the forces between " + name(world.unsettled.body_a) + " and " + name(world.unsettled.body_b) +
-                       at(world.unsettled) + " were solved to " + told(world.unsettled.amount) + " m/s only, something is jammed" +
-                       kCompare);
+  if (world.log.unsettled.amount > kToldUnsettled)
+    warnings.push_back("the forces between " + name(world.log.unsettled.body_a) + " and " + name(world.log.unsettled.body_b) +
+                       at(world.log.unsettled) + " were solved to " + told(world.log.unsettled.amount) +
+                       " m/s only, something is jammed" + kCompare);
   for (const auto& [inside, most] : {std::pair(stood_inside_, kToldInside), std::pair(crossed_, kToldCrossed)})
     if (inside.amount > most)
       warnings.push_back(name(inside.body_a) + " stood " + told(1e3 * inside.amount) + " mm inside " + name(inside.body_b) +
@@ -251,11 +251,11 @@ void Recorder::finish(const World& world, const State& state, Recording& recordi
     if (person >= 0 && !state.released[person]) continue;
     events_.push_back({std::min(halted_[t], state.time), "rest", root, -1, state.X_WB[root].p, 0});
   }
-  recording.events = world.events;
+  recording.events = world.log.events;
   recording.events.insert(recording.events.end(), events_.begin(), events_.end());
   std::stable_sort(recording.events.begin(), recording.events.end(),
                    [](const Event& a, const Event& b) { return a.time < b.time; });
-  recording.diagnostics = world.diagnostics;
+  recording.diagnostics = world.log.diagnostics;
   recording.diagnostics.max_energy_rise = energy_rise_;
   recording.diagnostics.max_compression = compression_;
   warn_of_shortfalls(world, recording.diagnostics.warnings);

@@ -13,7 +13,7 @@ class Recorder {
   Recorder(const World&, const State&);
 
   /// Adds the impulses of the constraints just solved. `duration` [s] of the step, 0 for an instantaneous exchange.
-  void tally(const World&, double time, double duration);
+  void tally(const World&, const std::vector<Constraint>&, double time, double duration);
 
   /// End of every step: what snapshots are too seldom for.
   void sample(const World&, const State&, Recording&);
@@ -51,7 +51,6 @@ class Recorder {
   std::size_t exchanges_told_ = 0;
   std::vector<Vec3> velocity_;  // [m/s] per body, at the last sample
   double sampled_ = 0;          // [s] when that was
-  double initial_energy_ = 0;
   double last_energy_ = 0;
   double energy_rise_ = 0;  // [J] largest between two snapshots
   double compression_ = 0;  // [m] deepest of a compliant contact

@@ -8,7 +8,7 @@
 #include "engine/local_frame.h"
 #include "engine/recorder.h"
 #include "engine/start.h"
-#include "engine/step.h"
+#include "engine/step/step.h"
 
 namespace engine {
 namespace {
@@ -18,7 +18,7 @@ constexpr int kAskEvery = 100;  // steps between two calls of the caller's progr
 void describe(const Model& model, const Plan& plan, Recording& recording) {
   for (const Body& body : model.bodies) recording.body_names.push_back(body.name);
   for (const Vehicle& vehicle : model.vehicles) recording.vehicle_names.push_back(vehicle.name);
-  for (const Effect* effect : plan.active) recording.effect_names.push_back(effect->name);
+  for (const EffectKind* effect : plan.active) recording.effect_names.push_back(effect->name);
   recording.plan = plan.lines;
 }
 
@@ -26,26 +26,25 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
   Recording recording;
   describe(model, plan, recording);
   World world(model, plan, options);
-  State state = start(world);
+  State state = options.from ? *options.from : start(world);
 
   const double h = model.settings.step;
-  const long steps = std::lround(std::ceil(model.settings.duration / h - 1e-9));
+  const long first = std::lround(state.time / h), steps = std::lround(std::ceil(model.settings.duration / h - 1e-9));
   const long per_snapshot = std::max(1L, std::lround(model.settings.record_interval / h));
   recording.interval = static_cast<double>(per_snapshot) * h;
   Recorder recorder(world, state);
   recorder.snapshot(world, state, recording);
-  const DivergenceWatch watch(world, state);
-  Stepper stepper(world);
-  stepper.on_impulses = [&](double time, double duration) {
+  Stepper stepper(world, [&](const std::vector<Constraint>& conditions, double time, double duration) {
     const Meter::Span span(world.meter, Phase::recording);
-    recorder.tally(world, time, duration);
-  };
-  recording.failure = watch.look(world, state);  // at such a speed the first step alone would take minutes
-  for (long k = 0; k < steps && !recording.failure; ++k) {
+    recorder.tally(world, conditions, time, duration);
+  });
+  // at such a speed the first step alone would take minutes
+  recording.failure = look_for_divergence(world, state, stepper.conditions());
+  for (long k = first; k < steps && !recording.failure; ++k) {
     double left = h;
     while (left > 1e-9 * h && !recording.failure) {
-      left -= stepper.advance(world, state, left);
-      recording.failure = watch.look(world, state);
+      left -= stepper.advance(state, left);
+      recording.failure = look_for_divergence(world, state, stepper.conditions());
     }
     if (recording.failure) break;
     state.time = static_cast<double>(k + 1) * h;
@@ -62,11 +61,12 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
   world.meter.finish();
   recording.costs = world.meter.effects;
   recording.phases = world.meter.phases;
+  if (options.end) *options.end = std::move(state);
   return recording;
 }
 
 void bound_what_is_left_out(const Model& model, Recording& recording) {
-  for (const Effect* effect : effect_table())
+  for (const EffectKind* effect : effect_table())
     for (PlanLine& line : recording.plan)
       if (effect->left_out && !line.active && line.effect == effect->name) line.left_out = effect->left_out(model, recording);
 }

@@ -2,17 +2,19 @@
 
 #include <algorithm>
 
-#include "engine/effects/effects.h"
-#include "engine/solver/smooth_motion.h"
+#include "engine/divergence.h"
+#include "engine/effects/effect.h"
+#include "engine/step/smooth_motion.h"
 
 namespace engine {
 namespace {
 
 State initial_state(const Model& model, const Plan& plan) {
-  const bool can_wait = std::find(plan.active.begin(), plan.active.end(), &kZeroConditionEffect) != plan.active.end();
+  const bool can_wait = plan.has("zero_condition");
 
   State state;
   state.warm.reserve(kRoom);
+  state.contacts.list.reserve(kRoom);
   for (const Body& body : model.bodies) {
     state.X_WB.push_back(body.X_WB);
     state.V_WB.push_back(body.fixed ? Twist{} : body.V_WB);
@@ -31,17 +33,27 @@ void close_joints(World& world, State& state) {
   project_joints(world, state.X_WB, state.V_WB, force, result);
 }
 
+/// Room for the memory of all pairs that the effects have listed.
+void size_contact_memory(const ContactPairs& pairs, ContactMemory& memory) {
+  memory.mesh.resize(pairs.mesh.size());
+  memory.bodywork.resize(pairs.bodywork.size());
+  for (const BodyPairRun& run : pairs.round) memory.round.emplace_back(run.pairs.size());
+}
+
 }  // namespace
 
 State start(World& world) {
   State state = initial_state(world.model, world.plan);
   close_joints(world, state);
-  world.step = world.model.settings.step;
-  world.dissipated.assign(world.plan.active.size(), 0);
-  call(world, &Effect::begin, state);
-  call(world, &Effect::find, state);  // once, so that suspensions know their compression at t = 0
-  world.constraints.clear();
-  std::fill(world.dissipated.begin(), world.dissipated.end(), 0.0);
+  size_contact_memory(world.pairs, state.contact_memory);
+  state.pace.last = world.model.settings.step;
+  state.energy.dissipated.assign(world.plan.active.size(), 0);
+  for (const EffectKind* effect : world.plan.active) state.memory.push_back(effect->first_memory());
+  call(world, Hook::begin, &Effect::begin, world, state);
+  StepBuffers buffers(world);
+  const StepContext first(world, state, buffers, world.model.settings.step);  // so that suspensions know their compression at t = 0
+  std::fill(state.energy.dissipated.begin(), state.energy.dissipated.end(), 0.0);
+  measure_energy(world, state);
   return state;
 }
 

@@ -5,7 +5,7 @@
 
 namespace engine {
 
-/// Bodies as the model has them, joints closed to rounding, effects begun; the world is then ready for its first step.
+/// The state of a run that starts: bodies as the model has them, joints closed to rounding, effects begun.
 State start(World&);
 
 }  // namespace engine

@@ -9,10 +9,9 @@
 // A scene without [air] has none. What that leaves out is bounded: drag takes no more than 1/2 rho D v^2/m from the speed in a unit
 // of time, and never more than there is.
 #include <algorithm>
-#include <any>
 #include <cmath>
 
-#include "engine/effects/effects.h"
+#include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 #include "engine/geometry/mesh_overlap.h"
 #include "engine/math/functions.h"
@@ -33,12 +32,10 @@ constexpr SceneKey kKeys[] = {
      0},
 };
 
-/// What the effect keeps during a run.
 struct Air {
   double density = 0;
   Vec3 wind = Vec3::Zero();
   std::vector<Vec3> drag_area;  // [m^2] per body, along its axes
-  double power = 0;             // [W] taken at the start of the step
 };
 
 /// Areas [m^2] of the sections across x, y and z.
@@ -155,7 +152,7 @@ Bound bound_along(const Model& model, const Recording& run) {
   return worst;
 }
 
-Finding look(const Model& model) {
+Finding look_at(const Model& model) {
   const Vec3* density = input(model, "air.density");
   if (!density)
     return {false, "the scene has no [air]",
@@ -167,67 +164,61 @@ Finding look(const Model& model) {
           ""};
 }
 
-std::string left_out(const Model& model, const Recording& run) {
+std::string left_out_along(const Model& model, const Recording& run) {
   if (input(model, "air.density")) return "";
   return in_words(bound_along(model, run), " along this run");
 }
 
-void begin(World& world, const State&, int self) {
+Air air_of(const Model& model) {
   Air air;
-  if (const Vec3* density = input(world.model, "air.density")) {
-    const double drag = input(world.model, "air.drag")->x();
+  if (const Vec3* density = input(model, "air.density")) {
+    const double drag = input(model, "air.drag")->x();
     air.density = density->x();
-    air.wind = *input(world.model, "air.wind");
-    air.drag_area = drag_areas(world.model, drag * Vec3::Ones(), *input(world.model, "air.vehicle_drag"));
+    air.wind = *input(model, "air.wind");
+    air.drag_area = drag_areas(model, drag * Vec3::Ones(), *input(model, "air.vehicle_drag"));
   }
-  world.memory[self] = air;
-}
-
-void add_forces(const World& world, const std::vector<Pose>& X, const std::vector<Twist>& V, std::vector<Vec6>& force, int self) {
-  const Air& air = *std::any_cast<Air>(&world.memory[self]);
-  if (air.density == 0) return;
-  for (const int tree : world.active_trees)
-    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
-      const int b = world.topology.links[l].body;
-      force[b].head<3>() += force_on(air, static_cast<std::size_t>(b), X[b].q, V[b].v);
-    }
+  return air;
 }
 
 /// Power [W] the air takes from what moves; negative where the wind drives.
-double power_taken(const World& world, const State& state, const Air& air) {
+double power_taken(const World& world, const Motion& at, const Air& air) {
   double power = 0;
   if (air.density == 0) return power;
-  for (const int tree : world.active_trees)
-    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
-      const int b = world.topology.links[l].body;
-      power -= force_on(air, static_cast<std::size_t>(b), state.X_WB[b].q, state.V_WB[b].v).dot(state.V_WB[b].v);
-    }
+  for_awake_bodies(
+      world, [&](int b) { power -= force_on(air, static_cast<std::size_t>(b), at.X_WB[b].q, at.V_WB[b].v).dot(at.V_WB[b].v); });
   return power;
-}
-
-void before_step(World& world, State& state, int self) {
-  Air& air = *std::any_cast<Air>(&world.memory[self]);
-  air.power = power_taken(world, state, air);
-}
-
-void after_step(World& world, State& state, int self) {
-  const Air& air = *std::any_cast<Air>(&world.memory[self]);
-  world.dissipated[self] += 0.5 * world.step * (air.power + power_taken(world, state, air));
 }
 
 }  // namespace
 
-const Effect kAirDragEffect{.name = "air_drag",
-                            .look = look,
-                            .left_out = left_out,
-                            .section = "air",
-                            .section_doc =
-                                "The air, where its resistance or the wind counts. Without this section there is none; "
-                                "`crashreel plan` tells what that leaves out.",
-                            .keys = kKeys,
-                            .begin = begin,
-                            .before_step = before_step,
-                            .add_forces = add_forces,
-                            .after_step = after_step};
+class AirDrag final : public Effect {
+ public:
+  static constexpr const char* kName = "air_drag";
+  static constexpr SceneSection kSection{"air",
+                                         "The air, where its resistance or the wind counts. Without this section there is none; "
+                                         "`crashreel plan` tells what that leaves out.",
+                                         kKeys};
+  static Finding look(const Model& model) { return look_at(model); }
+  static std::string left_out(const Model& model, const Recording& run) { return left_out_along(model, run); }
+
+  AirDrag(const World& world, int self) : Effect(self), air_(air_of(world.model)) {}
+
+  void before_step(World& world, State& state, double) override { power_ = power_taken(world, state, air_); }
+
+  void add_forces(const World& world, const std::vector<Pose>& X, const std::vector<Twist>& V,
+                  std::vector<Vec6>& force) const override {
+    if (air_.density == 0) return;
+    for_awake_bodies(world, [&](int b) { force[b].head<3>() += force_on(air_, static_cast<std::size_t>(b), X[b].q, V[b].v); });
+  }
+
+  void after_step(StepContext& s) override {
+    s.state.energy.dissipated[self_] += 0.5 * s.length * (power_ + power_taken(s.world, s.state, air_));
+  }
+
+ private:
+  const Air air_;
+  double power_ = 0;  // [W] taken at the start of the step
+};
+template struct Registered<AirDrag>;
 
 }  // namespace engine

@@ -1,12 +1,12 @@
 // Hyper-ellipsoids of different persons, or free bodies, against each other.
 #include "engine/effects/body_pairs.h"
-#include "engine/effects/effects.h"
+#include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 
 namespace engine {
 namespace {
 
-Finding look(const Model& model) {
+Finding look_at(const Model& model) {
   const std::size_t count = count_pairs_between_bodies(model);
   if (count > 0)
     return {true, counted(count, "pair") + " of segments or free bodies that are not one person's: " + round_bodies(model),
@@ -18,16 +18,17 @@ Finding look(const Model& model) {
           ""};
 }
 
-void begin(World& world, const State&, int self) {
-  add_runs_between_bodies(world, self);
-}
-
-void find(World& world, const State& state, int self) {
-  find_pair_contacts(world, state, self, ContactKind::person);
-}
-
 }  // namespace
 
-const Effect kBodyContactEffect{.name = "body_contact", .look = look, .begin = begin, .find_contacts = find};
+class BodyContact final : public Effect {
+ public:
+  static constexpr const char* kName = "body_contact";
+  static Finding look(const Model& model) { return look_at(model); }
+
+  BodyContact(World& world, int self) : Effect(self) { add_runs_between_bodies(world, self); }
+
+  void find_contacts(ContactSearch& search) override { find_pair_contacts(search, self_, ContactKind::person); }
+};
+template struct Registered<BodyContact>;
 
 }  // namespace engine

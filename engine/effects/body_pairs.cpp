@@ -65,6 +65,16 @@ std::vector<int> bodies_of(const Topology& topology, int tree) {
   return bodies;
 }
 
+void list_pairs(const World& world, BodyPairRun& run) {
+  if (run.listed) return;
+  run.listed = true;
+  const Joined joined = joined_bodies(world.model);
+  const std::vector<int> of_b = bodies_of(world.topology, run.tree_b);
+  for (const int a : bodies_of(world.topology, run.tree_a))
+    for (const int b : of_b)
+      if (can_meet_between(world.model, joined, a, b)) run.pairs.push_back({a, b});
+}
+
 }  // namespace
 
 std::size_t count_pairs_between_bodies(const Model& model) {
@@ -81,8 +91,7 @@ void add_pairs_within_persons(World& world, int effect) {
   std::map<std::pair<int, int>, std::vector<BodyPair>> by_trees;
   for (const BodyPair& pair : pairs_within_persons(world.model))
     by_trees[{world.topology.tree_of_body[pair.a], world.topology.tree_of_body[pair.b]}].push_back(pair);
-  for (const auto& [trees, pairs] : by_trees)
-    world.body_pair_runs.push_back({effect, trees.first, trees.second, true, pairs, std::vector<PairMemory>(pairs.size())});
+  for (const auto& [trees, pairs] : by_trees) world.pairs.round.push_back({effect, trees.first, trees.second, true, pairs});
 }
 
 void add_runs_between_bodies(World& world, int effect) {
@@ -99,63 +108,58 @@ void add_runs_between_bodies(World& world, int effect) {
         return std::any_of(of_b.begin(), of_b.end(), [&](int b) { return can_meet_between(world.model, joined, a, b); });
       });
       if (!any) continue;
-      world.body_pair_runs.push_back({effect, tree_a, tree_b, false, {}, {}});
-      if (at_once) list_pairs(world, world.body_pair_runs.back());
+      world.pairs.round.push_back({effect, tree_a, tree_b, false, {}});
+      if (at_once) list_pairs(world, world.pairs.round.back());
     }
 }
 
-void list_pairs(const World& world, BodyPairRun& run) {
-  if (run.listed) return;
-  run.listed = true;
-  const Joined joined = joined_bodies(world.model);
-  const std::vector<int> of_b = bodies_of(world.topology, run.tree_b);
-  for (const int a : bodies_of(world.topology, run.tree_a))
-    for (const int b : of_b)
-      if (can_meet_between(world.model, joined, a, b)) run.pairs.push_back({a, b});
-  run.memory.resize(run.pairs.size());
+void list_pairs(World& world, std::size_t run, std::vector<PairMemory>& memory) {
+  list_pairs(world, world.pairs.round[run]);
+  memory.resize(world.pairs.round[run].pairs.size());
 }
 
-std::optional<double> margin_of_near(const World& world, const State& state, const BodyPair& pair) {
-  if (world.nearness.apart(state, pair.a, pair.b)) return std::nullopt;
-  const double margin = pair_margin(world, state, pair.a, pair.b);
-  const double apart = (state.X_WB[pair.a].p - state.X_WB[pair.b].p).norm();
+std::optional<double> margin_of_near(const Outlook& outlook, const BodyPair& pair) {
+  const World& world = outlook.world;
+  if (world.pairs.broad_phase.apart(outlook.at, pair.a, pair.b)) return std::nullopt;
+  const double margin = pair_margin(outlook, pair.a, pair.b);
+  const double apart = (outlook.at.X_WB[pair.a].p - outlook.at.X_WB[pair.b].p).norm();
   if (apart > world.reach[pair.a] + world.reach[pair.b] + margin) return std::nullopt;
   return margin;
 }
 
 namespace {
 
-void find_contacts_of(World& world, const State& state, BodyPairRun& run, ContactKind kind) {
-  list_pairs(world, run);
-  for (std::size_t i = 0; i < run.pairs.size(); ++i) {
-    const BodyPair& pair = run.pairs[i];
-    const Body& A = world.model.bodies[pair.a];
-    const Body& B = world.model.bodies[pair.b];
-    const bool frozen = (!world.awake[pair.a] && !A.fixed) || (!world.awake[pair.b] && !B.fixed);
-    if (frozen) continue;  // waits or sleeps: those effects watch
-    const std::optional<double> margin = margin_of_near(world, state, pair);
-    if (!margin) continue;
-    const Pose X_AB = state.X_WB[pair.a].inverse() * state.X_WB[pair.b];
-    PairMemory& memory = run.memory[i];
-    if (memory.clearance.beyond(*margin, X_AB, world.reach[pair.b])) continue;
-    memory.clearance.least = 0;
-    const auto touch = contact_of_pair(std::get<HyperEllipsoid>(A.shape), state.X_WB[pair.a], std::get<HyperEllipsoid>(B.shape),
-                                       state.X_WB[pair.b], *margin, memory.normal_W, &memory.clearance.least);
-    if (!touch) {
-      memory.clearance.X = X_AB;
-      continue;
-    }
-    const double mu = std::min(A.surface.friction_body.at(state.time), B.surface.friction_body.at(state.time));
-    const double e = std::max(A.surface.restitution_body.at(state.time), B.surface.restitution_body.at(state.time));
-    add_contact(world, state, *touch, pair.a, pair.b, run.effect, kind, mu, e);
-  }
+void find_contact_of(ContactSearch& search, const BodyPair& pair, PairMemory& memory, int effect, ContactKind kind) {
+  const World& world = search.world;
+  const Body& A = world.model.bodies[pair.a];
+  const Body& B = world.model.bodies[pair.b];
+  const bool frozen = (!world.awake[pair.a] && !A.fixed) || (!world.awake[pair.b] && !B.fixed);
+  if (frozen) return;  // waits or sleeps: those effects watch
+  const std::optional<double> margin = margin_of_near(search, pair);
+  if (!margin) return;
+  const Pose &X_WA = search.at.X_WB[pair.a], &X_WB = search.at.X_WB[pair.b];
+  const Pose X_AB = X_WA.inverse() * X_WB;
+  if (memory.clearance.beyond(*margin, X_AB, world.reach[pair.b])) return;
+  memory.clearance.least = 0;
+  const auto touch = contact_of_pair(std::get<HyperEllipsoid>(A.shape), X_WA, std::get<HyperEllipsoid>(B.shape), X_WB, *margin,
+                                     memory.normal_W, &memory.clearance.least);
+  if (touch)
+    add_contact(search, *touch, pair.a, pair.b, effect, kind, between_bodies(A, B, search.at.time));
+  else
+    memory.clearance.X = X_AB;
 }
 
 }  // namespace
 
-void find_pair_contacts(World& world, const State& state, int effect, ContactKind kind) {
-  for (BodyPairRun& run : world.body_pair_runs)
-    if (run.effect == effect && world.nearness.close(run.tree_a, run.tree_b)) find_contacts_of(world, state, run, kind);
+void find_pair_contacts(ContactSearch& search, int effect, ContactKind kind) {
+  ContactPairs& pairs = search.world.pairs;
+  for (std::size_t r = 0; r < pairs.round.size(); ++r) {
+    const BodyPairRun& run = pairs.round[r];
+    if (run.effect != effect || !pairs.broad_phase.close(run.tree_a, run.tree_b)) continue;
+    std::vector<PairMemory>& memory = search.state.contact_memory.round[r];
+    list_pairs(search.world, r, memory);
+    for (std::size_t i = 0; i < run.pairs.size(); ++i) find_contact_of(search, run.pairs[i], memory[i], effect, kind);
+  }
 }
 
 }  // namespace engine

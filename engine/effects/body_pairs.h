@@ -17,12 +17,12 @@ void add_pairs_within_persons(World&, int effect);
 /// Adds runs of all trees whose bodies may touch without being one person's.
 void add_runs_between_bodies(World&, int effect);
 
-/// Lists the pairs of such a run, bodies of lower index first, if that was not done yet.
-void list_pairs(const World&, BodyPairRun&);
+/// Lists the pairs of such a run, bodies of lower index first, if that was not done yet, and makes room for their memory.
+void list_pairs(World&, std::size_t run, std::vector<PairMemory>&);
 
 /// The distance [m] a step can bring the two together by; nothing where they are farther apart.
-std::optional<double> margin_of_near(const World&, const State&, const BodyPair&);
+std::optional<double> margin_of_near(const Outlook&, const BodyPair&);
 
-void find_pair_contacts(World&, const State&, int effect, ContactKind);
+void find_pair_contacts(ContactSearch&, int effect, ContactKind);
 
 }  // namespace engine

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/effects/effects.h"
+#include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 #include "engine/math/functions.h"
 
@@ -36,7 +36,7 @@ std::string acts_of(const Vehicle& vehicle) {
   return out;
 }
 
-Finding look(const Model& model) {
+Finding look_at(const Model& model) {
   std::string acts;
   for (const Vehicle& vehicle : model.vehicles)
     if (const std::string act = acts_of(vehicle); !act.empty()) acts += (acts.empty() ? "" : "; ") + vehicle.name + " " + act;
@@ -47,8 +47,7 @@ Finding look(const Model& model) {
 
 /// Pure pursuit: the circle through the middle of the unsteered wheels, along the vehicle's axis, that meets the path a preview
 /// ahead. Behind the end of the path the last segment goes on.
-void steer_along_path(World& world, const State& state, int v) {
-  const Vehicle& vehicle = world.model.vehicles[v];
+void steer_along_path(const Vehicle& vehicle, const Motion& state, double h, double& steer) {
   const std::vector<Vec3>& path = vehicle.path.points;
   if (path.size() < 2) return;
   const Pose& X = state.X_WB[vehicle.body];
@@ -83,36 +82,19 @@ void steer_along_path(World& world, const State& state, int v) {
   }
   const Vec3 goal_B = X.q.conjugate() * Vec3(path[segment] + share * (path[segment + 1] - path[segment]) - at);
   const double wanted = math::atan2(2 * wheelbase * goal_B.y(), goal_B.head<2>().squaredNorm());
-  const double step = vehicle.path.rate * world.step;
-  double& steer = world.path_steer[v];
+  const double step = vehicle.path.rate * h;
   steer = std::clamp(std::clamp(wanted, steer - step, steer + step), -vehicle.path.largest, vehicle.path.largest);
 }
 
 /// Share of its vehicle's load that a wheel carried in the last step; before the first one, at rest.
-double carried_share(const World& world, const WheelState& of) {
+double carried_share(const std::vector<WheelState>& wheels, const WheelState& of) {
   double all = 0, all_at_rest = 0;
-  for (const WheelState& wheel : world.wheels) {
+  for (const WheelState& wheel : wheels) {
     if (wheel.vehicle != of.vehicle) continue;
     all += wheel.impulse[0];
     all_at_rest += wheel.static_load;
   }
   return all > 0 ? of.impulse[0] / all : (all_at_rest > 0 ? of.static_load / all_at_rest : 0);
-}
-
-void begin(World& world, const State&, int) {
-  world.path_steer.assign(world.model.vehicles.size(), 0);
-}
-
-void before_step(World& world, State& state, int) {
-  for (std::size_t v = 0; v < world.model.vehicles.size(); ++v) steer_along_path(world, state, static_cast<int>(v));
-  for (WheelState& wheel : world.wheels) {
-    const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
-    const bool follows = vehicle.path.points.size() > 1;
-    wheel.steer = follows ? world.path_steer[wheel.vehicle] : vehicle.steer.at(state.time);
-    if (!vehicle.wheels[wheel.wheel].steered) wheel.steer = 0;
-    wheel.brake = brake_of(vehicle, wheel.wheel, state.time, carried_share(world, wheel));
-    wheel.drive = drive_of(vehicle, wheel.wheel, state.time);
-  }
 }
 
 }  // namespace
@@ -134,6 +116,39 @@ double drive_of(const Vehicle& vehicle, int wheel, double t) {
   return force;
 }
 
-const Effect kDriverEffect{.name = "driver", .look = look, .begin = begin, .before_step = before_step};
+/// The wheel angles of drivers who follow a path.
+struct DriverMemory {
+  std::vector<double> path_steer;  // [rad] per vehicle
+
+  template <class S>
+  static auto fields(S& s) {
+    return std::tie(s.path_steer);
+  }
+};
+
+class Driver final : public EffectWith<DriverMemory> {
+ public:
+  static constexpr const char* kName = "driver";
+  static Finding look(const Model& model) { return look_at(model); }
+
+  Driver(const World&, int self) : EffectWith(self) {}
+
+  void begin(World& world, State& state) override { memory(state).path_steer.assign(world.model.vehicles.size(), 0); }
+
+  void before_step(World& world, State& state, double step) override {
+    std::vector<double>& path_steer = memory(state).path_steer;
+    for (std::size_t v = 0; v < world.model.vehicles.size(); ++v)
+      steer_along_path(world.model.vehicles[v], state, step, path_steer[v]);
+    for (WheelState& wheel : state.wheels) {
+      const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
+      const bool follows = vehicle.path.points.size() > 1;
+      wheel.steer = follows ? path_steer[wheel.vehicle] : vehicle.steer.at(state.time);
+      if (!vehicle.wheels[wheel.wheel].steered) wheel.steer = 0;
+      wheel.brake = brake_of(vehicle, wheel.wheel, state.time, carried_share(state.wheels, wheel));
+      wheel.drive = drive_of(vehicle, wheel.wheel, state.time);
+    }
+  }
+};
+template struct Registered<Driver>;
 
 }  // namespace engine

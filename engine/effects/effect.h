@@ -1,12 +1,14 @@
-// A physical effect: its name, what in a Model calls for it, and the hooks of the step it takes part in.
-// Adding one is one file in this folder and one line in effects.h.
+// A physical effect: its name, what in a Model calls for it, and the hooks of the step it takes part in. Adding one is a file in
+// this folder, which ends with its registration, and a word in the table of table.cpp.
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
+#include <type_traits>
 
-#include "engine/world.h"
+#include "engine/step_context.h"
 
 namespace engine {
 
@@ -27,55 +29,106 @@ struct SceneKey {
   double lower = -std::numeric_limits<double>::infinity();
 };
 
+/// A section of the scene file that is an effect's own.
+struct SceneSection {
+  const char* name = "";  // empty: none
+  const char* doc = "";
+  std::span<const SceneKey> keys = {};
+};
+
 /// What the scene has under such a key, by "section.key"; null where it has no such section.
 inline const Vec3* input(const Model& model, const std::string& key) {
   const auto found = model.inputs.find(key);
   return found == model.inputs.end() ? nullptr : &found->second;
 }
 
-struct Effect {
-  const char* name = "";
-  Finding (*look)(const Model&) = nullptr;
-  /// Finding::left_out of an effect that was not in the plan, once the run is known: closer than before it.
-  std::string (*left_out)(const Model&, const Recording&) = nullptr;
-  /// A section of the scene file that is the effect's own, and its keys.
-  const char* section = "";
-  const char* section_doc = "";
-  std::span<const SceneKey> keys = {};
-  /// Once, before the first step: pairs, static loads. `self` is the effect's index in the plan.
-  void (*begin)(World&, const State&, int self) = nullptr;
-  /// Start of every step: inputs that follow the clock, dynamic pruning.
-  void (*before_step)(World&, State&, int self) = nullptr;
+/// An effect of one run. What follows from the model alone, and scratch, are members of the derived class, set by its constructor;
+/// what changes from step to step is in the State: shared by several effects as a field there, an effect's own as its memory.
+class Effect {
+ public:
+  explicit Effect(int self) : self_(self) {}
+  virtual ~Effect() = default;
+  Effect(const Effect&) = delete;
+
+  /// Once, before the first step of a run that starts: its part of the state.
+  virtual void begin(World&, State&) {}
+  /// Start of every step: inputs that follow the clock, dynamic pruning. `step` [s] is the length it may have.
+  virtual void before_step(World&, State&, double /*step*/) {}
   /// Appends contacts: they follow from poses alone. Called at the end of a step, where it shows how well the step kept them (what
   /// it found there serves the next step), and in the stages of `rk4` with the compliant law.
-  void (*find_contacts)(World&, const State&, int self) = nullptr;
+  virtual void find_contacts(ContactSearch&) {}
   /// The same for joint limits, which no stage asks for.
-  void (*find_limits)(World&, const State&, int self) = nullptr;
-  /// Appends constraints that also follow the clock or the length of the step: wheels, closed loops. Called at its start.
-  void (*find)(World&, const State&, int self) = nullptr;
+  virtual void find_limits(ContactSearch&) {}
+  /// Appends conditions that also follow the clock or the length of the step: wheels, closed loops. Called at its start.
+  virtual void find(StepContext&) {}
   /// Smooth forces at a stage of the integration: adds to `force` (6 per body).
-  void (*add_forces)(const World&, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& force,
-                     int self) = nullptr;
+  virtual void add_forces(const World&, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& /*force*/) const {}
   /// Implicit joint resistance over the step: fills dampers and resistances.
-  void (*resist)(World&, const State&, int self) = nullptr;
+  virtual void resist(StepContext&) {}
   /// Sees the end of a step the resistance has acted over; true when it has revised a damper and the impulses must be found again.
-  bool (*gave_way)(World&, const State& end) = nullptr;
+  virtual bool gave_way(StepContext&) { return false; }
   /// End of every step.
-  void (*after_step)(World&, State&, int self) = nullptr;
+  virtual void after_step(StepContext&) {}
+
+ protected:
+  const int self_;  // index in the plan
 };
 
-/// Calls a hook of every effect of the plan that has it, counted and timed.
-template <class Hook, class... Arguments>
-void call(World& world, Hook Effect::*hook, Arguments&&... arguments) {
-  for (std::size_t e = 0; e < world.plan.active.size(); ++e) {
-    const Hook act = world.plan.active[e]->*hook;
-    if (!act) continue;
+/// An effect that keeps something of its own from step to step.
+template <class M>
+class EffectWith : public Effect {
+ public:
+  using Memory = M;
+  using Effect::Effect;
+
+ protected:
+  Memory& memory(State& state) const { return state.memory[self_].template as<Memory>(); }
+};
+
+/// The hooks of the step.
+enum class Hook : unsigned {
+  begin = 1,
+  before_step = 2,
+  find_contacts = 4,
+  find_limits = 8,
+  find = 16,
+  add_forces = 32,
+  resist = 64,
+  gave_way = 128,
+  after_step = 256
+};
+
+/// What is known of an effect before a run.
+struct EffectKind {
+  const char* name = "";
+  Finding (*look)(const Model&) = nullptr;
+  /// Finding::left_out of an effect that was not in the plan, once the run is known: closer than before it. Null: no closer.
+  std::string (*left_out)(const Model&, const Recording&) = nullptr;
+  SceneSection section;
+  std::unique_ptr<Effect> (*make)(World&, int self) = nullptr;
+  EffectMemory (*first_memory)() = nullptr;
+  unsigned hooks = 0;  // those it takes part in
+
+  bool takes_part(Hook hook) const { return (hooks & static_cast<unsigned>(hook)) != 0; }
+};
+
+/// The registration of an effect, defined in registration.h: its file ends with `template struct Registered<Effect>;`.
+template <class E>
+struct Registered {
+  static const EffectKind kind;
+};
+
+/// Calls a hook of every effect of the plan that takes part in it, counted and timed.
+template <class Member, class... Arguments>
+void call(World& world, Hook hook, Member member, Arguments&&... arguments) {
+  for (std::size_t e = 0; e < world.effects.size(); ++e) {
+    if (!world.plan.active[e]->takes_part(hook)) continue;
     const Meter::Span span(world.meter, e);
-    act(world, arguments..., static_cast<int>(e));
+    ((*world.effects[e]).*member)(arguments...);
   }
 }
 
 /// Every effect there is, in the order of the step.
-std::span<const Effect* const> effect_table();
+std::span<const EffectKind* const> effect_table();
 
 }  // namespace engine

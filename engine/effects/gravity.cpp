@@ -1,14 +1,14 @@
 #include <algorithm>
 #include <numbers>
 
-#include "engine/effects/effects.h"
+#include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 #include "engine/math/functions.h"
 
 namespace engine {
 namespace {
 
-Finding look(const Model& model) {
+Finding look_at(const Model& model) {
   std::size_t moving = 0;
   double mass = 0;
   for (const Body& body : model.bodies) {
@@ -25,16 +25,20 @@ Finding look(const Model& model) {
   return {true, reason, ""};
 }
 
-void add_forces(const World& world, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& force, int) {
-  for (const int tree : world.active_trees)
-    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
-      const int b = world.topology.links[l].body;
-      force[b].head<3>() += world.model.bodies[b].mass * world.model.settings.gravity;
-    }
-}
-
 }  // namespace
 
-const Effect kGravityEffect{.name = "gravity", .look = look, .add_forces = add_forces};
+class Gravity final : public Effect {
+ public:
+  static constexpr const char* kName = "gravity";
+  static Finding look(const Model& model) { return look_at(model); }
+
+  Gravity(const World&, int self) : Effect(self) {}
+
+  void add_forces(const World& world, const std::vector<Pose>&, const std::vector<Twist>&,
+                  std::vector<Vec6>& force) const override {
+    for_awake_bodies(world, [&](int b) { force[b].head<3>() += world.model.bodies[b].mass * world.model.settings.gravity; });
+  }
+};
+template struct Registered<Gravity>;
 
 }  // namespace engine

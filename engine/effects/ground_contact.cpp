@@ -2,14 +2,14 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/effects/effects.h"
+#include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 #include "engine/geometry/hyper_ellipsoid_plane.h"
 
 namespace engine {
 namespace {
 
-Finding look(const Model& model) {
+Finding look_at(const Model& model) {
   const std::string round = round_bodies(model);
   if (!model.ground.plane) return {false, "no ground plane", ""};
   if (round.empty()) return {false, "no person and no free body; vehicles meet the ground by tyres and bodywork_contact", ""};
@@ -21,30 +21,37 @@ Finding look(const Model& model) {
           "bodies higher than a step can bring them down: exact"};
 }
 
-void find(World& world, const State& state, int self) {
-  const Ground& ground = world.model.ground;
-  ContactPoints touches;
-  for (int b = 0; b < static_cast<int>(world.model.bodies.size()); ++b) {
-    const Body& body = world.model.bodies[b];
-    if (!world.awake[b]) continue;
-    const auto* shape = std::get_if<HyperEllipsoid>(&body.shape);
-    if (!shape) continue;
-    const double margin = contact_margin(world, state, b);
-    if (state.X_WB[b].p.z() - ground.height > world.reach[b] + margin) continue;
-    contacts_with_plane(*shape, state.X_WB[b], Vec3::UnitZ(), ground.height, margin, touches);
-    const double t = state.time;
-    const double e = std::max(body.surface.restitution_ground.at(t), ground.surface.restitution_ground.at(t));
-    const std::size_t first = world.constraints.size();
-    for (const SurfaceContact& touch : touches) {
-      const double mu = std::min(body.surface.friction_ground.at(t), ground.friction_at(touch.p_b, t));
-      add_contact(world, state, touch, b, -1, self, ContactKind::ground, mu, e);
-    }
-    share_stiffness(world, first);
-  }
-}
-
 }  // namespace
 
-const Effect kGroundContactEffect{.name = "ground_contact", .look = look, .find_contacts = find};
+class GroundContact final : public Effect {
+ public:
+  static constexpr const char* kName = "ground_contact";
+  static Finding look(const Model& model) { return look_at(model); }
+
+  GroundContact(const World&, int self) : Effect(self) {}
+
+  void find_contacts(ContactSearch& search) override {
+    const World& world = search.world;
+    const Ground& ground = world.model.ground;
+    const double t = search.at.time;
+    ContactPoints touches;
+    for (int b = 0; b < static_cast<int>(world.model.bodies.size()); ++b) {
+      const Body& body = world.model.bodies[b];
+      if (!world.awake[b]) continue;
+      const auto* shape = std::get_if<HyperEllipsoid>(&body.shape);
+      if (!shape) continue;
+      const Pose& X = search.at.X_WB[b];
+      const double margin = contact_margin(search, b);
+      if (X.p.z() - ground.height > world.reach[b] + margin) continue;
+      contacts_with_plane(*shape, X, Vec3::UnitZ(), ground.height, margin, touches);
+      const double e = restitution_on_ground(body, ground, t);
+      const std::size_t first = search.found.size();
+      for (const SurfaceContact& touch : touches)
+        add_contact(search, touch, b, -1, self_, ContactKind::ground, {friction_on_ground(body, ground, touch.p_b, t), e});
+      share_stiffness(search, first);
+    }
+  }
+};
+template struct Registered<GroundContact>;
 
 }  // namespace engine

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/effects/effects.h"
+#include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 #include "engine/solver/joint_angles.h"
 
@@ -18,7 +18,7 @@ bool has_limit(const ArticulationAngle& angle) {
   return std::isfinite(angle.lower) || std::isfinite(angle.upper);
 }
 
-Finding look(const Model& model) {
+Finding look_at(const Model& model) {
   std::size_t angles = 0, joints = 0;
   for (const Joint& joint : model.joints) {
     const auto of_joint = std::count_if(joint.angles.begin(), joint.angles.end(), has_limit);
@@ -31,8 +31,9 @@ Finding look(const Model& model) {
           "ends out of reach of a step; one passed by more than 0.4 deg has the step taken again in halves"};
 }
 
-void add_limit(World& world, const State& state, const Joint& joint, int joint_index, int angle, bool upper, double gap,
+void add_limit(ContactSearch& search, const Joint& joint, int joint_index, int angle, bool upper, double gap,
                const Vec3& gradient_W, int self) {
+  const World& world = search.world;
   Constraint c;
   c.kind = ConstraintKind::limit;
   c.rows = 1;
@@ -51,36 +52,45 @@ void add_limit(World& world, const State& state, const Joint& joint, int joint_i
     c.stiffness = joint.stop_stiffness;
     for (const int b : {c.body_a, c.body_b}) {
       if (b < 0) continue;
-      const Vec3 axis_B = state.X_WB[b].q.conjugate() * gradient_W;
+      const Vec3 axis_B = search.at.X_WB[b].q.conjugate() * gradient_W;
       c.free_response += axis_B.dot(world.model.bodies[b].inertia_B.inverse() * axis_B);
     }
   }
   c.key = (static_cast<std::uint64_t>(self) << 56) | (static_cast<std::uint64_t>(joint_index) << 8) |
           static_cast<std::uint64_t>(2 * angle + upper);
   c.effect = self;
-  world.constraints.push_back(c);
-}
-
-void find(World& world, const State& state, int self) {
-  for (int j = 0; j < static_cast<int>(world.model.joints.size()); ++j) {
-    const Joint& joint = world.model.joints[j];
-    if (!world.awake[joint.child] && (joint.parent < 0 || !world.awake[joint.parent])) continue;
-    if (!has_limit(joint.angles[0]) && !has_limit(joint.angles[1]) && !has_limit(joint.angles[2])) continue;
-    const JointAngles now = joint_angles(joint, joint.parent < 0 ? Pose{} : state.X_WB[joint.parent], state.X_WB[joint.child]);
-    const Vec3 w_PC = state.V_WB[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : state.V_WB[joint.parent].w);
-    for (int i = 0; i < 3; ++i) {
-      if (!now.free[i]) continue;
-      const ArticulationAngle& range = joint.angles[i];
-      const double near = kNear + kPerRate * world.step * std::abs(now.gradient_W.col(i).dot(w_PC));
-      const double above = now.angle[i] - range.lower, below = range.upper - now.angle[i];
-      if (above < near) add_limit(world, state, joint, j, i, false, above, now.gradient_W.col(i), self);
-      if (below < near) add_limit(world, state, joint, j, i, true, below, now.gradient_W.col(i), self);
-    }
-  }
+  search.found.push_back(c);
 }
 
 }  // namespace
 
-const Effect kJointLimitsEffect{.name = "joint_limits", .look = look, .find_limits = find};
+class JointLimits final : public Effect {
+ public:
+  static constexpr const char* kName = "joint_limits";
+  static Finding look(const Model& model) { return look_at(model); }
+
+  JointLimits(const World&, int self) : Effect(self) {}
+
+  void find_limits(ContactSearch& search) override {
+    const World& world = search.world;
+    const Motion& at = search.at;
+    for (int j = 0; j < static_cast<int>(world.model.joints.size()); ++j) {
+      const Joint& joint = world.model.joints[j];
+      if (!world.awake[joint.child] && (joint.parent < 0 || !world.awake[joint.parent])) continue;
+      if (!has_limit(joint.angles[0]) && !has_limit(joint.angles[1]) && !has_limit(joint.angles[2])) continue;
+      const JointAngles now = joint_angles(joint, joint.parent < 0 ? Pose{} : at.X_WB[joint.parent], at.X_WB[joint.child]);
+      const Vec3 w_PC = at.V_WB[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : at.V_WB[joint.parent].w);
+      for (int i = 0; i < 3; ++i) {
+        if (!now.free[i]) continue;
+        const ArticulationAngle& range = joint.angles[i];
+        const double near = kNear + kPerRate * search.within * std::abs(now.gradient_W.col(i).dot(w_PC));
+        const double above = now.angle[i] - range.lower, below = range.upper - now.angle[i];
+        if (above < near) add_limit(search, joint, j, i, false, above, now.gradient_W.col(i), self_);
+        if (below < near) add_limit(search, joint, j, i, true, below, now.gradient_W.col(i), self_);
+      }
+    }
+  }
+};
+template struct Registered<JointLimits>;
 
 }  // namespace engine

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/effects/effects.h"
+#include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 #include "engine/math/functions.h"
 #include "engine/solver/joint_rows.h"
@@ -18,7 +18,7 @@ constexpr double kCorrection = 0.2;  // [-] share of the ring's gap taken out pe
 // of its own, and rounding divided by rounding would be its impulse
 constexpr double kGive = 5e-9;
 
-Finding look(const Model& model) {
+Finding look_at(const Model& model) {
   const std::vector<int> loops = build_topology(model, {}).loops;
   if (model.joints.empty()) return {false, "no joints", ""};
   if (loops.empty()) return {false, counted(model.joints.size(), "joint") + ": none closes a ring, none can break", ""};
@@ -50,62 +50,82 @@ double free_response(const World& world, const State& state, const Constraint& c
   return response;
 }
 
-void find(World& world, const State& state, int self) {
-  for (const int j : world.topology.loops) {
-    if (state.broken[j]) continue;
-    const Joint& joint = world.model.joints[j];
-    auto moving = [&](int body) { return body >= 0 && !world.model.bodies[body].fixed ? body : -1; };
-    const bool live = (joint.child >= 0 && world.awake[joint.child]) || (joint.parent >= 0 && world.awake[joint.parent]);
-    if (!live) continue;
-    JointRows rows;
-    joint_rows(joint, joint.parent < 0 ? Pose{} : state.X_WB[joint.parent], state.X_WB[joint.child], rows);
-    for (int k = 0; k < rows.count; ++k) {
-      Constraint c;
-      c.kind = ConstraintKind::bilateral;
-      c.rows = 1;
-      c.body_a = moving(joint.child);
-      c.body_b = moving(joint.parent);
-      c.record_a = joint.child;
-      c.record_b = joint.parent;
-      c.J_a.setZero();
-      c.J_b.setZero();
-      c.J_a.row(0) = row_on_child(rows, k).transpose();
-      c.J_b.row(0) = row_on_parent(rows, k).transpose();
-      c.target = -kCorrection * rows.error[k] / world.step;
-      c.softness = kGive * free_response(world, state, c);
-      c.key = (static_cast<std::uint64_t>(self) << 56) | (static_cast<std::uint64_t>(j) << 8) | static_cast<std::uint64_t>(k);
-      c.effect = self;
-      world.constraints.push_back(c);
-    }
-  }
-}
-
-/// What each breakable joint carries, as a mean that forgets with kGrasp; above its strength it lets go for good.
-void after_step(World& world, State& state, int self) {
-  const double h = world.step;
-  if (world.joint_load.empty()) return;
-  const double forget = math::exp(-h / kGrasp);
-  for (const int j : world.topology.loops) world.joint_load[j] *= forget;
-  for (const Constraint& c : world.constraints) {
-    if (c.effect != self || c.kind != ConstraintKind::bilateral) continue;
-    const Vec3 direction = c.body_a >= 0 ? Vec3(c.J_a.row(0).head<3>()) : Vec3(-c.J_b.row(0).head<3>());
-    world.joint_load[(c.key >> 8) & 0xffff] += (1 - forget) / h * c.impulse[0] * direction;
-  }
-  for (const int j : world.topology.loops) {
-    const Joint& joint = world.model.joints[j];
-    if (state.broken[j] || world.joint_load[j].norm() <= joint.breaking_force) continue;
-    state.broken[j] = 1;
-    world.events.push_back({state.time, "joint_broken", joint.child, joint.parent, state.X_WB[joint.child] * joint.X_CF.p,
-                            world.joint_load[j].norm()});
-  }
-}
-
-void begin(World& world, const State&, int) {
-  world.joint_load.assign(world.model.joints.size(), Vec3::Zero());
-}
-
 }  // namespace
 
-const Effect kJointLoopsEffect{.name = "joint_loops", .look = look, .begin = begin, .find = find, .after_step = after_step};
+/// What each breakable joint carries, as a mean that forgets with kGrasp.
+struct LoopLoads {
+  std::vector<Vec3> load;  // [N] on the child, per joint
+
+  template <class S>
+  static auto fields(S& s) {
+    return std::tie(s.load);
+  }
+};
+
+class JointLoops final : public EffectWith<LoopLoads> {
+ public:
+  static constexpr const char* kName = "joint_loops";
+  static Finding look(const Model& model) { return look_at(model); }
+
+  JointLoops(const World&, int self) : EffectWith(self) {}
+
+  void begin(World& world, State& state) override { memory(state).load.assign(world.model.joints.size(), Vec3::Zero()); }
+
+  void find(StepContext& step) override {
+    const World& world = step.world;
+    const State& state = step.state;
+    for (const int j : world.topology.loops) {
+      if (state.broken[j]) continue;
+      const Joint& joint = world.model.joints[j];
+      auto moving = [&](int body) { return body >= 0 && !world.model.bodies[body].fixed ? body : -1; };
+      const bool live = (joint.child >= 0 && world.awake[joint.child]) || (joint.parent >= 0 && world.awake[joint.parent]);
+      if (!live) continue;
+      JointRows rows;
+      joint_rows(joint, joint.parent < 0 ? Pose{} : state.X_WB[joint.parent], state.X_WB[joint.child], rows);
+      for (int k = 0; k < rows.count; ++k) {
+        Constraint c;
+        c.kind = ConstraintKind::bilateral;
+        c.rows = 1;
+        c.body_a = moving(joint.child);
+        c.body_b = moving(joint.parent);
+        c.record_a = joint.child;
+        c.record_b = joint.parent;
+        c.J_a.setZero();
+        c.J_b.setZero();
+        c.J_a.row(0) = row_on_child(rows, k).transpose();
+        c.J_b.row(0) = row_on_parent(rows, k).transpose();
+        c.target = -kCorrection * rows.error[k] / step.length;
+        c.softness = kGive * free_response(world, state, c);
+        c.key = (static_cast<std::uint64_t>(self_) << 56) | (static_cast<std::uint64_t>(j) << 8) | static_cast<std::uint64_t>(k);
+        c.effect = self_;
+        step.constraints.push_back(c);
+      }
+    }
+  }
+
+  /// Above its strength a joint lets go for good.
+  void after_step(StepContext& step) override {
+    const World& world = step.world;
+    State& state = step.state;
+    const double h = step.length;
+    std::vector<Vec3>& load = memory(state).load;
+    if (load.empty()) return;
+    const double forget = math::exp(-h / kGrasp);
+    for (const int j : world.topology.loops) load[j] *= forget;
+    for (const Constraint& c : step.constraints) {
+      if (c.effect != self_ || c.kind != ConstraintKind::bilateral) continue;
+      const Vec3 direction = c.body_a >= 0 ? Vec3(c.J_a.row(0).head<3>()) : Vec3(-c.J_b.row(0).head<3>());
+      load[(c.key >> 8) & 0xffff] += (1 - forget) / h * c.impulse[0] * direction;
+    }
+    for (const int j : world.topology.loops) {
+      const Joint& joint = world.model.joints[j];
+      if (state.broken[j] || load[j].norm() <= joint.breaking_force) continue;
+      state.broken[j] = 1;
+      step.world.log.events.push_back(
+          {state.time, "joint_broken", joint.child, joint.parent, state.X_WB[joint.child] * joint.X_CF.p, load[j].norm()});
+    }
+  }
+};
+template struct Registered<JointLoops>;
 
 }  // namespace engine

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/effects/effects.h"
 #include "engine/effects/passive_legs.h"
+#include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 #include "engine/solver/joint_angles.h"
 
@@ -23,7 +23,7 @@ bool resists(const Joint& joint) {
          std::any_of(joint.angles.begin(), joint.angles.end(), [](auto& a) { return resists(a); });
 }
 
-Finding look(const Model& model) {
+Finding look_at(const Model& model) {
   std::size_t all = 0, springs = 0, dampers = 0, frictions = 0, passive = 0;
   for (const Joint& joint : model.joints) {
     auto any = [&](auto resists_by) { return std::any_of(joint.angles.begin(), joint.angles.end(), resists_by); };
@@ -76,163 +76,185 @@ Vec3 smooth_torque(const Joint& joint, const JointAngles& now, const Vec3& w_PC)
   return torque;
 }
 
-void begin(World& world, const State&, int) {
-  world.resistance_in_stages.clear();
-  for (const Joint& joint : world.model.joints)
-    world.resistance_in_stages.push_back(resists(joint) && in_stages(world.model, joint));
-  world.passive_legs = passive_legs(world.model);
-}
-
-void add_forces(const World& world, const std::vector<Pose>& X, const std::vector<Twist>& V, std::vector<Vec6>& force, int) {
-  for (std::size_t j = 0; j < world.model.joints.size(); ++j) {
-    const Joint& joint = world.model.joints[j];
-    if (!world.resistance_in_stages[j] || !world.awake[joint.child]) continue;
-    const JointAngles now = joint_angles(joint, joint.parent < 0 ? Pose{} : X[joint.parent], X[joint.child]);
-    const Vec3 w_PC = V[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : V[joint.parent].w);
-    const Vec3 torque = smooth_torque(joint, now, w_PC);
-    force[joint.child].tail<3>() += torque;
-    if (joint.parent >= 0) force[joint.parent].tail<3>() -= torque;
-  }
-  for (const PassiveLeg& leg : world.passive_legs)
-    for_passive_joints(world.model, leg, X, [&](int j, const Vec3& g, double torque, double) {
-      const Joint& joint = world.model.joints[j];
-      if (!world.resistance_in_stages[j] || !world.awake[joint.child]) return;
-      force[joint.child].tail<3>() += torque * g;
-      if (joint.parent >= 0) force[joint.parent].tail<3>() -= torque * g;
-    });
-}
-
-/// Power [W] that springs and dampers evaluated in the stages take out now.
-double power_taken(const World& world, const State& state) {
-  double power = 0;
-  for (std::size_t j = 0; j < world.model.joints.size(); ++j) {
-    const Joint& joint = world.model.joints[j];
-    if (!world.resistance_in_stages[j] || !world.awake[joint.child]) continue;
-    const JointAngles now = joint_angles(joint, joint.parent < 0 ? Pose{} : state.X_WB[joint.parent], state.X_WB[joint.child]);
-    const Vec3 w_PC = state.V_WB[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : state.V_WB[joint.parent].w);
-    power -= smooth_torque(joint, now, w_PC).dot(w_PC);
-  }
-  for (const PassiveLeg& leg : world.passive_legs)
-    for_passive_joints(world.model, leg, state.X_WB, [&](int j, const Vec3& g, double torque, double) {
-      const Joint& joint = world.model.joints[j];
-      if (!world.resistance_in_stages[j] || !world.awake[joint.child]) return;
-      power -= torque * g.dot(state.V_WB[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : state.V_WB[joint.parent].w));
-    });
-  return power;
-}
-
-void before_step(World& world, State& state, int) {
-  if (world.model.settings.scheme != Scheme::stepping) world.resistance_power = power_taken(world, state);
-}
-
-void after_step(World& world, State& state, int self) {
-  for (std::size_t j = 0; j < world.model.joints.size(); ++j) {
-    Resistance& resistance = world.resistances[j];
-    if (!world.dampers[j].present || resistance.slip_rate.isZero(0)) continue;
-    const Joint& joint = world.model.joints[j];
-    Vec3 w_PC = state.V_WB[joint.child].w;
-    if (joint.parent >= 0) w_PC -= state.V_WB[joint.parent].w;
-    resistance.change = (resistance.axes_W.transpose() * w_PC - resistance.rate) / world.step;
-  }
-  if (world.model.settings.scheme == Scheme::stepping) return;
-  world.dissipated[self] += 0.5 * world.step * (world.resistance_power + power_taken(world, state));
-}
-
-/// The rate [rad/s] at which an angle that turns at `now` will come out of the step if it goes on as in the last; held, if it comes
-/// to rest on the way.
-double expect_slip(Resistance& resistance, int angle, double now, double h) {
-  const double ahead = std::copysign(1.0, now) * (now + h * resistance.change[angle]);
+/// The rate [rad/s] at which an angle that turns at `now` will come out of the step if it goes on changing as in the last; held, if
+/// it comes to rest on the way.
+double expect_slip(Resistance& resistance, const Vec3& change, int angle, double now, double h) {
+  const double ahead = std::copysign(1.0, now) * (now + h * change[angle]);
   resistance.rate[angle] = now;
   return resistance.slip_rate[angle] = std::max(std::min(ahead, kMayGrow * std::abs(now)), kStuckRate);
 }
 
-void resist(World& world, const State& state, int self) {
-  const double h = world.step;
-  for (int j = 0; j < static_cast<int>(world.model.joints.size()); ++j) {
-    const Joint& joint = world.model.joints[j];
-    JointDamper& damper = world.dampers[j];
-    damper.present = false;
-    if (!resists(joint)) continue;
-    if (!world.awake[joint.child]) {
-      world.resistances[j].change.setZero();
-      continue;
-    }
-    const JointAngles now = joint_angles(joint, joint.parent < 0 ? Pose{} : state.X_WB[joint.parent], state.X_WB[joint.child]);
-    const Vec3 w_PC = state.V_WB[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : state.V_WB[joint.parent].w);
-    damper.matrix.setZero();
-    world.resistances[j].torque_W.setZero();
-    world.resistances[j].effect = self;
-    world.resistances[j].slip_rate.setZero();
-    for (int i = 0; i < 3; ++i) {
-      const ArticulationAngle& a = joint.angles[i];
-      if (!now.free[i] || !resists(a)) continue;
-      const Vec3 g = now.gradient_W.col(i), axis = now.axes_W.col(i);
-      world.resistances[j].axes_W.col(i) = axis;
-      const double friction = a.friction_torque / expect_slip(world.resistances[j], i, axis.dot(w_PC), h);
-      const double damping = world.resistance_in_stages[j] ? 0 : a.damping;
-      damper.matrix += h * (damping + friction) * axis * axis.transpose();
-      if (world.resistance_in_stages[j] || a.stiffness == 0) continue;
-      damper.matrix += h * h * a.stiffness * g * g.transpose();
-      world.resistances[j].torque_W -= a.stiffness * (now.angle[i] - a.rest) * g;
-    }
-    if (damper.matrix.isZero(0)) continue;
-    damper.present = true;
-    world.any_damper = true;
-  }
-  for (const PassiveLeg& leg : world.passive_legs)
-    for_passive_joints(world.model, leg, state.X_WB, [&](int j, const Vec3& g, double torque, double stiffness) {
-      if (world.resistance_in_stages[j] || !world.awake[world.model.joints[j].child]) return;
-      world.dampers[j].matrix += h * h * stiffness * g * g.transpose();
-      world.dampers[j].present = true;
-      world.any_damper = true;
-      world.resistances[j].torque_W += torque * g;
-    });
-}
-
-/// Dry friction acts as a damper that yields the given torque at the rate expected at the end of the step. Where a joint was torn
-/// loose the expected rate was far too small and the joint all but rigid: expects the rate at which it would have come out with the
-/// torque given, by its own inertia, and asks for the impulses again.
-bool gave_way(World& world, const State& end) {
-  const double h = world.step;
-  bool any = false;
-  for (int j = 0; j < static_cast<int>(world.model.joints.size()); ++j) {
-    const Joint& joint = world.model.joints[j];
-    if (!world.dampers[j].present) continue;
-    const Vec3 w_PC = end.V_WB[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : end.V_WB[joint.parent].w);
-    for (int i = 0; i < 3; ++i) {
-      const double torque = joint.angles[i].friction_torque;
-      double& assumed = world.resistances[j].slip_rate[i];
-      if (torque <= 0 || assumed <= 0) continue;
-      const Vec3 axis = world.resistances[j].axes_W.col(i);
-      const double came_out = std::abs(axis.dot(w_PC));
-      if (came_out <= assumed) continue;
-      double inverse_inertia = 0;
-      for (const int b : {joint.parent, joint.child}) {
-        if (b < 0 || world.model.bodies[b].fixed) continue;
-        const Vec3 axis_B = end.X_WB[b].q.conjugate() * axis;
-        inverse_inertia += axis_B.dot(axis_B.cwiseQuotient(world.model.bodies[b].inertia_B.diagonal()));
-      }
-      const double slower = inverse_inertia * torque * h;  // [rad/s] what the torque takes away
-      const double held_back = slower * (came_out / assumed - 1);
-      if (held_back < kHeldBack) continue;
-      const double rate = came_out + held_back;
-      world.dampers[j].matrix += h * torque * (1 / rate - 1 / assumed) * axis * axis.transpose();
-      assumed = rate;
-      any = true;
-    }
-  }
-  return any;
+Vec3 relative_turning(const Joint& joint, const std::vector<Twist>& V) {
+  return V[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : V[joint.parent].w);
 }
 
 }  // namespace
 
-const Effect kJointResistanceEffect{.name = "joint_resistance",
-                                    .look = look,
-                                    .begin = begin,
-                                    .before_step = before_step,
-                                    .add_forces = add_forces,
-                                    .resist = resist,
-                                    .gave_way = gave_way,
-                                    .after_step = after_step};
+/// How the rates of joints with dry friction changed over the last step.
+struct FrictionMemory {
+  std::vector<Vec3> change;  // [rad/s^2] per joint, per articulation angle
+
+  template <class S>
+  static auto fields(S& s) {
+    return std::tie(s.change);
+  }
+};
+
+class JointResistance final : public EffectWith<FrictionMemory> {
+ public:
+  static constexpr const char* kName = "joint_resistance";
+  static Finding look(const Model& model) { return look_at(model); }
+
+  JointResistance(const World& world, int self) : EffectWith(self), legs_(passive_legs(world.model)) {
+    for (const Joint& joint : world.model.joints) in_stages_.push_back(resists(joint) && in_stages(world.model, joint));
+  }
+
+  void begin(World& world, State& state) override { memory(state).change.assign(world.model.joints.size(), Vec3::Zero()); }
+
+  void before_step(World& world, State& state, double) override {
+    if (world.model.settings.scheme != Scheme::stepping) power_ = power_taken(world, state);
+  }
+
+  void add_forces(const World& world, const std::vector<Pose>& X, const std::vector<Twist>& V,
+                  std::vector<Vec6>& force) const override {
+    for (std::size_t j = 0; j < world.model.joints.size(); ++j) {
+      const Joint& joint = world.model.joints[j];
+      if (!in_stages_[j] || !world.awake[joint.child]) continue;
+      const JointAngles now = joint_angles(joint, joint.parent < 0 ? Pose{} : X[joint.parent], X[joint.child]);
+      const Vec3 torque = smooth_torque(joint, now, relative_turning(joint, V));
+      force[joint.child].tail<3>() += torque;
+      if (joint.parent >= 0) force[joint.parent].tail<3>() -= torque;
+    }
+    for (const PassiveLeg& leg : legs_)
+      for_passive_joints(world.model, leg, X, [&](int j, const Vec3& g, double torque, double) {
+        const Joint& joint = world.model.joints[j];
+        if (!in_stages_[j] || !world.awake[joint.child]) return;
+        force[joint.child].tail<3>() += torque * g;
+        if (joint.parent >= 0) force[joint.parent].tail<3>() -= torque * g;
+      });
+  }
+
+  void resist(StepContext& step) override {
+    const World& world = step.world;
+    const State& state = step.state;
+    const double h = step.length;
+    for (int j = 0; j < static_cast<int>(world.model.joints.size()); ++j) {
+      const Joint& joint = world.model.joints[j];
+      JointDamper& damper = step.buffers.dampers[j];
+      Resistance& resistance = step.buffers.resistances[j];
+      damper.present = false;
+      if (!resists(joint)) continue;
+      if (!world.awake[joint.child]) {
+        memory(step.state).change[j].setZero();
+        continue;
+      }
+      const JointAngles now = joint_angles(joint, joint.parent < 0 ? Pose{} : state.X_WB[joint.parent], state.X_WB[joint.child]);
+      const Vec3 w_PC = relative_turning(joint, state.V_WB);
+      damper.matrix.setZero();
+      resistance.torque_W.setZero();
+      resistance.effect = self_;
+      resistance.slip_rate.setZero();
+      for (int i = 0; i < 3; ++i) {
+        const ArticulationAngle& a = joint.angles[i];
+        if (!now.free[i] || !resists(a)) continue;
+        const Vec3 g = now.gradient_W.col(i), axis = now.axes_W.col(i);
+        resistance.axes_W.col(i) = axis;
+        const double friction = a.friction_torque / expect_slip(resistance, memory(step.state).change[j], i, axis.dot(w_PC), h);
+        const double damping = in_stages_[j] ? 0 : a.damping;
+        damper.matrix += h * (damping + friction) * axis * axis.transpose();
+        if (in_stages_[j] || a.stiffness == 0) continue;
+        damper.matrix += h * h * a.stiffness * g * g.transpose();
+        resistance.torque_W -= a.stiffness * (now.angle[i] - a.rest) * g;
+      }
+      if (damper.matrix.isZero(0)) continue;
+      damper.present = true;
+      step.any_damper = true;
+    }
+    for (const PassiveLeg& leg : legs_)
+      for_passive_joints(world.model, leg, state.X_WB, [&](int j, const Vec3& g, double torque, double stiffness) {
+        if (in_stages_[j] || !world.awake[world.model.joints[j].child]) return;
+        step.buffers.dampers[j].matrix += h * h * stiffness * g * g.transpose();
+        step.buffers.dampers[j].present = true;
+        step.any_damper = true;
+        step.buffers.resistances[j].torque_W += torque * g;
+      });
+  }
+
+  /// Dry friction acts as a damper that yields the given torque at the rate expected at the end of the step. Where a joint was torn
+  /// loose the expected rate was far too small and the joint all but rigid: expects the rate at which it would have come out with
+  /// the torque given, by its own inertia, and asks for the impulses again.
+  bool gave_way(StepContext& step) override {
+    const World& world = step.world;
+    const double h = step.length;
+    bool any = false;
+    for (int j = 0; j < static_cast<int>(world.model.joints.size()); ++j) {
+      const Joint& joint = world.model.joints[j];
+      JointDamper& damper = step.buffers.dampers[j];
+      Resistance& resistance = step.buffers.resistances[j];
+      if (!damper.present) continue;
+      const Vec3 w_PC = relative_turning(joint, step.end.V_WB);
+      for (int i = 0; i < 3; ++i) {
+        const double torque = joint.angles[i].friction_torque;
+        double& assumed = resistance.slip_rate[i];
+        if (torque <= 0 || assumed <= 0) continue;
+        const Vec3 axis = resistance.axes_W.col(i);
+        const double came_out = std::abs(axis.dot(w_PC));
+        if (came_out <= assumed) continue;
+        double inverse_inertia = 0;
+        for (const int b : {joint.parent, joint.child}) {
+          if (b < 0 || world.model.bodies[b].fixed) continue;
+          const Vec3 axis_B = step.end.X_WB[b].q.conjugate() * axis;
+          inverse_inertia += axis_B.dot(axis_B.cwiseQuotient(world.model.bodies[b].inertia_B.diagonal()));
+        }
+        const double slower = inverse_inertia * torque * h;  // [rad/s] what the torque takes away
+        const double held_back = slower * (came_out / assumed - 1);
+        if (held_back < kHeldBack) continue;
+        const double rate = came_out + held_back;
+        damper.matrix += h * torque * (1 / rate - 1 / assumed) * axis * axis.transpose();
+        assumed = rate;
+        any = true;
+      }
+    }
+    return any;
+  }
+
+  void after_step(StepContext& step) override {
+    const World& world = step.world;
+    State& state = step.state;
+    for (std::size_t j = 0; j < world.model.joints.size(); ++j) {
+      const Resistance& resistance = step.buffers.resistances[j];
+      if (!step.buffers.dampers[j].present || resistance.slip_rate.isZero(0)) continue;
+      const Vec3 w_PC = relative_turning(world.model.joints[j], state.V_WB);
+      memory(state).change[j] = (resistance.axes_W.transpose() * w_PC - resistance.rate) / step.length;
+    }
+    if (world.model.settings.scheme == Scheme::stepping) return;
+    state.energy.dissipated[self_] += 0.5 * step.length * (power_ + power_taken(world, state));
+  }
+
+ private:
+  /// Power [W] that springs and dampers evaluated in the stages take out now.
+  double power_taken(const World& world, const Motion& at) const {
+    double power = 0;
+    for (std::size_t j = 0; j < world.model.joints.size(); ++j) {
+      const Joint& joint = world.model.joints[j];
+      if (!in_stages_[j] || !world.awake[joint.child]) continue;
+      const JointAngles now = joint_angles(joint, joint.parent < 0 ? Pose{} : at.X_WB[joint.parent], at.X_WB[joint.child]);
+      const Vec3 w_PC = relative_turning(joint, at.V_WB);
+      power -= smooth_torque(joint, now, w_PC).dot(w_PC);
+    }
+    for (const PassiveLeg& leg : legs_)
+      for_passive_joints(world.model, leg, at.X_WB, [&](int j, const Vec3& g, double torque, double) {
+        const Joint& joint = world.model.joints[j];
+        if (!in_stages_[j] || !world.awake[joint.child]) return;
+        power -= torque * g.dot(relative_turning(joint, at.V_WB));
+      });
+    return power;
+  }
+
+  std::vector<char> in_stages_;  // per joint: springs and dampers act in the stages of Runge and Kutta
+  const std::vector<PassiveLeg> legs_;
+  double power_ = 0;  // [W] what those take out at the start of the step
+};
+template struct Registered<JointResistance>;
 
 }  // namespace engine

@@ -2,13 +2,13 @@
 // the bodies come apart.
 #include <iterator>
 
-#include "engine/effects/effects.h"
+#include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 
 namespace engine {
 namespace {
 
-Finding look(const Model& model) {
+Finding look_at(const Model& model) {
   if (model.joints.empty()) return {false, "no joints", ""};
   constexpr const char* kNames[] = {"revolute", "universal", "spherical", "spherical with limits", "rigid"};
   std::size_t count[std::size(kNames)] = {};
@@ -21,6 +21,13 @@ Finding look(const Model& model) {
 
 }  // namespace
 
-const Effect kJointsEffect{.name = "joints", .look = look};
+class Joints final : public Effect {
+ public:
+  static constexpr const char* kName = "joints";
+  static Finding look(const Model& model) { return look_at(model); }
+
+  Joints(const World&, int self) : Effect(self) {}
+};
+template struct Registered<Joints>;
 
 }  // namespace engine

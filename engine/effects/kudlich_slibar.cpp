@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/effects/effects.h"
+#include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 #include "engine/geometry/mesh_overlap.h"
 #include "engine/math/functions.h"
@@ -19,6 +19,12 @@ constexpr double kSteep = 0.5;      // [-] cosine in plan below which a settled 
 constexpr double kSecondary = 0.1;  // [m/s] bodies that lie against each other and close slower have no further impact
 constexpr double kPlaced = 1e-6;    // [s] to which a touch is placed: micrometres of way
 constexpr double kEarliest = 0.02;  // [s] a touch is looked for in the past at most, where the grid saw it late
+
+/// Two meshes that collide by Kudlich-Slibar.
+struct ImpactPair {
+  int a = 0, b = 0;
+  ImpactSettings settings;
+};
 
 std::vector<ImpactPair> pairs_of(const Model& model) {
   std::vector<ImpactPair> out;
@@ -40,7 +46,7 @@ std::vector<ImpactPair> pairs_of(const Model& model) {
   return out;
 }
 
-Finding look(const Model& model) {
+Finding look_at(const Model& model) {
   std::vector<std::string> pairs;
   for (const ImpactPair& pair : pairs_of(model))
     pairs.push_back(model.bodies[pair.a].name + " with " + model.bodies[pair.b].name + " (exchange " +
@@ -69,9 +75,10 @@ Pose mesh_pose(const World& world, const State& state, int body, double ahead) {
   return X * mesh_of(world, body).X_BM;
 }
 
-std::optional<MeshOverlap> overlap_at(World& world, const State& state, const ImpactPair& pair, double ahead) {
+std::optional<MeshOverlap> overlap_at(const World& world, const State& state, const ImpactPair& pair, double ahead,
+                                      OverlapScratch& scratch) {
   return overlap_of(*mesh_of(world, pair.a).mesh, mesh_pose(world, state, pair.a, ahead), *mesh_of(world, pair.b).mesh,
-                    mesh_pose(world, state, pair.b, ahead), world.overlap);
+                    mesh_pose(world, state, pair.b, ahead), scratch);
 }
 
 /// When [s] from now the meshes of a pair begin to share space, which they do after `until` in `region`.
@@ -93,44 +100,6 @@ double touch_before(const World& world, const State& state, const ImpactPair& pa
   return high;
 }
 
-/// A touch within the step to come.
-void look_ahead(World& world, const State& state, ImpactPair& pair) {
-  const double step = world.model.settings.step;
-  const Vec3 apart = state.X_WB[pair.a].p - state.X_WB[pair.b].p;
-  const double closing = (state.V_WB[pair.a].v - state.V_WB[pair.b].v).norm();
-  if (apart.norm() > world.reach[pair.a] + world.reach[pair.b] + closing * step) return;
-  const auto overlap = overlap_at(world, state, pair, step);
-  if (!overlap) return;
-  pair.touching = true;
-  pair.due = state.time + touch_before(world, state, pair, step, overlap->region) + pair.settings.penetration_time;
-}
-
-void mark_next(World& world) {
-  world.next_instant = std::numeric_limits<double>::infinity();
-  for (const ImpactPair& pair : world.impact_pairs)
-    if (pair.touching) world.next_instant = std::min(world.next_instant, pair.due);
-}
-
-void after_step(World& world, State& state, int) {
-  for (ImpactPair& pair : world.impact_pairs)
-    if (!pair.touching) look_ahead(world, state, pair);
-  mark_next(world);
-}
-
-void begin(World& world, const State& state, int) {
-  world.impact_pairs = pairs_of(world.model);
-  reserve(world.overlap);
-  world.exchanges.reserve(kRoom);
-  world.impact_force.resize(world.model.bodies.size());
-  world.impact_change.resize(world.model.bodies.size());
-  for (ImpactPair& pair : world.impact_pairs) {
-    pair.touching = overlap_at(world, state, pair, 0).has_value();  // then they have met as the run begins
-    pair.due = state.time + pair.settings.penetration_time;
-    if (!pair.touching) look_ahead(world, state, pair);
-  }
-  mark_next(world);
-}
-
 Vec3 velocity_at(const State& state, int body, const Vec3& point) {
   return state.V_WB[body].v + state.V_WB[body].w.cross(point - state.X_WB[body].p);
 }
@@ -138,8 +107,9 @@ Vec3 velocity_at(const State& state, int body, const Vec3& point) {
 /// Change of velocity of all bodies by an impulse [N s] at a point, on a and opposite on b, through their joints.
 class ImpulseThroughJoints {
  public:
-  ImpulseThroughJoints(World& world, const State& state, int a, int b, const Vec3& point)
-      : world_(world), a_(a), b_(b), point_(point), state_(state), force_(world.impact_force), change_(world.impact_change) {
+  ImpulseThroughJoints(World& world, const State& state, int a, int b, const Vec3& point, std::vector<Vec6>& force,
+                       std::vector<Vec6>& change)
+      : world_(world), a_(a), b_(b), point_(point), state_(state), force_(force), change_(change) {
     for (const int body : {a, b}) {
       const int tree = world.topology.tree_of_body[body];
       if (tree < 0 || std::find(trees_.begin(), trees_.end(), tree) != trees_.end()) continue;
@@ -190,55 +160,128 @@ void record(World& world, const ImpactPair& pair, const State& state, const Vec3
   c.tangential_impulse = (impact.impulse - c.normal_impulse * normal).norm();
   c.energy_lost = impact.energy_lost;
   c.slip = (impact.u_after - impact.u_after.dot(normal) * normal).norm();
-  world.exchanges.push_back(c);
-  world.events.push_back({state.time, "impact", pair.a, pair.b, point, closing});
-}
-
-void exchange(World& world, State& state, ImpactPair& pair, const MeshOverlap& overlap, int self) {
-  const bool first = pair.exchanges == 0;
-  const Vec3 point = first ? pair.settings.point_W.value_or(overlap.centroid) : overlap.centroid;
-  Vec3 normal = first ? pair.settings.normal_W.value_or(overlap.normal_W) : overlap.normal_W;
-  const Vec3 u = velocity_at(state, pair.a, point) - velocity_at(state, pair.b, point);
-  // a settled normal has either sign: that of the overlap's, which is seen in plan; where it is steeper than that, the closing one
-  const double along = normal.dot(overlap.normal_W);
-  if (std::abs(along) > kSteep ? along < 0 : normal.dot(u) > 0) normal = -normal;
-  if (u.dot(normal) > (first ? 0 : -kSecondary)) return;
-
-  const SurfaceProperties& A = world.model.bodies[pair.a].surface;
-  const SurfaceProperties& B = world.model.bodies[pair.b].surface;
-  const double t = state.time;
-  const double mu = pair.settings.friction.value_or(std::min(A.friction_body.at(t), B.friction_body.at(t)));
-  const double e = pair.settings.restitution.value_or(std::max(A.restitution_body.at(t), B.restitution_body.at(t)));
-  ImpulseThroughJoints through(world, state, pair.a, pair.b, point);
-  const PlaneImpact impact = kudlich_slibar(through.matrix(), u, normal, mu, e);
-  through.respond(impact.impulse);
-  for (const int tree : through.trees())
-    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
-      const int body = world.topology.links[l].body;
-      state.V_WB[body].v += through.change(body).head<3>();
-      state.V_WB[body].w += through.change(body).tail<3>();
-    }
-  world.dissipated[self] += impact.energy_lost;
-  record(world, pair, state, point, normal, impact, -u.dot(normal));
-  ++pair.exchanges;
-}
-
-void before_step(World& world, State& state, int self) {
-  const double now = state.time + 1.01 * kSliver * world.model.settings.step;
-  for (ImpactPair& pair : world.impact_pairs) {
-    if (!pair.touching || now < pair.due) continue;
-    const auto overlap = overlap_at(world, state, pair, 0);
-    pair.touching = overlap.has_value();
-    if (!overlap) continue;
-    exchange(world, state, pair, *overlap, self);
-    const double t_P = pair.settings.penetration_time;
-    pair.due = state.time + (t_P > 0 ? t_P : ImpactSettings{}.penetration_time);
-  }
+  world.log.exchanges.push_back(c);
+  world.log.events.push_back({state.time, "impact", pair.a, pair.b, point, closing});
 }
 
 }  // namespace
 
-const Effect kKudlichSlibarEffect{
-    .name = "kudlich_slibar", .look = look, .begin = begin, .before_step = before_step, .after_step = after_step};
+/// How far a pair has got: apart, in touch until an impulse is due, or exchanged.
+struct ImpactProgress {
+  bool touching = false;
+  double due = 0;  // [s] when the impulse is exchanged, while touching
+  int exchanges = 0;
+
+  template <class S>
+  static auto fields(S& s) {
+    return std::tie(s.touching, s.due, s.exchanges);
+  }
+};
+struct ImpactMemory {
+  std::vector<ImpactProgress> pairs;
+
+  template <class S>
+  static auto fields(S& s) {
+    return std::tie(s.pairs);
+  }
+};
+
+class KudlichSlibar final : public EffectWith<ImpactMemory> {
+ public:
+  static constexpr const char* kName = "kudlich_slibar";
+  static Finding look(const Model& model) { return look_at(model); }
+
+  KudlichSlibar(World& world, int self)
+      : EffectWith(self), pairs_(pairs_of(world.model)), force_(world.model.bodies.size()), change_(force_) {
+    reserve(overlap_);
+    world.log.exchanges.reserve(kRoom);
+  }
+
+  void begin(World& world, State& state) override {
+    memory(state).pairs.resize(pairs_.size());
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      ImpactProgress& progress = memory(state).pairs[i];
+      progress.touching = overlap_at(world, state, pairs_[i], 0, overlap_).has_value();  // then they have met as the run begins
+      progress.due = state.time + pairs_[i].settings.penetration_time;
+      if (!progress.touching) look_ahead(world, state, pairs_[i], progress);
+    }
+    mark_next(state);
+  }
+
+  void before_step(World& world, State& state, double) override {
+    const double now = state.time + 1.01 * kSliver * world.model.settings.step;
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      ImpactProgress& progress = memory(state).pairs[i];
+      if (!progress.touching || now < progress.due) continue;
+      const auto overlap = overlap_at(world, state, pairs_[i], 0, overlap_);
+      progress.touching = overlap.has_value();
+      if (!overlap) continue;
+      exchange(world, state, pairs_[i], progress, *overlap);
+      const double t_P = pairs_[i].settings.penetration_time;
+      progress.due = state.time + (t_P > 0 ? t_P : ImpactSettings{}.penetration_time);
+    }
+  }
+
+  void after_step(StepContext& step) override {
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      ImpactProgress& progress = memory(step.state).pairs[i];
+      if (!progress.touching) look_ahead(step.world, step.state, pairs_[i], progress);
+    }
+    mark_next(step.state);
+  }
+
+ private:
+  /// A touch within the step to come.
+  void look_ahead(const World& world, const State& state, const ImpactPair& pair, ImpactProgress& progress) {
+    const double step = world.model.settings.step;
+    const Vec3 apart = state.X_WB[pair.a].p - state.X_WB[pair.b].p;
+    const double closing = (state.V_WB[pair.a].v - state.V_WB[pair.b].v).norm();
+    if (apart.norm() > world.reach[pair.a] + world.reach[pair.b] + closing * step) return;
+    const auto overlap = overlap_at(world, state, pair, step, overlap_);
+    if (!overlap) return;
+    progress.touching = true;
+    progress.due = state.time + touch_before(world, state, pair, step, overlap->region) + pair.settings.penetration_time;
+  }
+
+  void mark_next(State& state) const {
+    double next = std::numeric_limits<double>::infinity();
+    for (const ImpactProgress& progress : memory(state).pairs)
+      if (progress.touching) next = std::min(next, progress.due);
+    state.pace.next_instant = next;
+  }
+
+  void exchange(World& world, State& state, const ImpactPair& pair, ImpactProgress& progress, const MeshOverlap& overlap) {
+    const bool first = progress.exchanges == 0;
+    const Vec3 point = first ? pair.settings.point_W.value_or(overlap.centroid) : overlap.centroid;
+    Vec3 normal = first ? pair.settings.normal_W.value_or(overlap.normal_W) : overlap.normal_W;
+    const Vec3 u = velocity_at(state, pair.a, point) - velocity_at(state, pair.b, point);
+    // a settled normal has either sign: that of the overlap's, which is seen in plan; where it is steeper than that, the closing
+    // one
+    const double along = normal.dot(overlap.normal_W);
+    if (std::abs(along) > kSteep ? along < 0 : normal.dot(u) > 0) normal = -normal;
+    if (u.dot(normal) > (first ? 0 : -kSecondary)) return;
+
+    const SurfacePairing surfaces = between_bodies(world.model.bodies[pair.a], world.model.bodies[pair.b], state.time);
+    const double mu = pair.settings.friction.value_or(surfaces.friction);
+    const double e = pair.settings.restitution.value_or(surfaces.restitution);
+    ImpulseThroughJoints through(world, state, pair.a, pair.b, point, force_, change_);
+    const PlaneImpact impact = kudlich_slibar(through.matrix(), u, normal, mu, e);
+    through.respond(impact.impulse);
+    for (const int tree : through.trees())
+      for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+        const int body = world.topology.links[l].body;
+        state.V_WB[body].v += through.change(body).head<3>();
+        state.V_WB[body].w += through.change(body).tail<3>();
+      }
+    state.energy.dissipated[self_] += impact.energy_lost;
+    record(world, pair, state, point, normal, impact, -u.dot(normal));
+    ++progress.exchanges;
+  }
+
+  const std::vector<ImpactPair> pairs_;
+  OverlapScratch overlap_;
+  std::vector<Vec6> force_, change_;  // per body, of an impulse between two
+};
+template struct Registered<KudlichSlibar>;
 
 }  // namespace engine

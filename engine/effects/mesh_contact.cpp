@@ -1,7 +1,7 @@
 // Segments and free bodies against the meshes of vehicles and other bodies.
 #include <algorithm>
 
-#include "engine/effects/effects.h"
+#include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 
 namespace engine {
@@ -13,7 +13,7 @@ bool can_meet(const Body& round, const Body& mesh) {
   return is_round(round) && is_mesh(mesh) && !rides && !(round.fixed && mesh.fixed);
 }
 
-Finding look(const Model& model) {
+Finding look_at(const Model& model) {
   std::size_t pairs = 0, riding = 0, meshes = 0, rounds = 0;
   std::vector<std::string> names;
   for (const Body& mesh : model.bodies) {
@@ -40,49 +40,58 @@ void add_to_runs(std::vector<MeshPairRun>& runs, int effect, int tree_a, int tre
   runs.back().end = at + 1;
 }
 
-void begin(World& world, const State&, int self) {
-  const auto& bodies = world.model.bodies;
-  const std::vector<int>& tree = world.topology.tree_of_body;
-  for (int m = 0; m < static_cast<int>(bodies.size()); ++m)
-    for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
-      if (can_meet(bodies[b], bodies[m])) {
-        add_to_runs(world.mesh_pair_runs, self, tree[b], tree[m], world.mesh_pairs.size());
-        world.mesh_pairs.push_back({self, b, m, std::get<MeshShape>(bodies[m].shape).mesh.get(), {}});
-      }
-  for (const MeshPair& pair : world.mesh_pairs) reserve(world.mesh_scratch, *pair.mesh);
-}
-
-void find_contacts_of(World& world, const State& state, const MeshPairRun& run, ContactPoints& touches) {
-  for (std::size_t i = run.begin; i < run.end; ++i) {
-    MeshPair& pair = world.mesh_pairs[i];
-    if (!world.awake[pair.body] && !world.model.bodies[pair.body].fixed) continue;  // waits or sleeps: those effects watch
-    const Body& round = world.model.bodies[pair.body];
-    const Body& mesh = world.model.bodies[pair.mesh_body];
-    if (!world.awake[pair.mesh_body] && !mesh.fixed) continue;
-    const Pose X_WM = state.X_WB[pair.mesh_body] * std::get<MeshShape>(mesh.shape).X_BM;
-    const double margin = pair_margin(world, state, pair.body, pair.mesh_body);
-    const Pose X_MA = X_WM.inverse() * state.X_WB[pair.body];
-    if (pair.clearance.beyond(margin, X_MA, world.reach[pair.body])) continue;
-    contacts_with_mesh(std::get<HyperEllipsoid>(round.shape), state.X_WB[pair.body], *pair.mesh, X_WM, margin,
-                       pair.clearance.by_now(X_MA, world.reach[pair.body]), world.mesh_scratch, touches);
-    pair.clearance.note(world.mesh_scratch.apart, X_MA, world.reach[pair.body]);
-    const double mu = std::min(round.surface.friction_body.at(state.time), mesh.surface.friction_body.at(state.time));
-    const double e = std::max(round.surface.restitution_body.at(state.time), mesh.surface.restitution_body.at(state.time));
-    const std::size_t first = world.constraints.size();
-    for (const SurfaceContact& touch : touches)
-      add_contact(world, state, touch, pair.body, pair.mesh_body, run.effect, ContactKind::vehicle, mu, e);
-    share_stiffness(world, first);
-  }
-}
-
-void find(World& world, const State& state, int) {
-  ContactPoints touches;
-  for (const MeshPairRun& run : world.mesh_pair_runs)
-    if (world.nearness.close(run.tree_a, run.tree_b)) find_contacts_of(world, state, run, touches);
-}
-
 }  // namespace
 
-const Effect kMeshContactEffect{.name = "mesh_contact", .look = look, .begin = begin, .find_contacts = find};
+class MeshContact final : public Effect {
+ public:
+  static constexpr const char* kName = "mesh_contact";
+  static Finding look(const Model& model) { return look_at(model); }
+
+  MeshContact(World& world, int self) : Effect(self) {
+    const auto& bodies = world.model.bodies;
+    const std::vector<int>& tree = world.topology.tree_of_body;
+    ContactPairs& pairs = world.pairs;
+    for (int m = 0; m < static_cast<int>(bodies.size()); ++m)
+      for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
+        if (can_meet(bodies[b], bodies[m])) {
+          add_to_runs(pairs.mesh_runs, self, tree[b], tree[m], pairs.mesh.size());
+          pairs.mesh.push_back({self, b, m, std::get<MeshShape>(bodies[m].shape).mesh.get()});
+        }
+    for (const MeshPair& pair : pairs.mesh) reserve(pairs.mesh_scratch, *pair.mesh);
+  }
+
+  void find_contacts(ContactSearch& search) override {
+    const ContactPairs& pairs = search.world.pairs;
+    ContactPoints touches;
+    for (const MeshPairRun& run : pairs.mesh_runs)
+      if (pairs.broad_phase.close(run.tree_a, run.tree_b))
+        for (std::size_t i = run.begin; i < run.end; ++i) find_contacts_of(search, i, touches);
+  }
+
+ private:
+  void find_contacts_of(ContactSearch& search, std::size_t index, ContactPoints& touches) const {
+    World& world = search.world;
+    const MeshPair& pair = world.pairs.mesh[index];
+    const Body& round = world.model.bodies[pair.body];
+    const Body& mesh = world.model.bodies[pair.mesh_body];
+    if (!world.awake[pair.body] && !round.fixed) return;  // waits or sleeps: those effects watch
+    if (!world.awake[pair.mesh_body] && !mesh.fixed) return;
+    const Pose& X = search.at.X_WB[pair.body];
+    const Pose X_WM = search.at.X_WB[pair.mesh_body] * std::get<MeshShape>(mesh.shape).X_BM;
+    const double margin = pair_margin(search, pair.body, pair.mesh_body), reach = world.reach[pair.body];
+    const Pose X_MA = X_WM.inverse() * X;
+    Clearance& clearance = search.state.contact_memory.mesh[index];
+    if (clearance.beyond(margin, X_MA, reach)) return;
+    contacts_with_mesh(std::get<HyperEllipsoid>(round.shape), X, *pair.mesh, X_WM, margin, clearance.by_now(X_MA, reach),
+                       world.pairs.mesh_scratch, touches);
+    clearance.note(world.pairs.mesh_scratch.apart, X_MA, reach);
+    const SurfacePairing surfaces = between_bodies(round, mesh, search.at.time);
+    const std::size_t first = search.found.size();
+    for (const SurfaceContact& touch : touches)
+      add_contact(search, touch, pair.body, pair.mesh_body, self_, ContactKind::vehicle, surfaces);
+    share_stiffness(search, first);
+  }
+};
+template struct Registered<MeshContact>;
 
 }  // namespace engine

@@ -5,9 +5,16 @@
 #include <vector>
 
 #include "engine/laws/passive_torque.h"
-#include "engine/world.h"
+#include "engine/model/model.h"
 
 namespace engine {
+
+/// Joints of one leg whose passive torques know each other's angles; -1: has none.
+struct PassiveLeg {
+  int hip = -1;
+  int knees[2] = {-1, -1};
+  int ankle = -1;
+};
 
 /// The legs of a model, from hip, knees and ankle that follow each other.
 std::vector<PassiveLeg> passive_legs(const Model&);

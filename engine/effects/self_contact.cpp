@@ -1,12 +1,12 @@
 // Segments of one person against each other, jointed pairs and pairs that overlap in the start pose left out.
 #include "engine/effects/body_pairs.h"
-#include "engine/effects/effects.h"
+#include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 
 namespace engine {
 namespace {
 
-Finding look(const Model& model) {
+Finding look_at(const Model& model) {
   if (model.persons.empty()) return {false, "no person", ""};
   const std::size_t count = pairs_within_persons(model).size();
   std::size_t all = 0, joined = 0;
@@ -24,16 +24,17 @@ Finding look(const Model& model) {
   return {true, counted(count, "pair") + " of segments of the same person, of " + std::to_string(all), left_out};
 }
 
-void begin(World& world, const State&, int self) {
-  add_pairs_within_persons(world, self);
-}
-
-void find(World& world, const State& state, int self) {
-  find_pair_contacts(world, state, self, ContactKind::self);
-}
-
 }  // namespace
 
-const Effect kSelfContactEffect{.name = "self_contact", .look = look, .begin = begin, .find_contacts = find};
+class SelfContact final : public Effect {
+ public:
+  static constexpr const char* kName = "self_contact";
+  static Finding look(const Model& model) { return look_at(model); }
+
+  SelfContact(World& world, int self) : Effect(self) { add_pairs_within_persons(world, self); }
+
+  void find_contacts(ContactSearch& search) override { find_pair_contacts(search, self_, ContactKind::self); }
+};
+template struct Registered<SelfContact>;
 
 }  // namespace engine

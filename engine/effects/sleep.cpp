@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/effects/effects.h"
+#include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 
 namespace engine {
@@ -16,7 +16,7 @@ constexpr double kMoved = 2e-5;    // [m] by any point of a tree in a window: st
 constexpr double kNear = 0.01;     // [m] between bounding spheres
 constexpr double kApproach = 0.1;  // [s] of flight ahead of which the sleeping wake
 
-Finding look(const Model& model) {
+Finding look_at(const Model& model) {
   if (!model.settings.sleep) return {false, "simulation.sleep is false", ""};
   return {true, "what moves less than 0.02 mm in a second, with all that is near it, keeps its place",
           "at most 0.02 mm of creep a second; contact forces of what sleeps are not recorded"};
@@ -72,28 +72,20 @@ bool may_sleep(const World& world, const State& state, int tree) {
 }
 
 /// Largest way [m] of any point of the tree since the last look.
-double moved(const World& world, const State& state, int tree) {
+double moved(const World& world, const State& state, const std::vector<Pose>& X_then, int tree) {
   double most = 0;
   const Topology::Tree& range = world.topology.trees[tree];
   for (int l = range.begin; l < range.end; ++l) {
     const int b = world.topology.links[l].body;
-    const Pose &now = state.X_WB[b], &then = world.sleep.X_then[b];
+    const Pose &now = state.X_WB[b], &then = X_then[b];
     const double chord = std::min((now.q.coeffs() - then.q.coeffs()).norm(), (now.q.coeffs() + then.q.coeffs()).norm());
     most = std::max(most, (now.p - then.p).norm() + 2 * chord * world.reach[b]);
   }
   return most;
 }
 
-void begin(World& world, const State& state, int) {
-  if (!world.model.settings.sleep) return;
-  world.sleep.asleep.assign(world.topology.trees.size(), 0);
-  world.sleep.still.assign(world.topology.trees.size(), 0);
-  world.sleep.X_then = state.X_WB;
-  world.sleep.next_look = kWindow;
-}
-
-void wake_near(World& world, const State& state) {
-  auto& asleep = world.sleep.asleep;
+void wake_near(const World& world, State& state) {
+  auto& asleep = state.asleep;
   const int trees = static_cast<int>(asleep.size());
   for (bool any = true; any;) {
     any = false;
@@ -105,45 +97,70 @@ void wake_near(World& world, const State& state) {
   }
 }
 
-void fall_asleep(World& world, State& state, int self) {
-  auto& [asleep, still, X_then, next_look] = world.sleep;
-  const int trees = static_cast<int>(asleep.size());
-  for (int t = 0; t < trees; ++t)
-    still[t] = static_cast<char>(asleep[t] || (may_sleep(world, state, t) && moved(world, state, t) < kMoved));
-  for (bool any = true; any;) {  // who lies by somebody restless does not sleep
-    any = false;
-    for (int a = 0; a < trees; ++a) {
-      if (!still[a] || asleep[a]) continue;
-      for (int b = 0; b < trees && still[a]; ++b)
-        if (!still[b] && near(world, state, a, b)) still[a] = 0, any = true;
-    }
-  }
-  const double before = kinetic_energy(world.model, state);
-  for (int t = 0; t < trees; ++t) {
-    if (!still[t] || asleep[t]) continue;
-    asleep[t] = 1;
-    const Topology::Tree& range = world.topology.trees[t];
-    for (int l = range.begin; l < range.end; ++l) state.V_WB[world.topology.links[l].body] = Twist{};
-  }
-  world.dissipated[self] += before - kinetic_energy(world.model, state);
-  X_then = state.X_WB;
-}
-
-void before_step(World& world, State& state, int self) {
-  auto& asleep = world.sleep.asleep;
-  if (asleep.empty()) return;
-  if (std::find(asleep.begin(), asleep.end(), 1) != asleep.end()) wake_near(world, state);
-  if (state.time < world.sleep.next_look) return;
-  world.sleep.next_look += kWindow;
-  if (more_to_come(world.model, state.time)) {
-    world.sleep.X_then = state.X_WB;
-    return;
-  }
-  fall_asleep(world, state, self);
-}
-
 }  // namespace
 
-const Effect kSleepEffect{.name = "sleep", .look = look, .begin = begin, .before_step = before_step};
+/// Where all bodies were at the last look, and when the next is due.
+struct SleepMemory {
+  std::vector<Pose> X_then;  // per body
+  double next_look = 0;      // [s]
+
+  template <class S>
+  static auto fields(S& s) {
+    return std::tie(s.X_then, s.next_look);
+  }
+};
+
+class Sleep final : public EffectWith<SleepMemory> {
+ public:
+  static constexpr const char* kName = "sleep";
+  static Finding look(const Model& model) { return look_at(model); }
+
+  Sleep(const World& world, int self) : EffectWith(self), still_(world.topology.trees.size(), 0) {}
+
+  void begin(World& world, State& state) override {
+    if (!world.model.settings.sleep) return;
+    state.asleep.assign(world.topology.trees.size(), 0);
+    memory(state) = {state.X_WB, kWindow};
+  }
+
+  void before_step(World& world, State& state, double) override {
+    auto& asleep = state.asleep;
+    if (asleep.empty()) return;
+    if (std::find(asleep.begin(), asleep.end(), 1) != asleep.end()) wake_near(world, state);
+    auto& [X_then, next_look] = memory(state);
+    if (state.time < next_look) return;
+    next_look += kWindow;
+    if (!more_to_come(world.model, state.time)) fall_asleep(world, state);
+    X_then = state.X_WB;
+  }
+
+ private:
+  void fall_asleep(const World& world, State& state) {
+    auto& asleep = state.asleep;
+    const int trees = static_cast<int>(asleep.size());
+    for (int t = 0; t < trees; ++t)
+      still_[t] =
+          static_cast<char>(asleep[t] || (may_sleep(world, state, t) && moved(world, state, memory(state).X_then, t) < kMoved));
+    for (bool any = true; any;) {  // who lies by somebody restless does not sleep
+      any = false;
+      for (int a = 0; a < trees; ++a) {
+        if (!still_[a] || asleep[a]) continue;
+        for (int b = 0; b < trees && still_[a]; ++b)
+          if (!still_[b] && near(world, state, a, b)) still_[a] = 0, any = true;
+      }
+    }
+    const double before = kinetic_energy(world.model, state);
+    for (int t = 0; t < trees; ++t) {
+      if (!still_[t] || asleep[t]) continue;
+      asleep[t] = 1;
+      const Topology::Tree& range = world.topology.trees[t];
+      for (int l = range.begin; l < range.end; ++l) state.V_WB[world.topology.links[l].body] = Twist{};
+    }
+    state.energy.dissipated[self_] += before - kinetic_energy(world.model, state);
+  }
+
+  std::vector<char> still_;  // per tree, scratch
+};
+template struct Registered<Sleep>;
 
 }  // namespace engine

@@ -1,20 +1,43 @@
-// What the table of effects is asked for: all of them, and the plan of a model.
+// The table of all effects, in the order of the step, and the plan of a model. Each is defined in the file of its name.
 #include <array>
 
-#include "engine/effects/effects.h"
+#include "engine/effects/effect.h"
 
 namespace engine {
+namespace {
 
-std::span<const Effect* const> effect_table() {
-#define CRASHREEL_ADDRESS(effect) &(effect),
-  static constexpr std::array kTable{CRASHREEL_EFFECTS(CRASHREEL_ADDRESS)};
-#undef CRASHREEL_ADDRESS
+template <class... Effects>
+constexpr std::array<const EffectKind*, sizeof...(Effects)> table() {
+  return {&Registered<Effects>::kind...};
+}
+
+}  // namespace
+
+constexpr auto kTable = table<class ZeroCondition,    //
+                              class Sleep,            //
+                              class Gravity,          //
+                              class AirDrag,          //
+                              class Joints,           //
+                              class JointLimits,      //
+                              class JointResistance,  //
+                              class JointLoops,       //
+                              class Driver,           //
+                              class Tyres,            //
+                              class GroundContact,    //
+                              class TerrainContact,   //
+                              class MeshContact,      //
+                              class SelfContact,      //
+                              class BodyContact,      //
+                              class BodyworkContact,  //
+                              class KudlichSlibar>();
+
+std::span<const EffectKind* const> effect_table() {
   return kTable;
 }
 
 Plan compile(const Model& model) {
   Plan plan;
-  for (const Effect* effect : effect_table()) {
+  for (const EffectKind* effect : effect_table()) {
     const Finding found = effect->look(model);
     const auto forced = model.settings.effects.find(effect->name);
     const Force force = forced == model.settings.effects.end() ? Force::automatic : forced->second;

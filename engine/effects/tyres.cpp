@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/effects/effects.h"
+#include "engine/effects/registration.h"
 #include "engine/effects/static_loads.h"
 #include "engine/effects/words.h"
 #include "engine/laws/tyre.h"
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kStopStiffness = 10;  // [-] times the spring's, beyond the travel
 
-Finding look(const Model& model) {
+Finding look_at(const Model& model) {
   std::size_t count = 0;
   double low = std::numeric_limits<double>::infinity(), high = 0;
   std::vector<std::string> names;
@@ -32,18 +32,6 @@ Finding look(const Model& model) {
   if (!model.ground.plane && !model.ground.terrain) return {false, counted(count, "wheel") + ", but no ground to roll on", ""};
   const std::string friction = low == high ? number(low) : number(low) + " to " + number(high);
   return {true, counted(count, "wheel") + " of " + listed(names) + ", tyre friction " + friction, ""};
-}
-
-void begin(World& world, const State&, int) {
-  const std::vector<double> loads = static_wheel_loads(world.model, world.topology);
-  for (int v = 0; v < static_cast<int>(world.model.vehicles.size()); ++v)
-    for (int w = 0; w < static_cast<int>(world.model.vehicles[v].wheels.size()); ++w) {
-      WheelState wheel;
-      wheel.vehicle = v;
-      wheel.wheel = w;
-      wheel.static_load = loads[world.wheels.size()];
-      world.wheels.push_back(wheel);
-    }
 }
 
 /// Where a wheel stands: on a level or a triangle's plane under its hub.
@@ -127,11 +115,13 @@ Grip grip_of(const Wheel& spec, const WheelState& wheel, double load, double mu,
   return linear_grip(load, mu, spec.saturation_angle, v_x, v_y);
 }
 
-void add_wheel(World& world, const State& state, WheelState& wheel, const Footing& footing, int index, int self) {
+void add_wheel(StepContext& step, const WheelState& wheel, const Footing& footing, int index, int self) {
+  const World& world = step.world;
+  const State& state = step.state;
   const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
   const Wheel& spec = vehicle.wheels[wheel.wheel];
   const Pose& X = state.X_WB[vehicle.body];
-  const double h = world.step;
+  const double h = step.length;
   const double stiffness = spec.spring * (std::abs(wheel.compression) > spec.travel ? 1 + kStopStiffness : 1);
   const double force = spring_force(spec, wheel.static_load, wheel.compression);
 
@@ -161,7 +151,7 @@ void add_wheel(World& world, const State& state, WheelState& wheel, const Footin
   c.key = (static_cast<std::uint64_t>(self) << 56) | static_cast<std::uint64_t>(index);
   c.effect = self;
   c.wheel = index;
-  world.constraints.push_back(c);
+  step.constraints.push_back(c);
 }
 
 /// Part of a wheel's longitudinal impulse that the engine gave: all it offered, unless the tyre slipped.
@@ -171,50 +161,72 @@ double engine_share(const Constraint& c) {
   return std::copysign(std::min(std::abs(c.rolling_drive), most), c.rolling_drive);
 }
 
-void find(World& world, const State& state, int self) {
-  double energy = 0;
-  for (int i = 0; i < static_cast<int>(world.wheels.size()); ++i) {
-    WheelState& wheel = world.wheels[i];
-    const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
-    const Wheel& spec = vehicle.wheels[wheel.wheel];
-    const Pose& X = state.X_WB[vehicle.body];
-    const Vec3 up = X.q * Vec3::UnitZ();
-    const double droop = droop_of(spec, wheel.static_load);
-    const Footing footing = footing_of(world.model.ground, spec, X, droop);
-    // lying on its flank it stays as it was pressed in: nothing moves along the strut
-    if (footing.found || !footing.near) wheel.compression = footing.compression;
-    wheel.lift = std::clamp(wheel.compression, -droop, 2 * spec.travel);
-    wheel.hub = X * spec.hub_B + wheel.lift * up;
-    wheel.contact = footing.found ? footing.point : Vec3(wheel.hub - spec.radius * up);
-    wheel.impulse.setZero();
-    energy += spring_energy(spec, wheel.static_load, wheel.compression);
-    if (footing.found && world.awake[vehicle.body]) add_wheel(world, state, wheel, footing, i, self);
-  }
-  // what the springs took or gave since the last look is not lost: it leaves the dampers' account
-  world.dissipated[self] -= energy - world.spring_energy;
-  world.spring_energy = energy;
-}
-
-void after_step(World& world, State& state, int) {
-  for (const Constraint& c : world.constraints) {
-    if (c.kind != ConstraintKind::wheel) continue;
-    WheelState& wheel = world.wheels[c.wheel];
-    const Wheel& spec = world.model.vehicles[wheel.vehicle].wheels[wheel.wheel];
-    wheel.impulse = c.impulse;
-    const double grip = c.friction * c.impulse[0];
-    const bool sliding = math::hypot(c.impulse[1], c.impulse[2]) >= 0.999 * grip && grip > 0;
-    wheel.locked = sliding && wheel.brake > 0 && std::abs(c.impulse[1] - c.rolling_drive) < 0.999 * c.rolling_bound;
-    wheel.slip = sliding ? math::hypot(wheel.locked ? c.u_after[1] : 0.0, c.u_after[2]) : 0;
-    if (!wheel.locked) state.wheel_spin[c.wheel] += world.step * c.u_after[1] / spec.radius;
-    // the engine's work is a source, not a loss: the books took it with the whole impulse
-    const double work = engine_share(c) * 0.5 * (c.u_before[1] + c.u_after[1]);
-    world.added += work;
-    world.dissipated[c.effect] += work;
-  }
-}
-
 }  // namespace
 
-const Effect kTyresEffect{.name = "tyres", .look = look, .begin = begin, .find = find, .after_step = after_step};
+class Tyres final : public Effect {
+ public:
+  static constexpr const char* kName = "tyres";
+  static Finding look(const Model& model) { return look_at(model); }
+
+  Tyres(const World&, int self) : Effect(self) {}
+
+  void begin(World& world, State& state) override {
+    const std::vector<double> loads = static_wheel_loads(world.model, world.topology);
+    for (int v = 0; v < static_cast<int>(world.model.vehicles.size()); ++v)
+      for (int w = 0; w < static_cast<int>(world.model.vehicles[v].wheels.size()); ++w) {
+        WheelState wheel;
+        wheel.vehicle = v;
+        wheel.wheel = w;
+        wheel.static_load = loads[state.wheels.size()];
+        state.wheels.push_back(wheel);
+      }
+  }
+
+  void find(StepContext& step) override {
+    World& world = step.world;
+    State& state = step.state;
+    double energy = 0;
+    for (int i = 0; i < static_cast<int>(state.wheels.size()); ++i) {
+      WheelState& wheel = state.wheels[i];
+      const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
+      const Wheel& spec = vehicle.wheels[wheel.wheel];
+      const Pose& X = state.X_WB[vehicle.body];
+      const Vec3 up = X.q * Vec3::UnitZ();
+      const double droop = droop_of(spec, wheel.static_load);
+      const Footing footing = footing_of(world.model.ground, spec, X, droop);
+      // lying on its flank it stays as it was pressed in: nothing moves along the strut
+      if (footing.found || !footing.near) wheel.compression = footing.compression;
+      wheel.lift = std::clamp(wheel.compression, -droop, 2 * spec.travel);
+      wheel.hub = X * spec.hub_B + wheel.lift * up;
+      wheel.contact = footing.found ? footing.point : Vec3(wheel.hub - spec.radius * up);
+      wheel.impulse.setZero();
+      energy += spring_energy(spec, wheel.static_load, wheel.compression);
+      if (footing.found && world.awake[vehicle.body]) add_wheel(step, wheel, footing, i, self_);
+    }
+    // what the springs took or gave since the last look is not lost: it leaves the dampers' account
+    state.energy.dissipated[self_] -= energy - state.energy.springs;
+    state.energy.springs = energy;
+  }
+
+  void after_step(StepContext& step) override {
+    State& state = step.state;
+    for (const Constraint& c : step.constraints) {
+      if (c.kind != ConstraintKind::wheel) continue;
+      WheelState& wheel = state.wheels[c.wheel];
+      const Wheel& spec = step.world.model.vehicles[wheel.vehicle].wheels[wheel.wheel];
+      wheel.impulse = c.impulse;
+      const double grip = c.friction * c.impulse[0];
+      const bool sliding = math::hypot(c.impulse[1], c.impulse[2]) >= 0.999 * grip && grip > 0;
+      wheel.locked = sliding && wheel.brake > 0 && std::abs(c.impulse[1] - c.rolling_drive) < 0.999 * c.rolling_bound;
+      wheel.slip = sliding ? math::hypot(wheel.locked ? c.u_after[1] : 0.0, c.u_after[2]) : 0;
+      if (!wheel.locked) state.wheel_spin[c.wheel] += step.length * c.u_after[1] / spec.radius;
+      // the engine's work is a source, not a loss: the books took it with the whole impulse
+      const double work = engine_share(c) * 0.5 * (c.u_before[1] + c.u_after[1]);
+      state.energy.added += work;
+      state.energy.dissipated[c.effect] += work;
+    }
+  }
+};
+template struct Registered<Tyres>;
 
 }  // namespace engine

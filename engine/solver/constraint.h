@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 
 #include "engine/math/types.h"
 #include "engine/recording.h"
@@ -45,6 +46,14 @@ struct Constraint {
   ContactKind contact_kind = ContactKind::ground;
   int record_a = -1, record_b = -1;  // bodies named in the record (fixed ones too)
   int wheel = -1;                    // running number of the wheel
+
+  /// What a contact or limit is when it is found; the rest is of the step that solves it.
+  template <class S>
+  static auto fields(S& s) {
+    return std::tie(s.kind, s.rows, s.body_a, s.body_b, s.J_a, s.J_b, s.point, s.frame, s.gap, s.friction, s.restitution,
+                    s.stiffness, s.hysteresis, s.free_response, s.whole_response, s.key, s.effect, s.contact_kind, s.record_a,
+                    s.record_b);
+  }
 };
 
 inline bool is_contact(const Constraint& c) {

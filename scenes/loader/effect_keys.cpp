@@ -18,15 +18,15 @@ struct OwnSection {
 const std::deque<OwnSection>& own_sections() {
   static const std::deque<OwnSection> sections = [] {
     std::deque<OwnSection> out;
-    for (const engine::Effect* effect : engine::effect_table()) {
-      if (effect->keys.empty()) continue;
+    for (const engine::EffectKind* effect : engine::effect_table()) {
+      if (effect->section.keys.empty()) continue;
       OwnSection& own = out.emplace_back();
-      own.header = "[" + std::string(effect->section) + "]";
+      own.header = "[" + std::string(effect->section.name) + "]";
       own.doc = "For the effect " + std::string(effect->name) + ".";
-      for (const engine::SceneKey& key : effect->keys)
+      for (const engine::SceneKey& key : effect->section.keys)
         own.keys.push_back({key.name, key.components == 3 ? Type::vector3 : Type::number, dimension_of(key.unit), key.fallback,
                             key.doc, at_least(key.lower)});
-      own.section = {effect->section, own.header, effect->section_doc, own.keys};
+      own.section = {effect->section.name, own.header, effect->section.doc, own.keys};
     }
     return out;
   }();

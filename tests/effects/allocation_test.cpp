@@ -6,7 +6,7 @@
 
 #include "engine/recorder.h"
 #include "engine/start.h"
-#include "engine/step.h"
+#include "engine/step/step.h"
 #include "scenes/scene.h"
 #include "tests/effects/scenes.h"
 
@@ -68,15 +68,16 @@ TEST_P(StepLoop, AllocatesNothingAfterWarmUp) {
   State state = start(world);
   Recording recording;
   Recorder recorder(world, state);
-  Stepper stepper(world);
-  stepper.on_impulses = [&](double time, double duration) { recorder.tally(world, time, duration); };
+  Stepper stepper(world, [&](const std::vector<Constraint>& conditions, double time, double duration) {
+    recorder.tally(world, conditions, time, duration);
+  });
   const double h = scene.model.settings.step;
   std::string where;
   allocations = 0;
-  for (int k = 0; k < kSteps && !world.failure; ++k) {
+  for (int k = 0; k < kSteps && !world.log.failure; ++k) {
     const long before = allocations;
     counting = k >= kWarmUp;
-    for (double left = h; left > 1e-9 * h && !world.failure;) left -= stepper.advance(world, state, left);
+    for (double left = h; left > 1e-9 * h && !world.log.failure;) left -= stepper.advance(state, left);
     recorder.sample(world, state, recording);
     counting = false;
     state.time = (k + 1) * h;

@@ -1,4 +1,4 @@
-#include "engine/solver/smooth_motion.h"
+#include "engine/step/smooth_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,8 +60,8 @@ void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const
       force_[b] << 0, 0, 0, -V[b].w.cross(X[b].q * (model.bodies[b].inertia_B * w_B));
     }
   }
-  call(world, &Effect::add_forces, X, V, force_);
-  if (compliant) compliant->add_forces(world, X, V, weight, force_);
+  call(world, Hook::add_forces, &Effect::add_forces, world, X, V, force_);
+  if (compliant) compliant->add_forces(X, V, weight, force_);
   if (&a == &stages_[0].a)
     for (std::size_t b = 0; b < force_.size(); ++b) applied_[b] = force_[b].head<3>();
   for (const int tree : world.active_trees) {
@@ -72,7 +72,7 @@ void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const
   }
 }
 
-void SmoothMotion::advance(World& world, const State& state, double h, std::vector<Pose>& X, std::vector<Twist>& V,
+void SmoothMotion::advance(World& world, const Motion& state, double h, std::vector<Pose>& X, std::vector<Twist>& V,
                            CompliantContacts* compliant, FirstStage first) {
   constexpr double kNode[4] = {0, 0.5, 0.5, 1};
   constexpr double kWeight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};

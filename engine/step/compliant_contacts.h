@@ -2,7 +2,6 @@
 // its phase through a step, so that each stage sees one smooth law, and the step ends where a phase does: touch, turn, separation.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "engine/laws/compliant_contact.h"
@@ -12,13 +11,10 @@ namespace engine {
 
 class CompliantContacts {
  public:
-  /// Looks for contacts at poses and velocities, and for what could become one within a time: appends to the list.
-  using Finder = std::function<void(const State&, double within, std::vector<Constraint>&)>;
-
-  CompliantContacts(const Model&, Finder);
+  explicit CompliantContacts(World&);
 
   /// Begins a step from `state`: which contacts are in which phase.
-  void begin(const World&, const State&, bool keep_phases);
+  void begin(State&, bool keep_phases);
 
   /// Begins an integration over h: what was exchanged by another that was thrown away is forgotten.
   void restart(double h) { exchanged_.clear(), h_ = h; }
@@ -26,7 +22,7 @@ class CompliantContacts {
   void next_part(double h) { h_ = h; }
 
   /// Forces at a stage, with its weight [-] in the step's mean force: what was exchanged is summed for the record.
-  void add_forces(const World&, const std::vector<Pose>&, const std::vector<Twist>&, double weight, std::vector<Vec6>& force);
+  void add_forces(const std::vector<Pose>&, const std::vector<Twist>&, double weight, std::vector<Vec6>& force);
 
   /// An event of a contact before the end of a step: how far its function is past zero at the end, and was before zero at the
   /// start.
@@ -36,13 +32,13 @@ class CompliantContacts {
     double start = 0, end = 0;
   };
   /// The crossing that comes first by linear interpolation; false if there is none.
-  bool first_crossing(const State& end, Crossing&);
+  bool first_crossing(const Motion& end, Crossing&);
   /// Its function at another end; NaN if the contact is not found there.
-  double crossing_at(const State& end, const Crossing&);
+  double crossing_at(const Motion& end, const Crossing&);
 
   /// Ends the step at `end`, where `crossing` (may be null) happens: phases move on, what was exchanged goes to `done` with its
   /// work to the books.
-  void finish(World&, const State& end, const Crossing* crossing, std::vector<Constraint>& done);
+  void finish(const Motion& end, const Crossing* crossing, std::vector<Constraint>& done);
 
   /// Largest angular frequency [rad/s] of a contact's spring on its bodies, of those present at the last look.
   double fastest_spring() const { return fastest_spring_; }
@@ -51,26 +47,26 @@ class CompliantContacts {
   int sprung_by() const { return sprung_by_; }
 
  private:
-  struct Touch {
-    std::uint64_t key;
-    ContactPhase phase;
-    double gap, speed;  // at the start of the step
-  };
+  using Touch = ContactPhaseMemory;
   struct Exchange {
     Constraint contact;
     Vec3 impulse_W = Vec3::Zero();
     double work = 0;
   };
-  void look(const State&, double within = 0);
+  void look(const Motion&, double within = 0);
+  Vec3 force_of(const Constraint&, const Vec3& u, ContactPhase) const;
+  void exchange(const Constraint&, const Vec3& force, const Vec3& u, double weight);
+  ContactPhase phase_after(const Constraint&, double speed, const Crossing*);
   ContactPhase phase_now(const Constraint&, double separating) const;
   bool slow(const Constraint&, double separating, double share) const;
   Touch* known(std::uint64_t key);
 
+  World& world_;
   const Model& model_;
-  Finder finder_;
-  State stage_;
+  State* state_ = nullptr;  // of the step under way
+  Motion stage_;
   std::vector<Constraint> found_;
-  std::vector<Touch> touches_, next_touches_;  // sorted by key
+  std::vector<Touch> next_touches_;  // sorted by key
   std::vector<Exchange> exchanged_;
   std::vector<double> carried_;  // [kg] per body: it and what hangs on it by joints
   double h_ = 0;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/world.h"
+#include "engine/step_context.h"
 
 namespace engine {
 
@@ -11,10 +11,16 @@ constexpr double kSlop = 2e-5;          // [m] penetration that is let be: pushi
 constexpr double kMayPenetrate = 9e-4;  // [m] more after a step than before: the step is halved
 constexpr double kMayExceed = 7e-3;     // [rad] the same of joint limits
 constexpr double kMayRise = 2;          // [J] that rigid contacts may give an island in a step: more, and it is halved
+constexpr double kTouching = 2e-5;      // [m] surfaces nearer than this exchange impulses
 
 /// Closing speed [m/s] above which restitution acts and a touch counts as an impact; below, things come to rest.
-inline double impact_speed(const World& world) {
-  return std::max(2 * world.model.settings.gravity.norm() * world.step, 0.01);
+inline double impact_speed(const StepContext& s) {
+  return std::max(2 * s.world.model.settings.gravity.norm() * s.length, 0.01);
+}
+
+/// Compliant contacts act as forces in the stages of Runge and Kutta, not by impulses.
+inline bool contacts_in_stages(const Settings& settings) {
+  return settings.contact_law == ContactLaw::compliant && settings.scheme != Scheme::stepping;
 }
 
 }  // namespace engine

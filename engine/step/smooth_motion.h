@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "engine/solver/compliant_contacts.h"
+#include "engine/step/compliant_contacts.h"
 #include "engine/world.h"
 
 namespace engine {
@@ -24,12 +24,14 @@ class SmoothMotion {
 
   /// Advances the awake bodies by h from `state` under the plan's forces; results for awake bodies only.
   /// `compliant` (may be null) adds the forces of contacts in every stage.
-  void advance(World&, const State&, double h, std::vector<Pose>& X, std::vector<Twist>& V, CompliantContacts* compliant = nullptr,
+  void advance(World&, const Motion&, double h, std::vector<Pose>& X, std::vector<Twist>& V, CompliantContacts* compliant = nullptr,
                FirstStage first = {});
 
   /// Rate [rad/s] of the fastest swing that the joint forces of the last step make a body capable of: T r / I, as in a chain of
   /// light links pulled taut by heavy ends. Runge-Kutta 4 blows up above 2.8 over the step.
   double fastest_swing() const { return fastest_swing_; }
+  /// As the last step of a run that goes on here left it.
+  void recall(double fastest_swing, int body) { fastest_swing_ = fastest_swing, swinging_body_ = body; }
   /// The body capable of it; -1: none.
   int swinging_body() const { return swinging_body_; }
 

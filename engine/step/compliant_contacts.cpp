@@ -1,8 +1,10 @@
-#include "engine/solver/compliant_contacts.h"
+#include "engine/step/compliant_contacts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "engine/step/find_contacts.h"
 
 namespace engine {
 namespace {
@@ -14,7 +16,7 @@ constexpr double kSlowestSmooth = 1e-3;  // [m/s]
 constexpr double kStable = 2.0;          // [-] rate times step that the classic Runge-Kutta scheme holds with room to spare (2.78)
 
 /// How the two bodies of a contact, were they free, answer an impulse along `d` at its point [1/kg].
-double free_response(const World& world, const State& state, const Constraint& c, const Vec3& d) {
+double free_response(const World& world, const Motion& state, const Constraint& c, const Vec3& d) {
   double response = 0;
   for (const int b : {c.body_a, c.body_b}) {
     if (b < 0) continue;
@@ -27,12 +29,12 @@ double free_response(const World& world, const State& state, const Constraint& c
 
 }  // namespace
 
-CompliantContacts::CompliantContacts(const Model& model, Finder finder) : model_(model), finder_(std::move(finder)) {
+CompliantContacts::CompliantContacts(World& world) : world_(world), model_(world.model) {
+  const Model& model = world.model;
   const double g = model.settings.gravity.norm();
   // a scheme that chooses its own steps takes short ones where surfaces rest
   const double step = model.settings.scheme == Scheme::adaptive ? std::min(model.settings.step, 1e-3) : model.settings.step;
   found_.reserve(kRoom);
-  touches_.reserve(kRoom);
   next_touches_.reserve(kRoom);
   exchanged_.reserve(kRoom);
   rest_speed_ = std::max(kSlowestRest, 2 * g * step);
@@ -48,14 +50,13 @@ CompliantContacts::CompliantContacts(const Model& model, Finder finder) : model_
 }
 
 CompliantContacts::Touch* CompliantContacts::known(std::uint64_t key) {
-  const auto at =
-      std::lower_bound(touches_.begin(), touches_.end(), key, [](const Touch& t, std::uint64_t k) { return t.key < k; });
-  return at != touches_.end() && at->key == key ? &*at : nullptr;
+  std::vector<Touch>& touches = state_->phases;
+  const auto at = std::lower_bound(touches.begin(), touches.end(), key, [](const Touch& t, std::uint64_t k) { return t.key < k; });
+  return at != touches.end() && at->key == key ? &*at : nullptr;
 }
 
-void CompliantContacts::look(const State& state, double within) {
-  found_.clear();
-  finder_(state, within, found_);
+void CompliantContacts::look(const Motion& at, double within) {
+  find_stage_contacts(world_, *state_, at, within, found_);
   std::erase_if(found_, [](const Constraint& c) { return c.kind != ConstraintKind::contact; });
 }
 
@@ -73,7 +74,8 @@ ContactPhase CompliantContacts::phase_now(const Constraint& c, double separating
   return separating > 0 ? ContactPhase::separate : ContactPhase::approach;
 }
 
-void CompliantContacts::begin(const World& world, const State& state, bool keep_phases) {
+void CompliantContacts::begin(State& state, bool keep_phases) {
+  state_ = &state;
   keep_phases_ = keep_phases;
   look(state, keep_phases ? model_.settings.step : 0);
   next_touches_.clear();
@@ -84,7 +86,7 @@ void CompliantContacts::begin(const World& world, const State& state, bool keep_
     // what a located event has decided stands; what is new or was not watched is told from where it is
     next_touches_.push_back({c.key, keep_phases && before ? before->phase : phase_now(c, speed), c.gap, speed});
     if (next_touches_.back().phase == ContactPhase::open) continue;
-    const double rate = std::sqrt(c.stiffness * free_response(world, state, c, c.frame.col(0)));
+    const double rate = std::sqrt(c.stiffness * free_response(world_, state, c, c.frame.col(0)));
     if (!(rate > fastest_spring_)) continue;
     fastest_spring_ = rate;
     const bool first = c.body_b < 0 || (c.body_a >= 0 && carried_[c.body_a] <= carried_[c.body_b]);
@@ -92,49 +94,58 @@ void CompliantContacts::begin(const World& world, const State& state, bool keep_
     sprung_by_ = c.effect;
   }
   std::sort(next_touches_.begin(), next_touches_.end(), [](const Touch& a, const Touch& b) { return a.key < b.key; });
-  touches_.swap(next_touches_);
+  state_->phases.swap(next_touches_);
 }
 
-void CompliantContacts::add_forces(const World& world, const std::vector<Pose>& X, const std::vector<Twist>& V, double weight,
+/// Force in the rows of a contact that closes and slips at u.
+Vec3 CompliantContacts::force_of(const Constraint& c, const Vec3& u, ContactPhase phase) const {
+  const bool adaptive = model_.settings.scheme == Scheme::adaptive;
+  double smoothing = smoothing_;
+  if (phase == ContactPhase::resting && !adaptive) {
+    // the resting law is a damper of S depth / 2 smoothing: no harder than fixed steps can follow on a light part under load
+    const double load = c.stiffness * std::max(0.0, -c.gap) * (1 - c.hysteresis);
+    smoothing = std::max(smoothing_, 0.5 * load * free_response(world_, stage_, c, c.frame.col(0)) * h_ / kStable);
+  }
+  const double normal = compliant_normal_force(c.stiffness, c.hysteresis, -c.gap, u[0], phase, smoothing);
+  Vec3 f(normal, 0, 0);
+  const double slip = std::sqrt(u[1] * u[1] + u[2] * u[2]);
+  if (c.friction > 0 && slip > 0 && normal > 0) {
+    const Vec3 along = (u[1] * c.frame.col(1) + u[2] * c.frame.col(2)) / slip;
+    // the adaptive scheme follows friction down to a slip that its tolerance is blind to; fixed steps need a width they can follow
+    const double regular = adaptive
+                               ? kAdaptiveSlip
+                               : std::max(kSlipSpeed, c.friction * normal * free_response(world_, stage_, c, along) * h_ / kStable);
+    const double tangential = c.friction * normal * regularised_friction(slip, regular);
+    f[1] = -tangential * u[1] / slip;
+    f[2] = -tangential * u[2] / slip;
+  }
+  return f;
+}
+
+void CompliantContacts::exchange(const Constraint& c, const Vec3& f, const Vec3& u, double weight) {
+  auto at = std::find_if(exchanged_.begin(), exchanged_.end(), [&](const Exchange& e) { return e.contact.key == c.key; });
+  if (at == exchanged_.end()) at = exchanged_.insert(at, Exchange{c, Vec3::Zero(), 0});
+  at->impulse_W += weight * h_ * (c.frame * f);
+  at->work += weight * h_ * f.dot(u);
+}
+
+void CompliantContacts::add_forces(const std::vector<Pose>& X, const std::vector<Twist>& V, double weight,
                                    std::vector<Vec6>& force) {
   stage_.X_WB = X;
   stage_.V_WB = V;
-  stage_.time = world.time;
+  stage_.time = state_->time;
   look(stage_);
   for (const Constraint& c : found_) {
     const Vec3 u = row_velocity(c, V);
     const Touch* touch = keep_phases_ ? known(c.key) : nullptr;
     const ContactPhase phase = touch ? touch->phase : phase_now(c, u[0]);
     if (phase == ContactPhase::open) continue;
-    double smoothing = smoothing_;
-    if (phase == ContactPhase::resting && model_.settings.scheme != Scheme::adaptive) {
-      // the resting law is a damper of S depth / 2 smoothing: no harder than fixed steps can follow on a light part under load
-      const double load = c.stiffness * std::max(0.0, -c.gap) * (1 - c.hysteresis);
-      smoothing = std::max(smoothing_, 0.5 * load * free_response(world, stage_, c, c.frame.col(0)) * h_ / kStable);
-    }
-    const double normal = compliant_normal_force(c.stiffness, c.hysteresis, -c.gap, u[0], phase, smoothing);
-    Vec3 f(normal, 0, 0);
-    const double slip = std::sqrt(u[1] * u[1] + u[2] * u[2]);
-    if (c.friction > 0 && slip > 0 && normal > 0) {
-      const Vec3 along = (u[1] * c.frame.col(1) + u[2] * c.frame.col(2)) / slip;
-      // the adaptive scheme follows friction down to a slip that its tolerance is blind to; fixed steps need a width they can
-      // follow
-      const double regular =
-          model_.settings.scheme == Scheme::adaptive
-              ? kAdaptiveSlip
-              : std::max(kSlipSpeed, c.friction * normal * free_response(world, stage_, c, along) * h_ / kStable);
-      const double tangential = c.friction * normal * regularised_friction(slip, regular);
-      f[1] = -tangential * u[1] / slip;
-      f[2] = -tangential * u[2] / slip;
-    }
+    const Vec3 f = force_of(c, u, phase);
     for (int r = 0; r < 3; ++r) {
       if (c.body_a >= 0) force[c.body_a] += c.J_a.row(r).transpose() * f[r];
       if (c.body_b >= 0) force[c.body_b] += c.J_b.row(r).transpose() * f[r];
     }
-    auto at = std::find_if(exchanged_.begin(), exchanged_.end(), [&](const Exchange& e) { return e.contact.key == c.key; });
-    if (at == exchanged_.end()) at = exchanged_.insert(at, Exchange{c, Vec3::Zero(), 0});
-    at->impulse_W += weight * h_ * (c.frame * f);
-    at->work += weight * h_ * f.dot(u);
+    exchange(c, f, u, weight);
   }
 }
 
@@ -161,7 +172,7 @@ Functions functions_of(ContactPhase phase, double gap, double speed) {
 
 }  // namespace
 
-bool CompliantContacts::first_crossing(const State& end, Crossing& first) {
+bool CompliantContacts::first_crossing(const Motion& end, Crossing& first) {
   look(end, model_.settings.step);  // what has parted since is some way off
   double earliest = std::numeric_limits<double>::infinity();
   for (const Constraint& c : found_) {
@@ -184,7 +195,7 @@ bool CompliantContacts::first_crossing(const State& end, Crossing& first) {
   return std::isfinite(earliest);
 }
 
-double CompliantContacts::crossing_at(const State& end, const Crossing& crossing) {
+double CompliantContacts::crossing_at(const Motion& end, const Crossing& crossing) {
   look(end, model_.settings.step);
   const Touch* touch = known(crossing.key);
   for (const Constraint& c : found_) {
@@ -195,37 +206,39 @@ double CompliantContacts::crossing_at(const State& end, const Crossing& crossing
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-void CompliantContacts::finish(World& world, const State& end, const Crossing* crossing, std::vector<Constraint>& done) {
+/// The phase in which a contact goes on from the end of a step.
+ContactPhase CompliantContacts::phase_after(const Constraint& c, double speed, const Crossing* crossing) {
+  const Touch* touch = keep_phases_ ? known(c.key) : nullptr;
+  if (!touch) return phase_now(c, speed);
+  if (crossing && c.key == crossing->key) {
+    // at the event itself gap or speed is zero but for rounding: the event decides, not the sign. What turns back before it has
+    // left is held down (e S depth is less than its load): the two phases would take turns for ever
+    const bool rests = slow(c, speed, 1);
+    if (crossing->kind == 0)
+      return touch->phase != ContactPhase::open ? ContactPhase::open : rests ? ContactPhase::resting : ContactPhase::approach;
+    return rests || touch->phase == ContactPhase::separate ? ContactPhase::resting : ContactPhase::separate;
+  }
+  if (touch->phase == ContactPhase::resting)  // left later than it was entered
+    return c.gap < 0 && std::abs(speed) < 2 * rest_speed_ ? ContactPhase::resting : phase_now(c, speed);
+  const Functions f = functions_of(touch->phase, c.gap, speed);
+  return f.gap <= 0 && f.speed <= 0 ? touch->phase : phase_now(c, speed);
+}
+
+void CompliantContacts::finish(const Motion& end, const Crossing* crossing, std::vector<Constraint>& done) {
   look(end);
   next_touches_.clear();
   for (const Constraint& c : found_) {
     const double speed = row_velocity(c, end.V_WB)[0];
-    const Touch* touch = keep_phases_ ? known(c.key) : nullptr;
-    ContactPhase phase = phase_now(c, speed);
-    if (touch && crossing && c.key == crossing->key) {
-      // at the event itself gap or speed is zero but for rounding: the event decides, not the sign. What turns back before it has
-      // left is held down (e S depth is less than its load): the two phases would take turns for ever
-      const bool rests = slow(c, speed, 1);
-      if (crossing->kind == 0)
-        phase = touch->phase != ContactPhase::open ? ContactPhase::open : rests ? ContactPhase::resting : ContactPhase::approach;
-      else
-        phase = rests || touch->phase == ContactPhase::separate ? ContactPhase::resting : ContactPhase::separate;
-    } else if (touch && touch->phase == ContactPhase::resting && c.gap < 0 && std::abs(speed) < 2 * rest_speed_) {
-      phase = ContactPhase::resting;  // left later than it was entered
-    } else if (touch && touch->phase != ContactPhase::resting) {
-      const Functions f = functions_of(touch->phase, c.gap, speed);
-      if (f.gap <= 0 && f.speed <= 0) phase = touch->phase;
-    }
-    next_touches_.push_back({c.key, phase, c.gap, speed});
+    next_touches_.push_back({c.key, phase_after(c, speed, crossing), c.gap, speed});
   }
   std::sort(next_touches_.begin(), next_touches_.end(), [](const Touch& a, const Touch& b) { return a.key < b.key; });
-  touches_.swap(next_touches_);
+  state_->phases.swap(next_touches_);
   for (Exchange& e : exchanged_) {
     if (e.impulse_W.squaredNorm() == 0) continue;
     Constraint c = e.contact;
     c.impulse = c.frame.transpose() * e.impulse_W;
     c.u_before = c.u_after = row_velocity(c, end.V_WB);
-    world.dissipated[c.effect] -= e.work;
+    state_->energy.dissipated[c.effect] -= e.work;
     done.push_back(c);
   }
 }

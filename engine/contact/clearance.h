@@ -1,0 +1,76 @@
+// Cached separation: what a pair of bodies knows of its distance from earlier narrow phases, as bounds, not guesses.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <vector>
+
+#include "engine/math/types.h"
+
+namespace engine {
+
+/// What is known of the distance between two bodies: at least `least` when the second stood at `X` in the frame of the first.
+/// Spares a pair its narrow phase for as long as it cannot matter; a bound, not a guess.
+struct Clearance {
+  double least = -std::numeric_limits<double>::infinity();  // [m] not known yet; negative: as deep as they met
+  Pose X;
+  double most = std::numeric_limits<double>::infinity();  // [m] of two that met
+
+  /// Two surfaces were seen `apart` now. What was inside by more than it has gone since is inside still, where a look finds nothing
+  /// of it: over a crack in a mesh, say.
+  void note(double apart, const Pose& X_now, double reach) {
+    const double way = std::isfinite(least) ? least - by_now(X_now, reach) : 0;
+    const bool missed = most + way < 0 && apart > most + way;
+    least = missed ? least - way : apart;
+    most = missed ? most + way : apart < 0 ? apart : std::numeric_limits<double>::infinity();
+    X = X_now;
+  }
+
+  /// Farther apart than `margin` still, wherever the second body has gone since? Its points lie within `reach` of its centre [m].
+  bool beyond(double margin, const Pose& X_now, double reach) const { return least > margin && by_now(X_now, reach) > margin; }
+
+  /// The least distance [m] they can have now that the second body stands at X_now.
+  double by_now(const Pose& X_now, double reach) const {
+    // |dq| = 2 sin(angle/4), so 2 |dq| bounds the chord 2 sin(angle/2) of a point at distance one
+    const double dq =
+        std::sqrt(std::min((X_now.q.coeffs() - X.q.coeffs()).squaredNorm(), (X_now.q.coeffs() + X.q.coeffs()).squaredNorm()));
+    return least - (X_now.p - X.p).norm() - 2 * dq * reach;
+  }
+
+  template <class S>
+  static auto fields(S& s) {
+    return std::tie(s.least, s.X, s.most);
+  }
+};
+
+/// What a pair of hyper-ellipsoids keeps from step to step.
+struct PairMemory {
+  Vec3 normal_W = Vec3::Zero();  // of the last narrow phase, from which the next one starts; zero: none yet
+  Clearance clearance;           // of b in the frame of a
+
+  template <class S>
+  static auto fields(S& s) {
+    return std::tie(s.normal_W, s.clearance);
+  }
+};
+
+/// What two meshes whose sample points may meet the other's surface keep: of b in the frame of a, points of a on b and points of b
+/// on a.
+using BodyworkClearance = std::array<Clearance, 2>;
+
+/// Contact memory of a run, in the order of the pairs in ContactPairs.
+struct ContactMemory {
+  std::vector<Clearance> mesh;                 // per MeshPair
+  std::vector<std::vector<PairMemory>> round;  // per BodyPairRun and pair; empty until the run is listed
+  std::vector<BodyworkClearance> bodywork;     // per pair of meshes
+
+  template <class S>
+  static auto fields(S& s) {
+    return std::tie(s.mesh, s.round, s.bodywork);
+  }
+};
+
+}  // namespace engine

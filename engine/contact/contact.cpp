@@ -1,0 +1,108 @@
+#include "engine/contact/contact.h"
+
+#include <algorithm>
+
+#include "engine/laws/compliant_contact.h"
+#include "engine/world.h"
+
+namespace engine {
+
+SurfacePairing between_bodies(const Body& a, const Body& b, double time) {
+  return {std::min(a.surface.friction_body.at(time), b.surface.friction_body.at(time)),
+          std::max(a.surface.restitution_body.at(time), b.surface.restitution_body.at(time))};
+}
+
+double restitution_on_ground(const Body& body, const Ground& ground, double time) {
+  return std::max(body.surface.restitution_ground.at(time), ground.surface.restitution_ground.at(time));
+}
+
+double friction_on_ground(const Body& body, const Ground& ground, const Vec3& point, double time) {
+  return std::min(body.surface.friction_ground.at(time), ground.friction_at(point, time));
+}
+
+namespace {
+
+/// Rows of a body at a contact point, with the sign of its side.
+Eigen::Matrix<double, 3, 6> contact_rows(const Constraint& c, const Pose& X_WB, double sign) {
+  Eigen::Matrix<double, 3, 6> J;
+  const Vec3 r = c.point - X_WB.p;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 d = sign * c.frame.col(k);
+    J.row(k) << d.transpose(), r.cross(d).transpose();
+  }
+  return J;
+}
+
+/// Both surfaces of a compliant contact as springs in series; returns the share of the depth that surface a gives way by, from
+/// depth_a S_a = depth_b S_b, eq. (81).
+double set_stiffness(Constraint& c, const Model& model, double time) {
+  auto stiffness = [&](int body) { return (body >= 0 ? model.bodies[body].surface : model.ground.surface).stiffness.at(time); };
+  const double S_a = stiffness(c.record_a), S_b = stiffness(c.record_b);
+  c.stiffness = stiffness_in_series(S_a, S_b);
+  c.hysteresis = c.restitution;
+  c.restitution = 0;
+  return S_b / (S_a + S_b);
+}
+
+/// How the contact's bodies answer an impulse were they free, and were all that hangs on them one piece.
+void set_responses(Constraint& c, const World& world) {
+  int last_tree = -1;
+  for (const int body : {c.body_a, c.body_b}) {
+    if (body < 0) continue;
+    c.free_response += 1 / world.model.bodies[body].mass;
+    const int tree = world.topology.tree_of_body[body];
+    if (tree != last_tree) c.whole_response += 1 / world.tree_mass[tree];
+    last_tree = tree;
+  }
+}
+
+std::uint64_t key_of(const SurfaceContact& touch, int a, int b, int effect) {
+  return (static_cast<std::uint64_t>(effect) << 56) | (static_cast<std::uint64_t>(a & 0xffff) << 40) |
+         (static_cast<std::uint64_t>(b & 0xffff) << 24) | (touch.key & 0xffffffu);
+}
+
+}  // namespace
+
+void add_contact(ContactSearch& search, const SurfaceContact& touch, int a, int b, int effect, ContactKind kind,
+                 SurfacePairing surfaces) {
+  const World& world = search.world;
+  Constraint c;
+  c.kind = ConstraintKind::contact;
+  c.rows = 3;
+  auto moving = [&](int body) { return body >= 0 && !world.model.bodies[body].fixed ? body : -1; };
+  c.body_a = moving(a);
+  c.body_b = moving(b);
+  if (c.body_a < 0 && c.body_b < 0) return;
+  c.record_a = a;
+  c.record_b = b;
+  c.friction = surfaces.friction;
+  c.restitution = surfaces.restitution;
+  const bool compliant = world.model.settings.contact_law == ContactLaw::compliant;
+  const double share_a = compliant ? set_stiffness(c, world.model, search.at.time) : 0.5;
+  const Vec3 way = touch.p_b - touch.p_a, along = way.dot(touch.normal) * touch.normal;
+  c.point = touch.p_a + share_a * along + touch.share_across * (way - along);
+  const Vec3 t1 = touch.normal.unitOrthogonal();
+  c.frame << touch.normal, t1, touch.normal.cross(t1);
+  if (c.body_a >= 0) c.J_a = contact_rows(c, search.at.X_WB[c.body_a], 1);
+  if (c.body_b >= 0) c.J_b = contact_rows(c, search.at.X_WB[c.body_b], -1);
+  set_responses(c, world);
+  c.gap = touch.gap;
+  c.key = key_of(touch, a, b, effect);
+  c.effect = effect;
+  c.contact_kind = kind;
+  search.found.push_back(c);
+}
+
+void share_stiffness(ContactSearch& search, std::size_t first) {
+  constexpr double kLeast = 1e-6;  // [m] what hardly touches has hardly a share
+  std::vector<Constraint>& all = search.found;
+  if (search.world.model.settings.contact_law != ContactLaw::compliant || all.size() < first + 2) return;
+  for (std::size_t i = first; i < all.size(); ++i) {
+    double sum = 0;
+    for (std::size_t j = first; j < all.size(); ++j)
+      sum += std::max(-all[j].gap, kLeast) * std::max(0.0, all[i].frame.col(0).dot(all[j].frame.col(0)));
+    all[i].stiffness *= std::max(-all[i].gap, kLeast) / sum;
+  }
+}
+
+}  // namespace engine

@@ -1,0 +1,90 @@
+#include "engine/step/energy_ledger.h"
+
+#include <algorithm>
+
+#include "engine/step/bounds.h"
+#include "engine/step/joint_friction.h"
+
+namespace engine {
+namespace {
+
+bool is_hard(const Constraint& c) {
+  return (c.kind == ConstraintKind::contact || c.kind == ConstraintKind::limit) && !is_compliant(c);
+}
+
+/// Work [J] of a condition over the step on the bodies it acts on.
+double work_of(const StepContext& s, std::size_t i) {
+  const Constraint& c = s.constraints[i];
+  // what it displaces the smooth forces' potential gains or loses; the work of compliant contacts in the stages is booked there
+  const bool in_stages = contacts_in_stages(s.world.model.settings);
+  const double displaced = in_stages && c.kind == ConstraintKind::limit ? 0 : s.buffers.weight[i];
+  const Vec3 mean = 0.5 * (c.u_smooth + c.u_after) - displaced * (c.u_smooth - c.u_before);
+  double work = 0;
+  for (int r = 0; r < c.rows; ++r) work += c.impulse[r] * mean[r];
+  return work;
+}
+
+/// Rise [J] of the mechanical energy of each island, by its root.
+void note_rises(StepContext& s) {
+  const World& world = s.world;
+  Islands& islands = s.buffers.islands;
+  islands.rise.assign(islands.members.size(), 0);
+  for (const int tree : world.active_trees) {
+    int root = tree;
+    while (islands.of_tree[root] != root) root = islands.of_tree[root];
+    double& rise = islands.rise[root];
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      const int b = world.topology.links[l].body, j = world.topology.links[l].joint;
+      const Body& body = world.model.bodies[b];
+      const Pose &X_from = s.state.X_WB[b], &X_to = s.end.X_WB[b];
+      const Twist &from = s.state.V_WB[b], &to = s.end.V_WB[b];
+      rise += 0.5 * body.mass * (to.v - from.v).dot(to.v + from.v);
+      rise -= body.mass * world.model.settings.gravity.dot(X_to.p - X_from.p);
+      rise += 0.5 * (to.w.dot(inertia_W(body, X_to.q) * to.w) - from.w.dot(inertia_W(body, X_from.q) * from.w));
+      if (s.any_damper && j >= 0 && s.buffers.dampers[j].present) rise -= resistance_work(s, j);
+    }
+  }
+}
+
+}  // namespace
+
+void book(StepContext& s) {
+  World& world = s.world;
+  Diagnostics& diagnostics = world.log.diagnostics;
+  std::vector<double>& dissipated = s.state.energy.dissipated;
+  for (std::size_t i = 0; i < s.constraints.size(); ++i) {
+    const Constraint& c = s.constraints[i];
+    dissipated[c.effect] -= work_of(s, i);
+    if (is_contact(c) && !is_compliant(c)) diagnostics.max_penetration = std::max(diagnostics.max_penetration, -c.gap);
+    if (c.kind == ConstraintKind::limit && !is_compliant(c))
+      diagnostics.max_joint_angle_error = std::max(diagnostics.max_joint_angle_error, -c.gap);
+  }
+  if (!s.any_damper) return;
+  for (const int tree : world.active_trees)
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      const int j = world.topology.links[l].joint;
+      if (j >= 0 && s.buffers.dampers[j].present) dissipated[s.buffers.resistances[j].effect] -= resistance_work(s, j);
+    }
+}
+
+double largest_rise(StepContext& s) {
+  note_rises(s);
+  Islands& islands = s.buffers.islands;
+  double largest = 0;
+  for (std::size_t k = 0; k < islands.members.size(); ++k) {
+    const std::vector<int>& island = islands.members[k];
+    if (island.empty()) continue;
+    const bool springs = std::any_of(island.begin(), island.end(), [&](int i) {
+      return s.constraints[i].kind == ConstraintKind::wheel || is_compliant(s.constraints[i]);
+    });
+    if (springs) {
+      islands.rise[k] = 0;
+      for (const int i : island)
+        if (is_hard(s.constraints[i])) islands.rise[k] += work_of(s, static_cast<std::size_t>(i));
+    }
+    largest = std::max(largest, islands.rise[k]);
+  }
+  return largest;
+}
+
+}  // namespace engine

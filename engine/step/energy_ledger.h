@@ -1,0 +1,17 @@
+// What every condition did to the energy of the bodies over the step.
+#pragma once
+
+#include "engine/step_context.h"
+
+namespace engine {
+
+/// Books the work of all conditions and of the joints' resistance.
+void book(StepContext&);
+
+/// The most [J] that the mechanical energy of an island rose over the step beyond what its joints' resistance gave. Rigid contacts
+/// and stops give none; but two segments that press on each other near a dead centre of the joints between them (chin and chest)
+/// exchange impulses so large that the levers they turn meanwhile matter. Wheels and springs may give energy: of islands that have
+/// any it is the work of the rigid contacts and stops that counts.
+double largest_rise(StepContext&);
+
+}  // namespace engine

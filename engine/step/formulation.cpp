@@ -1,0 +1,102 @@
+#include "engine/step/formulation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/laws/compliant_contact.h"
+#include "engine/step/bounds.h"
+
+namespace engine {
+namespace {
+
+constexpr double kLimitImpact = 0.5;  // [rad/s] a stop closed upon faster than this is an impact
+
+/// Wheels and closed loops: their effect has formulated them.
+bool is_formulated(const Constraint& c) {
+  return c.kind == ConstraintKind::wheel || c.kind == ConstraintKind::bilateral;
+}
+
+/// Does the condition close within the step, faster than things that come to rest?
+bool strikes(const Constraint& c, double h, double v_impact) {
+  const double threshold = c.kind == ConstraintKind::limit ? kLimitImpact : v_impact;
+  const bool hard = c.kind == ConstraintKind::contact || c.kind == ConstraintKind::limit;
+  return hard && !is_compliant(c) && c.u_before[0] < -threshold && c.gap + h * std::min(c.u_before[0], c.u_free[0]) < 0;
+}
+
+/// Rigid: no deeper than touching at the end of the step. An impulse that acts all through the step displaces by half of what an
+/// impact does.
+double formulate_rigid(Constraint& c, double h, bool impact) {
+  c.target = impact ? -std::max(0.0, c.gap) / h : -std::max(0.0, 2 * c.gap / h + c.u_before[0]);
+  return impact ? 1.0 : 0.5;
+}
+
+/// A stop that gives way: torque k depth + c rate, never a pull, damped critically for the two bodies were they free.
+double formulate_compliant_stop(Constraint& c, double h) {
+  const double k = c.stiffness, inertia = 1 / c.free_response;
+  const double damping = c.gap < 0 ? 2 * std::sqrt(k * inertia) : 0;  // nothing brakes before it is reached
+  const bool followed = h * h * k < 0.5 * inertia;
+  // at the mean of both ends, L = -h (k (gap + h (u_before + u_after) / 4) + damping (u_before + u_after) / 2); a step too long
+  // for that: at its end, which is stable however stiff, L = -h (k (gap + h u_after) + damping u_after)
+  const double slope = followed ? h * k / 4 + damping / 2 : h * k + damping;
+  c.softness = 1 / (h * slope);
+  c.target = -k * c.gap / slope - (followed ? c.u_before[0] : 0);
+  return followed ? 0.5 : 1;
+}
+
+double formulate_compliant_contact(Constraint& c, double h, double gravity) {
+  const double smoothing = std::max(1e-3, h * gravity);
+  const double S = c.gap >= 0 ? c.stiffness
+                              : compliant_normal_force(c.stiffness, std::max(c.hysteresis, 1e-3), 1, c.u_before[0],
+                                                       ContactPhase::resting, smoothing);
+  if (h * h * S * c.free_response < 1) {
+    // the spring at the mean of its depths at both ends, which neither gains nor loses energy of itself:
+    // L = -h S (gap + h (u_before + u_after) / 4)
+    c.softness = 4 / (h * h * S);
+    c.target = -4 * c.gap / h - c.u_before[0];
+    return 0.5;
+  }
+  // a step too long to follow the spring: at its end, which is stable however stiff, L = -h S (gap + h u_after)
+  c.softness = 1 / (h * h * S);
+  c.target = -c.gap / h;
+  return 1;
+}
+
+}  // namespace
+
+void drop_open_conditions(StepContext& s) {
+  const double v_impact = impact_speed(s), h = s.length;
+  std::erase_if(s.constraints, [&](Constraint& c) {
+    c.impulse.setZero();
+    c.push = 0;
+    c.u_smooth = row_velocity(c, s.end.V_WB);
+    if (is_formulated(c)) return false;
+    // an impact that the cut step ends at: a row would brake the approach
+    if (s.placing && is_contact(c) && c.restitution > 0 && c.gap > 0 && c.u_before[0] < -v_impact) return true;
+    const double spare = c.kind == ConstraintKind::limit ? 0.02 + 5 * h : 1e-3 + h;  // [rad], [m]: what other impulses may add
+    return c.gap + h * std::min(c.u_before[0], c.u_smooth[0]) > spare;
+  });
+}
+
+void formulate(StepContext& s) {
+  const double v_impact = impact_speed(s), h = s.length;
+  Islands& islands = s.buffers.islands;
+  s.buffers.weight.assign(s.constraints.size(), 0.5);
+  islands.has_impact.assign(islands.members.size(), 0);
+  for (std::size_t k = 0; k < islands.members.size(); ++k) {
+    const std::vector<int>& island = islands.members[k];
+    const bool impact = std::any_of(island.begin(), island.end(), [&](int i) { return strikes(s.constraints[i], h, v_impact); });
+    islands.has_impact[k] = impact;
+    for (const int i : island) {
+      Constraint& c = s.constraints[i];
+      if (is_formulated(c)) continue;
+      if (!is_compliant(c))
+        s.buffers.weight[i] = formulate_rigid(c, h, impact);
+      else if (c.kind == ConstraintKind::limit)
+        s.buffers.weight[i] = formulate_compliant_stop(c, h);
+      else
+        s.buffers.weight[i] = formulate_compliant_contact(c, h, s.world.model.settings.gravity.norm());
+    }
+  }
+}
+
+}  // namespace engine

@@ -1,0 +1,124 @@
+#include "engine/step/impact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/step/bounds.h"
+#include "engine/step/islands.h"
+#include "engine/step/solve.h"
+
+namespace engine {
+namespace {
+
+/// What takes part in the impact of an island: all that touches. Their targets are those of Newton's rule. False if none rebounds.
+bool choose_members(StepContext& s, const std::vector<int>& island) {
+  const double v_impact = impact_speed(s);
+  bool any = false;
+  s.buffers.members.clear();
+  for (const int i : island) {
+    Constraint& c = s.constraints[i];
+    if (c.kind == ConstraintKind::wheel || c.gap > kTouching) continue;
+    s.buffers.members.push_back(i);
+    const bool closing = is_contact(c) && c.u_before[0] < -v_impact;
+    any = any || (closing && c.restitution > 0);
+    c.target = closing ? -c.restitution * c.u_before[0] : 0;
+    c.u_free = c.u_smooth = c.u_before;
+    c.impulse.setZero();
+  }
+  return any;
+}
+
+SolveReport solve(StepContext& s) {
+  return s.world.solver.solve(s.constraints, s.buffers.members, 1e-3 * s.world.model.settings.solver_tolerance);
+}
+
+/// Newton's rule at several points with friction can create energy (Kane 1984): all restitutions scaled until it does not.
+void take_out_gain(StepContext& s, SolveReport& report) {
+  World& world = s.world;
+  const std::vector<int>& members = s.buffers.members;
+  double energy_change = world.solver.kinetic_energy_change(s.constraints, members);
+  double energy_before = 0;
+  for (const int i : members)
+    for (int r = 0; r < s.constraints[i].rows; ++r)
+      energy_before += std::abs(s.constraints[i].impulse[r] * s.constraints[i].u_free[r]);
+  if (!(energy_change > 1e-12 * energy_before)) return;
+  std::vector<double>& targets = s.buffers.targets;
+  targets.clear();
+  for (const int i : members) targets.push_back(s.constraints[i].target);
+  double low = 0, high = 1;
+  for (int k = 0; k < 30; ++k) {
+    const double share = k == 29 ? low : 0.5 * (low + high);
+    for (std::size_t i = 0; i < members.size(); ++i) s.constraints[members[i]].target = share * targets[i];
+    report = solve(s);
+    energy_change = world.solver.kinetic_energy_change(s.constraints, members);
+    (energy_change > 0 ? high : low) = share;
+  }
+  ++world.log.diagnostics.restitution_scaled;
+}
+
+/// The impulses of the members change the velocities of the state, through the joints.
+void apply_at_once(StepContext& s) {
+  World& world = s.world;
+  std::vector<Vec6>&force = s.buffers.force, &result = s.buffers.result;
+  for_awake_bodies(world, [&](int b) { force[b].setZero(); });
+  for (const int i : s.buffers.members) {
+    const Constraint& c = s.constraints[i];
+    for (int r = 0; r < c.rows; ++r) {
+      if (c.body_a >= 0) force[c.body_a] += c.J_a.row(r).transpose() * c.impulse[r];
+      if (c.body_b >= 0) force[c.body_b] += c.J_b.row(r).transpose() * c.impulse[r];
+    }
+  }
+  for (const int tree : world.active_trees) {
+    world.impulse.solve(world.topology, tree, force, result, Articulation::Bias::zero);
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      const int b = world.topology.links[l].body;
+      s.state.V_WB[b].v += result[b].head<3>();
+      s.state.V_WB[b].w += result[b].tail<3>();
+    }
+  }
+}
+
+void exchange(StepContext& s) {
+  World& world = s.world;
+  world.solver.assemble(world.topology, world.impulse, s.constraints, s.buffers.members);
+  SolveReport report = solve(s);
+  take_out_gain(s, report);
+  Diagnostics& diagnostics = world.log.diagnostics;
+  diagnostics.max_solver_residual = std::max(diagnostics.max_solver_residual, report.residual);
+  if (report.worst >= 0) world.log.unsettled.note(report.residual, s.state.time, s.constraints[report.worst]);
+  diagnostics.contact_sweeps += report.sweeps;
+  apply_at_once(s);
+  for (const int i : s.buffers.members) {
+    const Constraint& c = s.constraints[i];
+    s.state.energy.dissipated[c.effect] -= c.impulse.dot(0.5 * (c.u_before + c.u_after));
+  }
+}
+
+}  // namespace
+
+double time_to_impact(const StepContext& s) {
+  double first = s.length;
+  const double v_impact = impact_speed(s);
+  for (const Constraint& c : s.constraints) {
+    if (!is_contact(c) || c.restitution <= 0 || c.gap <= kTouching || c.u_before[0] > -v_impact) continue;
+    first = std::min(first, (c.gap - 0.5 * kTouching) / -c.u_before[0]);
+  }
+  return first;
+}
+
+bool exchange_impacts(StepContext& s, const OnImpulses& on_impulses) {
+  const double v_impact = impact_speed(s);
+  const bool any = std::any_of(s.constraints.begin(), s.constraints.end(), [&](const Constraint& c) {
+    return is_contact(c) && c.restitution > 0 && c.gap <= kTouching && c.u_before[0] < -v_impact;
+  });
+  if (!any) return false;
+  const Meter::Span span(s.world.meter, Phase::impulses);
+  factor_for_impulses(s, nullptr);
+  build_islands(s);
+  for (const auto& island : s.buffers.islands.members)
+    if (choose_members(s, island)) exchange(s);
+  if (on_impulses) on_impulses(s.constraints, s.state.time, 0);
+  return true;
+}
+
+}  // namespace engine

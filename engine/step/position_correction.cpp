@@ -1,0 +1,46 @@
+#include "engine/step/position_correction.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/step/bounds.h"
+
+namespace engine {
+namespace {
+
+constexpr double kLimitSlop = 2e-5;        // [rad]
+constexpr double kRecovery = 0.5;          // [-] share of a penetration that a step left taken out in the next
+constexpr double kRecoverySpeed = 0.2;     // [m/s] at which a deeper one, there from the start, is taken out
+constexpr double kLimitRecoverySpeed = 2;  // [rad/s]
+
+/// What the position of a rigid contact or stop still needs beyond its impulse.
+double wanted(const Constraint& c, double h, double weight) {
+  const bool limit = c.kind == ConstraintKind::limit;
+  const double slop = limit ? kLimitSlop : kSlop;
+  const double travel = h * (0.5 * (c.u_before[0] + c.u_smooth[0]) + weight * (c.u_after[0] - c.u_smooth[0]));
+  const double end = c.gap + travel;
+  double floor = -slop;
+  if (c.gap < -slop) {
+    const double fresh = limit ? kMayExceed : kMayPenetrate;  // what a step leaves; deeper was there before: apart gently
+    const double most = c.gap > -fresh ? kRecovery * (-c.gap - slop) : h * (limit ? kLimitRecoverySpeed : kRecoverySpeed);
+    floor = std::min(c.gap + std::min(most, -c.gap - slop), -slop);
+  }
+  return std::min(floor, 0.0) - end;
+}
+
+}  // namespace
+
+void correct_positions(StepContext& s, const std::vector<int>& island) {
+  bool any = false;
+  s.buffers.allowed.clear();
+  for (const int i : island) {
+    Constraint& c = s.constraints[i];
+    c.push = 0;  // an earlier pass pushed against joints that held then
+    const bool rigid = (c.kind == ConstraintKind::contact || c.kind == ConstraintKind::limit) && !is_compliant(c);
+    s.buffers.allowed.push_back(rigid ? wanted(c, s.length, s.buffers.weight[i]) : -std::numeric_limits<double>::infinity());
+    any = any || s.buffers.allowed.back() > 1e-9;
+  }
+  if (any) s.world.solver.push_apart(s.constraints, island, s.buffers.allowed);
+}
+
+}  // namespace engine

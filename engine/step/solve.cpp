@@ -1,0 +1,151 @@
+#include "engine/step/solve.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/solver/one_contact.h"
+#include "engine/step/formulation.h"
+#include "engine/step/islands.h"
+#include "engine/step/joint_friction.h"
+#include "engine/step/position_correction.h"
+#include "engine/step/smooth_motion.h"
+
+namespace engine {
+namespace {
+
+constexpr int kMostPasses = 6;  // through the impulses of one step, while joints are torn loose
+
+/// The impulse of the last step, found by its key and taken into the cone.
+void warm_start(Constraint& c, const std::vector<WarmStart>& warm) {
+  const auto found =
+      std::lower_bound(warm.begin(), warm.end(), c.key, [](const WarmStart& w, std::uint64_t key) { return w.key < key; });
+  if (found == warm.end() || found->key != c.key) return;
+  if (c.rows == 3) {
+    c.impulse = c.frame.transpose() * found->impulse_W;
+    if (is_contact(c)) c.impulse = project_to_cone(c.impulse, c.friction);
+  } else {
+    c.impulse[0] = found->impulse_W[0];
+  }
+}
+
+void solve_islands(StepContext& s) {
+  World& world = s.world;
+  s.residual = 0;
+  s.unsettled = -1;
+  for (const auto& island : s.buffers.islands.members) {
+    if (island.empty()) continue;
+    for (const int i : island) warm_start(s.constraints[i], s.state.warm);
+    world.solver.assemble(world.topology, world.impulse, s.constraints, island);
+    const SolveReport report = world.solver.solve(s.constraints, island, world.model.settings.solver_tolerance);
+    world.log.diagnostics.contact_sweeps += report.sweeps;
+    world.log.diagnostics.newton_steps += report.newton_steps;
+    if (report.residual > s.residual) s.residual = report.residual, s.unsettled = report.worst;
+    correct_positions(s, island);
+  }
+}
+
+/// Angular velocity [rad/s] of a free body that impulses turned on from q to `turned`: its angular momentum keeps its direction and
+/// its rotation its energy. Left as it was, it would give energy where a spinning body with unequal moments is pushed out of
+/// another.
+Vec3 carried_on(const Body& body, const Quat& q, const Quat& turned, const Vec3& w) {
+  const Vec3 L = q * (body.inertia_B * (q.conjugate() * w));
+  const Vec3 w_turned = turned * (body.inertia_B.inverse() * (turned.conjugate() * L));
+  const double before = w.dot(L), after = w_turned.dot(L);
+  return after > 0 ? Vec3(w_turned * std::sqrt(before / after)) : w;
+}
+
+/// J^T L of all conditions: velocities take the whole impulse, displacements its weighted share.
+void gather_impulses(StepContext& s) {
+  std::vector<Vec6>&force = s.buffers.force, &displacing = s.buffers.displacing;
+  for_awake_bodies(s.world, [&](int b) {
+    force[b].setZero();
+    displacing[b].setZero();
+  });
+  for (std::size_t i = 0; i < s.constraints.size(); ++i) {
+    const Constraint& c = s.constraints[i];
+    const auto act = [&c](std::vector<Vec6>& on, int row, double amount) {
+      if (amount == 0) return;
+      if (c.body_a >= 0) on[c.body_a] += c.J_a.row(row).transpose() * amount;
+      if (c.body_b >= 0) on[c.body_b] += c.J_b.row(row).transpose() * amount;
+    };
+    const double share = s.buffers.weight[i] * s.length;
+    for (int r = 0; r < c.rows; ++r) {
+      act(force, r, c.impulse[r]);
+      act(displacing, r, share * c.impulse[r] + (r == 0 ? c.push : 0));
+    }
+  }
+}
+
+/// V+ = V' + K^-1 J^T L, and the displacement that goes with it.
+void apply(StepContext& s) {
+  gather_impulses(s);
+  const Topology& topology = s.world.topology;
+  std::vector<Pose>& X = s.end.X_WB;
+  std::vector<Twist>& V = s.end.V_WB;
+  std::vector<Vec6>& result = s.buffers.result;
+  for (const int tree : s.world.active_trees) {
+    const Topology::Tree& range = topology.trees[tree];
+    const bool free = range.end - range.begin == 1 && topology.links[range.begin].joint < 0;
+    s.world.impulse.solve(topology, tree, s.buffers.force, result, Articulation::Bias::zero);
+    for (int l = range.begin; l < range.end; ++l) {
+      const int b = topology.links[l].body;
+      V[b].v += result[b].head<3>();
+      V[b].w += result[b].tail<3>();
+    }
+    s.world.impulse.solve(topology, tree, s.buffers.displacing, result, Articulation::Bias::zero);
+    for (int l = range.begin; l < range.end; ++l) {
+      const int b = topology.links[l].body;
+      const Quat q = X[b].q;
+      displace(X[b], result[b].head<3>(), result[b].tail<3>());
+      if (free) V[b].w = carried_on(s.world.model.bodies[b], q, X[b].q, V[b].w);
+    }
+  }
+}
+
+}  // namespace
+
+void factor_for_impulses(StepContext& s, const std::vector<JointDamper>* dampers) {
+  for (const int tree : s.world.active_trees) s.world.impulse.factor(s.world.topology, tree, s.state.X_WB, dampers);
+}
+
+void exchange_over_step(StepContext& s) {
+  drop_open_conditions(s);
+  if (!s.any_damper && s.constraints.empty()) return;
+  s.impulses = true;
+  const Meter::Span span(s.world.meter, Phase::impulses);
+  Motion& smooth = s.buffers.smooth;
+  if (s.any_damper) smooth = s.end;
+  for (int pass = 0;; ++pass) {
+    if (s.any_damper) {
+      factor_for_impulses(s, &s.buffers.dampers);
+      apply_resistance(s);
+    }
+    for (Constraint& c : s.constraints) c.u_free = row_velocity(c, s.end.V_WB);
+    if (pass == 0) build_islands(s);
+    formulate(s);
+    solve_islands(s);
+    apply(s);
+    if (!s.any_damper) return;
+    note_turning_after(s);
+    if (pass == kMostPasses || !friction_gave_way(s)) return;
+    s.end = smooth;
+  }
+}
+
+void close_joints(StepContext& s) {
+  const Meter::Span span(s.world.meter, Phase::joint_projection);
+  s.joint_gap = project_joints(s.world, s.end.X_WB, s.end.V_WB, s.buffers.force, s.buffers.result);
+}
+
+void keep_impulses(StepContext& s) {
+  std::vector<WarmStart>& warm = s.state.warm;
+  warm.clear();
+  for (const Constraint& c : s.constraints) {
+    if (c.impulse.squaredNorm() == 0) continue;
+    warm.push_back({c.key, c.rows == 3 ? Vec3(c.frame * c.impulse) : c.impulse});
+  }
+  std::sort(warm.begin(), warm.end(), [](const WarmStart& a, const WarmStart& b) { return a.key < b.key; });
+}
+
+}  // namespace engine

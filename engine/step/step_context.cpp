@@ -1,0 +1,52 @@
+#include "engine/step_context.h"
+
+#include "engine/effects/effect.h"
+
+namespace engine {
+
+StepBuffers::StepBuffers(const World& world) {
+  const std::size_t bodies = world.model.bodies.size(), joints = world.model.joints.size(), trees = world.topology.trees.size();
+  for (Motion* motion : {&end, &smooth, &whole}) {
+    motion->X_WB.resize(bodies);
+    motion->V_WB.resize(bodies);
+  }
+  for (auto* list : {&constraints, &end_contacts}) list->reserve(kRoom);
+  dampers.resize(joints);
+  resistances.resize(joints);
+  force.assign(bodies, Vec6::Zero());
+  displacing = result = force;
+  islands.members.resize(trees);
+  for (auto& island : islands.members) island.reserve(kRoom);
+  islands.of_tree.reserve(trees);
+  islands.has_impact.reserve(trees);
+  islands.rise.reserve(trees);
+  for (auto* list : {&weight, &allowed, &targets}) list->reserve(kRoom);
+  members.reserve(kRoom);
+}
+
+StepContext::StepContext(World& w, State& s, StepBuffers& b, double h)
+    : world(w), state(s), buffers(b), length(h), constraints(b.constraints), end(b.end) {
+  constraints.clear();
+  auto contact = state.contacts.list.begin();
+  for (std::size_t e = 0; e < world.effects.size(); ++e) {
+    while (contact != state.contacts.list.end() && contact->effect == static_cast<int>(e)) constraints.push_back(*contact++);
+    if (!world.plan.active[e]->takes_part(Hook::find)) continue;
+    const Meter::Span span(world.meter, e);
+    world.effects[e]->find(*this);
+  }
+  for (Constraint& c : constraints) c.u_before = row_velocity(c, state.V_WB);
+}
+
+Vec3 row_velocity(const Constraint& c, const std::vector<Twist>& V_WB) {
+  Vec3 u = Vec3::Zero();
+  auto add = [&](int body, const Eigen::Matrix<double, 3, 6>& J) {
+    if (body < 0) return;
+    const Twist& V = V_WB[body];
+    for (int r = 0; r < c.rows; ++r) u[r] += J.row(r).head<3>().dot(V.v) + J.row(r).tail<3>().dot(V.w);
+  };
+  add(c.body_a, c.J_a);
+  add(c.body_b, c.J_b);
+  return u;
+}
+
+}  // namespace engine

@@ -1,0 +1,149 @@
+#include "engine/step/step_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/divergence.h"
+#include "engine/effects/effect.h"
+#include "engine/math/functions.h"
+#include "engine/step/bounds.h"
+#include "engine/step/energy_ledger.h"
+#include "engine/step/impact.h"
+
+namespace engine {
+namespace {
+
+constexpr int kMaxCuts = 8;           // of one step; then impulses act where the bodies are
+constexpr double kUnsolved = 2;       // [-] residual over the tolerance above which the step is halved and taken again
+constexpr double kSmoothTurn = 0.1;   // [rad] of any body in one step of the smooth motion
+constexpr double kSmoothSwing = 2.0;  // [-] rate of a swing under joint forces times the step: RK4 bears 2.8
+constexpr double kLargestTurn = 0.3;  // [rad] in one step of all
+constexpr double kMostParts = 20;     // of the smooth motion in one step, and of a step by turning and halving
+// Of a step by swings, the tolerance of scheme adaptive, events. A taut chain wants 9 at a mass ratio of 2000 and 2 ms; a thousand
+// are a ratio of 1e8 at 1 ms, where the joint equations keep half of their digits. No part of an accident is like that.
+constexpr double kMostPartsOfAll = 1000;
+// Of a step by a contact's spring: a bounce passes in ten of them, what rests on its spring takes them all. A kilogramme on 100
+// GN/m, harder than anything, wants 2100 at 2 ms.
+constexpr double kMostSpringParts = 5000;
+constexpr double kSpringStep = 0.3;  // [rad] of a compliant contact's spring in one step: it keeps its energy to 1e-5
+constexpr const char* kSwingsTooFast =
+    "it swings so fast under the forces in its joint that a step would be more than 1000 parts; more mass, fixing it or a smaller "
+    "step may help";
+constexpr const char* kSpringsTooFast =
+    "the spring of its contact is so fast that a step would be more than 5000 parts; more mass, a lower stiffness or a smaller "
+    "step may help";
+
+/// Angular speed [rad/s] of the fastest body. Joint rows and contact points change by the angle turned, to second order of which a
+/// step is blind: a light limb flung at 300 rad/s gets its steps divided, the rest of the run keeps its own.
+double fastest_turning(const World& world, const Motion& at) {
+  double fastest = 0;
+  for_awake_bodies(world, [&](int b) { fastest = std::max(fastest, at.V_WB[b].w.squaredNorm()); });
+  return std::sqrt(fastest);
+}
+
+double deepest(const std::vector<Constraint>& list, ConstraintKind kind) {
+  double depth = 0;
+  for (const Constraint& c : list)
+    if (c.kind == kind && !is_compliant(c)) depth = std::max(depth, -c.gap);
+  return depth;
+}
+
+/// Do contacts and limits at the end of a step stand no deeper in each other than the bound, or than at its start?
+bool acceptable(const std::vector<Constraint>& start, const std::vector<Constraint>& end, double tolerance) {
+  const double penetrate = std::min(kMayPenetrate, tolerance);
+  return deepest(end, ConstraintKind::contact) < std::max(penetrate, deepest(start, ConstraintKind::contact) + kSlop) &&
+         deepest(end, ConstraintKind::limit) < std::max(kMayExceed, deepest(start, ConstraintKind::limit) + kSlop);
+}
+
+}  // namespace
+
+StepControl::StepControl(World& world, State& state, double most, double fastest_swing)
+    : world_(world),
+      state_(state),
+      settings_(world.model.settings),
+      shortest_(settings_.step / kMostPartsOfAll),
+      depth_tolerance_(settings_.scheme == Scheme::adaptive ? std::max(10 * settings_.adaptive_tolerance, 2 * kSlop) : 1),
+      turning_(fastest_turning(world, state)),
+      length_(most) {
+  if (most == settings_.step) state.pace.events = 0;
+  if (turning_ * length_ > kLargestTurn) {
+    ++world.log.diagnostics.substeps;
+    length_ = std::min(length_, std::max(kLargestTurn / turning_, settings_.step / kMostParts));
+  }
+  if (const double swing = fastest_swing * length_ / kSmoothSwing; swing > 1) {
+    ++world.log.diagnostics.substeps;
+    length_ /= std::max(1.0, swing / kMostParts);
+  }
+  if (state.pace.next > 0) length_ = std::min(length_, state.pace.next);
+  const double sliver = kSliver * settings_.step, ahead = state.pace.next_instant - state.time;
+  if (ahead > sliver && ahead < length_ - sliver) length_ = ahead;
+}
+
+double StepControl::cut_at_impact(const StepContext& s) {
+  placing_ = settings_.locate_events && state_.pace.cuts < kMaxCuts;
+  const double taken = placing_ ? std::max(time_to_impact(s), 1e-3 * s.length) : s.length;
+  cut_ = taken < s.length;
+  may_halve_ = taken > settings_.step / kMostParts;
+  crossed_ = false;
+  return taken;
+}
+
+int StepControl::parts(double length, double fastest_swing) const {
+  // the error a second of turning leaves goes with w (w h)^4: parts in number with w^(5/4) would keep it what it is at the bound
+  const double for_turning = turning_ * length / kSmoothTurn * (turning_ * length / kSmoothTurn);
+  const double wanted = std::max(for_turning, fastest_swing / kSmoothSwing * length);
+  return static_cast<int>(std::clamp(std::ceil(wanted), 1.0, kMostParts));
+}
+
+/// Ends the run for what a step of any length worth taking could not follow; the state stays the last that was followed.
+Verdict StepControl::end_run(int body, const char* effect, const char* message) {
+  world_.log.failure = Failure{state_.time, world_.model.bodies[body].name, effect, message};
+  return {Verdict::Kind::ended, 0};
+}
+
+Verdict StepControl::bear_springs(const CompliantContacts& contacts, double& length) {
+  const double spring = contacts.fastest_spring();
+  if (spring * settings_.step > kMostSpringParts * kSpringStep)
+    return end_run(contacts.sprung_body(), world_.plan.active[contacts.sprung_by()]->name, kSpringsTooFast);
+  if (spring * length > kSpringStep) length = kSpringStep / spring;
+  return {};
+}
+
+Verdict StepControl::judge_motion(const SmoothMotion& smooth, double error, double length) {
+  if (smooth.fastest_swing() * shortest_ > kSmoothSwing) return end_run(smooth.swinging_body(), "joints", kSwingsTooFast);
+  error_ = error;
+  if (!(error > settings_.adaptive_tolerance && length > shortest_)) return {};
+  const double share = std::clamp(0.9 * math::pow(settings_.adaptive_tolerance / error, 0.2), 0.1, 0.7);
+  return {Verdict::Kind::again, std::max(share * length, shortest_)};
+}
+
+bool StepControl::locates_events() const {
+  return settings_.locate_events && state_.pace.events < kMostPartsOfAll;
+}
+
+Verdict StepControl::judge_end(StepContext& s) {
+  const int lost = lost_body(s.end);
+  const bool gained = s.impulses && lost < 0 && may_halve_ && largest_rise(s) > kMayRise;
+  const bool unsolved = s.residual > kUnsolved * settings_.solver_tolerance;
+  if (may_halve_ &&
+      (lost >= 0 || gained || unsolved || !acceptable(state_.contacts.list, s.buffers.end_contacts, depth_tolerance_)))
+    return {Verdict::Kind::again, 0.5 * s.length};
+  if (lost < 0) return {};
+  world_.log.failure = failure_of(world_, s.constraints, lost, state_.time + s.length, kNotANumber);
+  return {Verdict::Kind::ended, s.length};
+}
+
+void StepControl::accept(const StepContext& s) {
+  StepPace& pace = state_.pace;
+  pace.last = s.length;
+  pace.cuts = cut_ ? pace.cuts + 1 : 0;
+  if (crossed_) ++pace.events;
+  if (cut_) ++world_.log.diagnostics.substeps;
+  if (pace.next > 0 && !cut_ && !crossed_) {
+    const double tolerance = settings_.adaptive_tolerance;
+    const double growth = error_ > 0 ? std::clamp(0.9 * math::pow(tolerance / error_, 0.2), 0.5, 2.0) : 2.0;
+    pace.next = growth * s.length < settings_.step ? std::max(growth * s.length, shortest_) : 0;
+  }
+}
+
+}  // namespace engine

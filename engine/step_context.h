@@ -1,0 +1,79 @@
+// What lives for one attempt at a step: its length, the conditions that hold over it, where the bodies have come to. Made anew for
+// each attempt; the buffers behind it are kept, so that a step allocates nothing.
+#pragma once
+
+#include <vector>
+
+#include "engine/world.h"
+
+namespace engine {
+
+/// What a joint's resistance does over one step.
+struct Resistance {
+  Vec3 torque_W = Vec3::Zero();  // [N m] on the child at the start of the step, for springs
+  Vec3 w_before = Vec3::Zero();  // [rad/s] relative angular velocity under smooth forces alone
+  Vec3 w_after = Vec3::Zero();   // [rad/s] with all impulses, before what they displaced turns the joint's axes
+  Mat3 axes_W = Mat3::Zero();    // of the articulation angles, columns
+  // of dry friction, per articulation angle
+  Vec3 rate = Vec3::Zero();       // [rad/s] at the start of the step
+  Vec3 slip_rate = Vec3::Zero();  // [rad/s] at which it yields its torque in this step, 0: has none
+  int effect = 0;
+};
+
+/// Trees that conditions join: they are solved together. By the smallest tree of each island.
+struct Islands {
+  std::vector<std::vector<int>> members;  // per tree: indices of conditions
+  std::vector<int> of_tree;               // a tree of the same island, or itself at its root
+  std::vector<char> has_impact;           // per tree
+  std::vector<double> rise;               // [J] per tree
+};
+
+/// Buffers of a step, sized once.
+struct StepBuffers {
+  explicit StepBuffers(const World&);
+
+  Motion end;     // of the step
+  Motion smooth;  // before resistance and impulses
+  Motion whole;   // scheme `adaptive`: of the step taken in one
+  std::vector<Constraint> constraints;
+  std::vector<Constraint> end_contacts;         // found where the step ends
+  std::vector<JointDamper> dampers;             // per joint
+  std::vector<Resistance> resistances;          // per joint
+  std::vector<Vec6> force, displacing, result;  // per body
+  Islands islands;
+  std::vector<double> weight;   // [-] per condition: share of the step that its displacement acts
+  std::vector<double> allowed;  // [m] per condition of an island: what its position may still need
+  std::vector<int> members;     // that exchange impulses at an instant
+  std::vector<double> targets;  // of those
+};
+
+struct StepContext {
+  /// A step of this length [s] from the state, with the contacts known there and what follows the clock: wheels, closed loops.
+  StepContext(World&, State&, StepBuffers&, double length);
+  StepContext(const StepContext&) = delete;
+
+  World& world;
+  State& state;  // at the start of the step
+  StepBuffers& buffers;
+  const double length;                   // [s]
+  std::vector<Constraint>& constraints;  // conditions that act by impulses
+  Motion& end;
+  bool any_damper = false;  // a joint resists
+  bool placing = false;     // impacts are still placed inside this step
+  bool impulses = false;    // some were exchanged
+  double residual = 0;      // [m/s] that the solver left
+  int unsettled = -1;       // the condition that has it
+  double joint_gap = 0;     // [m] before the joints were closed
+};
+
+/// Calls act(body) for every body of the trees that take part.
+template <class Act>
+void for_awake_bodies(const World& world, Act&& act) {
+  for (const int tree : world.active_trees)
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) act(world.topology.links[l].body);
+}
+
+/// Velocity along the rows of a condition, of a against b.
+Vec3 row_velocity(const Constraint&, const std::vector<Twist>& V_WB);
+
+}  // namespace engine
