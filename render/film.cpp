@@ -6,9 +6,7 @@
 #include <fmt/format.h>
 #include <malloc.h>
 #include <semaphore.h>
-#include <signal.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -29,12 +27,14 @@
 #include "render/parallel.h"
 #include "render/surface/skin.h"
 #include "render/video/encoder.h"
+#include "render/workers.h"
 
 namespace render {
 namespace {
 
 constexpr int kKeptPieces = 32 << 20, kKept = 256 << 20;  // [bytes] the most the C library allows; of a worker
 constexpr int kDeathsAllowed = 3;                         // of one worker at one frame
+constexpr int kTold = 3;                                  // exit code of a worker whose slot says what went wrong
 
 /// Sleeps until somebody posts, at most 10 ms: who posts may be dead. Between processes, in shared memory.
 void sleep_on(sem_t& bell) {
@@ -110,9 +110,7 @@ FrameCost draw_frame(const Job& j, Painter& painter, Image& image, int i) {
 }
 
 /// A worker's life: its frames from `first` on, in steps of the number of workers.
-[[noreturn]] void work(const Job& j, int first, pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(4);  // the parent died before the line above could bind us to it
+int work(const Job& j, int first) {
   setenv("LP_NUM_THREADS", "0", 1);
   int at = first;
   try {
@@ -125,46 +123,35 @@ FrameCost draw_frame(const Job& j, Painter& painter, Image& image, int i) {
       slot.frame.store(at);
       sem_post(&slot.drawn);
     }
-    _exit(0);
+    return 0;
   } catch (const std::exception& e) {
     Slot& slot = j.ring[at % j.slots];
     std::strncpy(slot.error, e.what(), sizeof slot.error - 1);
-    _exit(3);
+    return kTold;
   }
 }
 
-class Workers {
+/// The drawing processes of a film; they go with it.
+class Team {
  public:
-  explicit Workers(const Job& job) : job_(job), pids_(static_cast<std::size_t>(job.workers), -1) {
-    for (int w = 0; w < job.workers; ++w) start(w, w);
+  explicit Team(const Job& job) : job_(job) {
+    for (int w = 0; w < job.workers; ++w) workers_.push_back(started(w));
   }
-  ~Workers() {
-    for (const pid_t pid : pids_)
-      if (pid > 0) kill(pid, SIGKILL);
-    for (const pid_t pid : pids_)
-      if (pid > 0) waitpid(pid, nullptr, 0);
-  }
-  Workers(const Workers&) = delete;
-  Workers& operator=(const Workers&) = delete;
 
   /// Waits until frame i lies in its slot; draws it again if its worker died.
   void await(int i) {
-    const int w = i % job_.workers;
+    Worker& worker = workers_[static_cast<std::size_t>(i % job_.workers)];
     Slot& slot = job_.ring[i % job_.slots];
     int deaths = 0;
     while (slot.frame.load() != i) {
       int status = 0;
-      pid_t& pid = pids_[static_cast<std::size_t>(w)];
-      // a worker may deliver frame i and die at its next one between our two looks: then nobody is left for that next one
-      if (pid <= 0) start(w, i);
-      if (waitpid(pid, &status, WNOHANG) == pid) {
-        pid = -1;
+      // a worker may deliver frame i - workers and die at this one before we look at it: then nobody is left for it
+      if (worker.has_ended(status)) {
         if (slot.frame.load() == i) break;
-        if (WIFEXITED(status) && WEXITSTATUS(status) == 3) throw RenderError(slot.error);
+        if (WIFEXITED(status) && WEXITSTATUS(status) == kTold) throw RenderError(slot.error);
         if (++deaths > kDeathsAllowed)
-          throw RenderError(fmt::format("drawing frame {} failed {} times ({})", i, kDeathsAllowed + 1,
-                                        WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "its process ended"));
-        start(w, i);
+          throw RenderError(fmt::format("drawing frame {} failed {} times ({})", i, kDeathsAllowed + 1, ending(status)));
+        worker = started(i);
       }
       if (job_.job.look_around) job_.job.look_around();
       sleep_on(slot.drawn);
@@ -172,15 +159,11 @@ class Workers {
   }
 
  private:
-  void start(int w, int first) {
-    const pid_t parent = getpid();
-    const pid_t pid = fork();
-    if (pid < 0) throw RenderError(std::string("cannot start a drawing process: ") + std::strerror(errno));
-    if (pid == 0) work(job_, first, parent);
-    pids_[static_cast<std::size_t>(w)] = pid;
+  Worker started(int first) const {
+    return Worker([this, first] { return work(job_, first); });
   }
   const Job& job_;
-  std::vector<pid_t> pids_;
+  std::vector<Worker> workers_;
 };
 
 /// Lists and pictures come and go with each frame, here and in the workers: their memory stays, else each page is cleared anew.
@@ -256,7 +239,7 @@ FilmCost make_film(const Stage& stage, const engine::Recording& recording, const
   const Job j{stage, recording, film, job, workers, slots, frame_bytes, ring, shared.data() + head};
   FilmCost cost;
   cost.workers = workers;
-  Workers team(j);
+  Team team(j);
   const double parent_ms = processor_ms();
   // after the fork: the encoder brings threads of its own, and a child of a process with threads may inherit a lock they hold
   if (is_video(job.container))

@@ -2,27 +2,21 @@
 
 #include <fmt/format.h>
 #include <fnmatch.h>
-#include <signal.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <map>
-#include <memory>
+#include <cstdlib>
 #include <thread>
 
 #include "cli/exit.h"
 #include "cli/film_plan.h"
+#include "cli/process.h"
 #include "cli/progress.h"
 #include "cli/snapshot/baselines.h"
 #include "cli/snapshot/judge.h"
 #include "engine/measure/metrics.h"
 #include "engine/simulate.h"
 #include "render/painter.h"
+#include "render/workers.h"
 
 namespace cli {
 namespace {
@@ -71,37 +65,17 @@ Json check_scene(const fs::path& file, const CheckJob& job) {
   return out;
 }
 
-struct FileCloser {
-  void operator()(std::FILE* f) const { std::fclose(f); }
-};
-using FilePtr = std::unique_ptr<std::FILE, FileCloser>;
-
-/// A scene at work in its process, which writes its report into a file without a name that both have open.
-struct Running {
-  std::size_t scene = 0;
-  FilePtr report;
-};
-
-[[noreturn]] void work(const fs::path& scene, const CheckJob& job, std::FILE* report, pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(kMachineFailed);  // the parent died before the line above could bind us to it
-  setenv("LP_NUM_THREADS", "0", 1);                // one process a core: threads inside would only wait for each other
-  const std::string text = check_scene(scene, job).dump(-1, ' ', false, Json::error_handler_t::replace);
-  const bool written = std::fwrite(text.data(), 1, text.size(), report) == text.size() && std::fflush(report) == 0;
-  _exit(written ? kDone : kMachineFailed);
+std::string text_of(const fs::path& scene, const CheckJob& job) {
+  setenv("LP_NUM_THREADS", "0", 1);  // one process a core: threads inside would only wait for each other
+  return check_scene(scene, job).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Json collect(const fs::path& scene, const CheckJob& job, std::FILE* file, int status) {
-  std::string text;
-  std::rewind(file);
-  char block[4096];
-  for (std::size_t n = 0; (n = std::fread(block, 1, sizeof block, file)) > 0;) text.append(block, n);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kDone) return Json::parse(text);
-  const std::string end = WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : fmt::format("exit code {}", WEXITSTATUS(status));
+Json collect(const fs::path& scene, const CheckJob& job, const render::TaskResult& result) {
+  if (result.status == 0) return Json::parse(result.message);
   return {{"scene", scene.lexically_proximate(job.root).string()},
           {"title", ""},
           {"names", Json::array()},
-          {"errors", {fmt::format("the process that checked it ended: {}", end)}},
+          {"errors", {fmt::format("the process that checked it ended: {}", render::ending(result.status))}},
           {"pictures", Json::array()},
           {"measures", Json::array()},
           {"wall_s", 0}};
@@ -119,33 +93,16 @@ bool fits(const std::string& name, const std::vector<std::string>& patterns) {
 std::vector<SceneReport> check_scenes(const std::vector<fs::path>& scenes, const CheckJob& job,
                                       const std::function<void(int done)>& progress) {
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const std::size_t workers = static_cast<std::size_t>(job.workers > 0 ? job.workers : cores);
+  render::Workers workers(job.workers > 0 ? job.workers : cores, check_interrupted);
   std::vector<SceneReport> out(scenes.size());
-  std::map<pid_t, Running> running;
-  std::size_t next = 0;
   int done = 0;
-  const pid_t parent = getpid();
-  while (next < scenes.size() || !running.empty()) {
-    while (next < scenes.size() && running.size() < workers) {
-      FilePtr report(std::tmpfile());
-      if (!report) throw MachineError(fmt::format("opening a temporary file: {}", std::strerror(errno)));
-      std::fflush(nullptr);
-      const pid_t pid = fork();
-      if (pid < 0) throw MachineError(fmt::format("starting a process: {}", std::strerror(errno)));
-      if (pid == 0) work(scenes[next], job, report.get(), parent);
-      running[pid] = {next++, std::move(report)};
-    }
-    int status = 0;
-    const pid_t ended = waitpid(-1, &status, 0);
-    if (ended < 0 && errno == EINTR) continue;
-    if (ended < 0) throw MachineError(fmt::format("waiting for a process: {}", std::strerror(errno)));
-    const auto at = running.find(ended);
-    if (at == running.end()) continue;
-    const std::size_t scene = at->second.scene;
-    out[scene] = collect(scenes[scene], job, at->second.report.get(), status);
-    running.erase(at);
-    progress(++done);
-  }
+  workers.run(
+      static_cast<int>(scenes.size()), [&](int i, int) { return text_of(scenes[static_cast<std::size_t>(i)], job); },
+      [&](const render::TaskResult& result) {
+        const auto scene = static_cast<std::size_t>(result.task);
+        out[scene] = collect(scenes[scene], job, result);
+        progress(++done);
+      });
   return out;
 }
 

@@ -2,26 +2,15 @@
 
 #include <fmt/format.h>
 #include <sched.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <csignal>
-#include <cstring>
-#include <map>
-#include <numeric>
 
 #include "cli/exit.h"
+#include "cli/process.h"
+#include "render/workers.h"
 
 namespace cli::study {
 namespace {
-
-struct Worker {
-  std::size_t trial = 0;
-  int core = 0;
-};
 
 std::vector<int> cores() {
   cpu_set_t set;
@@ -34,27 +23,13 @@ std::vector<int> cores() {
   return out;
 }
 
-/// In the child: stays on its core, ends with the parent, never returns.
-[[noreturn]] void work(const Trial& trial, const std::filesystem::path& file, int core) {
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
+/// In a process of its own, which stays on its core.
+void work(const Trial& trial, const std::filesystem::path& file, int core) {
   cpu_set_t set;
   CPU_ZERO(&set);
   CPU_SET(core, &set);
   sched_setaffinity(0, sizeof set, &set);  // a core more or less is no reason to fail
-  int code = 0;
-  try {
-    store(run(trial), file);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "crashreel: {}\n", error.what());
-    code = 1;
-  }
-  std::fflush(stderr);
-  _exit(code);
-}
-
-void stop(const std::map<pid_t, Worker>& running) {
-  for (const auto& [pid, worker] : running) kill(pid, SIGTERM);
-  for (const auto& [pid, worker] : running) waitpid(pid, nullptr, 0);
+  store(run(trial), file);
 }
 
 }  // namespace
@@ -75,42 +50,22 @@ std::vector<Outcome> run_all(const std::vector<Trial>& trials, const std::filesy
   for (const std::size_t i : waiting) total += trials[i].cost;
   Progress progress("study", "units of work", total, show);
 
-  std::vector<int> idle = cores();
-  idle.resize(std::min<std::size_t>(idle.size(), std::max(1, jobs)));
-  std::map<pid_t, Worker> running;
-  std::fflush(nullptr);
-  while (!waiting.empty() || !running.empty()) {
-    while (!waiting.empty() && !idle.empty()) {
-      const std::size_t i = waiting.back();
-      const int core = idle.back();
-      const pid_t pid = fork();
-      if (pid == 0) work(trials[i], file_of(i), core);
-      if (pid < 0) {
-        const int why = errno;
-        stop(running);
-        throw MachineError(fmt::format("starting a worker of the study: {}", std::strerror(why)));
-      }
-      waiting.pop_back();
-      idle.pop_back();
-      running[pid] = {i, core};
-    }
-    int status = 0;
-    const pid_t pid = waitpid(-1, &status, 0);
-    if (pid < 0 && errno == EINTR) continue;
-    if (pid < 0) throw MachineError(fmt::format("waiting for a worker of the study: {}", std::strerror(errno)));
-    const auto found = running.find(pid);
-    if (found == running.end()) continue;
-    const Worker worker = found->second;
-    running.erase(found);
-    idle.push_back(worker.core);
-    if (!recall(file_of(worker.trial), outcomes[worker.trial])) {
-      stop(running);
-      throw MachineError(fmt::format("a run of the study ended without a result ({}); trials done so far are kept in {}",
-                                     fmt::join(trials[worker.trial].overrides, ", "), folder.string()));
-    }
-    done += trials[worker.trial].cost;
+  const std::vector<int> on = cores();
+  std::reverse(waiting.begin(), waiting.end());
+  render::Workers workers(std::min(static_cast<int>(on.size()), std::max(1, jobs)), check_interrupted);
+  const auto task = [&](int i, int place) {
+    const std::size_t trial = waiting[static_cast<std::size_t>(i)];
+    work(trials[trial], file_of(trial), on[static_cast<std::size_t>(place)]);
+    return std::string();
+  };
+  workers.run(static_cast<int>(waiting.size()), task, [&](const render::TaskResult& result) {
+    const std::size_t trial = waiting[static_cast<std::size_t>(result.task)];
+    if (!recall(file_of(trial), outcomes[trial]))
+      throw MachineError(fmt::format("a run of the study ended without a result ({}: {}); trials done so far are kept in {}",
+                                     fmt::join(trials[trial].overrides, ", "), render::ending(result.status), folder.string()));
+    done += trials[trial].cost;
     progress.at(done);
-  }
+  });
   progress.finish(done);
   return outcomes;
 }

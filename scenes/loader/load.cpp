@@ -54,6 +54,18 @@ bool is_scene(const Value& root) {
   return false;
 }
 
+/// What is looked for among others is looked for by name, one by one: ten thousand of a kind take a second.
+void refuse_crowds(const Value& value, const std::string& key) {
+  constexpr std::size_t kMost = 10'000;
+  const bool tables = value.kind == Value::Kind::array && !value.items.empty() && value.items[0].kind == Value::Kind::table;
+  if (tables && value.items.size() > kMost)
+    throw SceneErrors{{fmt::format("{}: {} is there {} times; a scene has at most {}", value.items[kMost].place.text(), key,
+                                   value.items.size(), kMost)}};
+  for (const Entry& entry : value.entries) refuse_crowds(entry.value, entry.key);
+  if (tables)
+    for (const Value& item : value.items) refuse_crowds(item, key);
+}
+
 void collect_names(Builder& builder, const Value& root) {
   for (const char* list : {"vehicle", "person", "body"}) {
     const Value* found = root.find(list);
@@ -134,6 +146,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
 Scene load(const SceneFile& file, const std::vector<std::string>& overrides, MeshShelf* shelf) {
   Value root = parse_text(file.text, file.path.string());
   for (const std::string& text : overrides) apply_override(root, text);
+  refuse_crowds(root, "");
 
   Builder builder;
   builder.folder = file.path.parent_path();

@@ -5,16 +5,15 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <set>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "engine/math/functions.h"
 
 namespace scenes {
 namespace {
-
-constexpr std::array<std::string_view, 11> kFormats{".obj", ".stl", ".gltf", ".glb", ".dae", ".3ds",
-                                                    ".ac",  ".fbx", ".off",  ".ply", ".x"};
 
 std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -131,6 +130,37 @@ int drop_not_finite(std::vector<RawPart>& parts) {
   return dropped;
 }
 
+struct WordsHash {
+  std::size_t operator()(const std::array<std::uint32_t, 3>& words) const {
+    std::uint64_t out = 0;
+    for (const std::uint32_t word : words) {
+      out = (out ^ word) * 0x9e3779b97f4a7c15u;
+      out ^= out >> 32;
+    }
+    return out;
+  }
+};
+
+/// Equal places get equal numbers, in whichever part and however often they stand there.
+class PlaceNumbers {
+ public:
+  std::vector<std::uint32_t> of(const std::vector<float>& positions) {
+    std::vector<std::uint32_t> out;
+    out.reserve(positions.size() / 3);
+    numbers_.reserve(numbers_.size() + positions.size() / 3);
+    for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
+      std::array<std::uint32_t, 3> bits;
+      // zero has two signs, and is one place
+      for (std::size_t k = 0; k < 3; ++k) bits[k] = std::bit_cast<std::uint32_t>(positions[i + k] + 0.0f);
+      out.push_back(numbers_.try_emplace(bits, static_cast<std::uint32_t>(numbers_.size())).first->second);
+    }
+    return out;
+  }
+
+ private:
+  std::unordered_map<std::array<std::uint32_t, 3>, std::uint32_t, WordsHash> numbers_;
+};
+
 }  // namespace
 
 std::vector<std::string> audit(const std::vector<RawPart>& parts, const std::string& file) {
@@ -139,13 +169,17 @@ std::vector<std::string> audit(const std::vector<RawPart>& parts, const std::str
   double volume = 0, area = 0;
   engine::Vec3 facing = engine::Vec3::Zero();  // sum of area vectors: nothing for a closed surface
   engine::Aabb box;
-  std::set<std::array<std::array<float, 3>, 3>> seen;
+  PlaceNumbers places;
+  std::unordered_set<std::array<std::uint32_t, 3>, WordsHash> seen;
   for (const RawPart& part : parts) {
+    const std::vector<std::uint32_t> number = places.of(part.positions);
+    seen.reserve(seen.size() + part.indices.size() / 3);
     const auto corner = [&](std::uint32_t i) {
       return std::array<float, 3>{part.positions[3 * i], part.positions[3 * i + 1], part.positions[3 * i + 2]};
     };
     for (std::size_t i = 0; i < part.indices.size(); i += 3) {
-      std::array<std::array<float, 3>, 3> t{corner(part.indices[i]), corner(part.indices[i + 1]), corner(part.indices[i + 2])};
+      const std::array<std::array<float, 3>, 3> t{corner(part.indices[i]), corner(part.indices[i + 1]),
+                                                  corner(part.indices[i + 2])};
       const auto vec = [](const std::array<float, 3>& a) { return engine::Vec3(a[0], a[1], a[2]); };
       const engine::Vec3 a = vec(t[0]), b = vec(t[1]), c = vec(t[2]);
       const double edge2 = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
@@ -157,8 +191,9 @@ std::vector<std::string> audit(const std::vector<RawPart>& parts, const std::str
         box.lower = box.lower.cwiseMin(p);
         box.upper = box.upper.cwiseMax(p);
       }
-      std::sort(t.begin(), t.end());
-      if (!seen.insert(t).second) ++duplicates;
+      std::array<std::uint32_t, 3> key{number[part.indices[i]], number[part.indices[i + 1]], number[part.indices[i + 2]]};
+      std::sort(key.begin(), key.end());
+      if (!seen.insert(key).second) ++duplicates;
     }
   }
   std::vector<std::string> out;
@@ -189,6 +224,9 @@ std::shared_ptr<const ImportedMesh> bring_in(const std::filesystem::path& file, 
   auto out = std::make_shared<ImportedMesh>();
   out->not_finite = drop_not_finite(result.parts);
   out->warnings = audit(result.parts, file.filename().string());
+  if (!result.warning.empty())
+    out->warnings.push_back(
+        fmt::format("this system has no {}: a wall is missing around what reads foreign meshes", result.warning));
   out->look = look_of(result.parts);
   out->solid = solid_of(result.parts);
   out->sha256 = result.sha256;
@@ -201,8 +239,8 @@ std::shared_ptr<const ImportedMesh> import_mesh(Builder& builder, Reader& r, std
   const std::string name = r.text(key);
   if (name.empty()) return nullptr;
   const auto extension = lower_case(std::filesystem::path(name).extension().string());
-  if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end()) {
-    r.fail(key, fmt::format("must be a mesh file of a known kind: {}", fmt::join(kFormats, " ")));
+  if (std::find(kMeshFormats.begin(), kMeshFormats.end(), extension) == kMeshFormats.end()) {
+    r.fail(key, fmt::format("must be a mesh file of a known kind: {}", fmt::join(kMeshFormats, " ")));
     return nullptr;
   }
   const std::filesystem::path file = asset_file(builder, r, key, "a mesh file");

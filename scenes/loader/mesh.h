@@ -1,16 +1,22 @@
 // Mesh files: brought in by assimp inside a cage, audited, and turned into what the engine touches and the renderer draws.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/geometry/triangle_mesh.h"
 #include "render/stage.h"
 #include "scenes/loader/builder.h"
+#include "scenes/loader/cage.h"
 
 namespace scenes {
+
+constexpr std::array<std::string_view, 11> kMeshFormats{".obj", ".stl", ".gltf", ".glb", ".dae", ".3ds",
+                                                        ".ac",  ".fbx", ".off",  ".ply", ".x"};
 
 /// One mesh of a file with one material, as the cage hands it back.
 struct RawPart {
@@ -26,15 +32,13 @@ struct CageResult {
   std::vector<RawPart> parts;
   std::string problem;  // empty: imported
   std::string sha256;   // of everything that came out of it, the files it refers to included
+  std::string warning;  // walls of the cage that this system could not raise
 };
 
-struct CageLimits {
-  int cpu_time = 10;  // [s] a vehicle of a million triangles takes about three
-  int patience = 60;  // [s] of wall time until the parent gives up
-};
-
-/// Imports a mesh in a forked child with limits on memory, time and files; files outside `root` cannot be opened. Never throws.
+/// Imports a mesh in the cage; of other files it gets those below `root`. Never throws.
 CageResult import_in_cage(const std::filesystem::path& file, const std::filesystem::path& root, const CageLimits& = {});
+/// What the caged importer's answer holds: any bytes, for it may have been taken over.
+CageResult unpacked(const std::string& answer);
 
 struct ImportedMesh {
   std::shared_ptr<const engine::TriangleMesh> solid;  // welded, for contact

@@ -235,7 +235,9 @@ TEST_F(Planted, AHangupEndsARunAsOtherSignalsDo) {
   folder.write("long.toml", ball_with("duration = \"0.4 s\"", "duration = \"600 s\"\nstep = \"0.1 ms\""));
   fs::create_directory(folder / "scenes");
   folder.write("scenes/long.toml", contents(folder / "long.toml") + "[[output.still]]\ntime = \"500 s\"\n");
-  const std::vector<std::vector<std::string>> jobs = {{"simulate", "long.toml", "-o", "out"}};
+  const std::vector<std::vector<std::string>> jobs = {{"simulate", "long.toml", "-o", "out"},
+                                                      {"study", "long.toml", "-o", "study", "--jobs", "1"},
+                                                      {"snapshot", "scenes", "-j", "1"}};
   for (const auto& job : jobs)
     for (const int signal : {SIGHUP, SIGTERM}) {
       fs::remove(folder / "log");
@@ -294,6 +296,18 @@ TEST_F(Planted, ASceneReadsBelowItsFolderOnly) {
     EXPECT_THAT(refused.err, HasSubstr("lies outside the scene's folder; where you trust the scene, give --allow"));
     EXPECT_EQ(run(folder, {"check", "scene/scene.toml", "--allow", "elsewhere"}).code, 0) << text;
   }
+}
+
+TEST_F(Planted, ACrowdIsRefusedInSeconds) {
+  std::string text = kBall;
+  for (int i = 0; i < 100'000; ++i)
+    text += "[[body]]\nname = \"b" + std::to_string(i) + "\"\nmass = \"1 kg\"\naxes = \"1 1 1 m\"\n";
+  folder.write("crowd.toml", text);
+  const auto before = std::chrono::steady_clock::now();
+  const Result refused = run(folder, {"check", "crowd.toml"});
+  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(20));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("body is there 100001 times; a scene has at most 10000"));
 }
 
 TEST_F(Planted, ControlCharactersReachNoTerminal) {

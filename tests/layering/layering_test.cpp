@@ -49,6 +49,7 @@ const std::vector<Wall> kWalls = {
      {"render/overlays/", "render/draw_list.h", "render/stage.h", "render/arrange.h", "render/matrix.h", "engine/recording.h",
       "engine/math/", "engine/geometry/"}},
     {"scenes/", {"scenes/", "render/stage.h", "engine/"}},
+    {"scenes/cage/", {"scenes/cage/"}},
     {"cli/", {"cli/", "scenes/", "render/", "engine/"}},
 };
 
@@ -67,7 +68,9 @@ const std::vector<Library> kLibraries = {
     {"png\\.h|zlib\\.h|libdeflate\\.h", {"render/image/"}},
     {"cairo.*|pango.*|ft2build\\.h|freetype.*|fontconfig.*", {"render/text/", "render/figures/", "render/charts/"}},
     {"toml\\+\\+.*|toml\\.hpp", {"scenes/loader/toml.cpp"}},
-    {"assimp/.*|meshoptimizer\\.h", {"scenes/loader/"}},
+    {"assimp/.*", {"scenes/cage/"}},
+    {"meshoptimizer\\.h", {"scenes/loader/"}},
+    {"seccomp\\.h", {"scenes/cage/"}},
     {"CLI/.*", {"cli/command.cpp"}},
     {"nlohmann/.*", {"scenes/", "cli/"}},
     {"fmt/.*", {"render/", "scenes/", "cli/"}},
