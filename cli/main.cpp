@@ -4,9 +4,11 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include "cli/command.h"
 #include "cli/exit.h"
+#include "cli/findings.h"
 #include "cli/process.h"
 #include "render/error.h"
 #include "render/frames.h"
@@ -15,7 +17,9 @@
 namespace {
 
 int report(const char* message, cli::ExitCode code) {
-  fmt::print(stderr, "crashreel: {}\n", message);
+  // a command tells its own name: "crashreel render: unknown option --siz"
+  const bool named = std::string_view(message).starts_with("crashreel ");
+  fmt::print(stderr, "{}{}\n", named ? "" : "crashreel: ", message);
   return code;
 }
 
@@ -29,7 +33,7 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) != 0) return report("writing the result to standard output failed", cli::kMachineFailed);
     return code;
   } catch (const scenes::SceneErrors& errors) {
-    for (const std::string& line : errors.lines) fmt::print(stderr, "{}\n", line);
+    for (const scenes::Finding& finding : errors.findings) fmt::print(stderr, "{}", cli::finding_text(finding));
     return cli::kAuthorErred;
   } catch (const cli::UsageError& error) {
     return report(error.what(), cli::kAuthorErred);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/commit.h"
 #include "cli/exit.h"
 #include "render/renderer.h"
 
@@ -23,10 +24,13 @@ int version(bool json) {
   if (json) {
     fmt::print(
         "{}\n",
-        nlohmann::ordered_json{{"version", CRASHREEL_VERSION}, {"build", build}, {"libraries", CRASHREEL_LIBRARIES}, {"gl", gl}}
+        nlohmann::ordered_json{
+            {"version", CRASHREEL_VERSION}, {"commit", commit()}, {"build", build}, {"libraries", CRASHREEL_LIBRARIES}, {"gl", gl}}
             .dump(2));
   } else {
-    fmt::print("crashreel {}\nbuild      {}\nlibraries  {}\ngl         {}\n", CRASHREEL_VERSION, build, CRASHREEL_LIBRARIES, gl);
+    const std::string from = *commit() ? fmt::format(" ({})", commit()) : "";
+    fmt::print("crashreel {}{}\nbuild      {}\nlibraries  {}\ngl         {}\n", CRASHREEL_VERSION, from, build, CRASHREEL_LIBRARIES,
+               gl);
   }
   return kDone;
 }
