@@ -17,7 +17,6 @@ class Arguments {
   explicit Arguments(CLI::App& app) : app_(app) {}
 
   void positional(const std::string& name, std::string& target, const std::string& help);
-  void optional_positional(const std::string& name, std::string& target, const std::string& help);
   void positionals(const std::string& name, std::vector<std::string>& target, const std::string& help);
   void option(const std::string& names, std::string& target, const std::string& value_name, const std::string& help);
   void required_option(const std::string& names, std::string& target, const std::string& value_name, const std::string& help);

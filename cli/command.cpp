@@ -149,6 +149,8 @@ std::vector<std::string> as_commands(int argc, const char* const* argv) {
     words.erase(words.begin());
     words.push_back("--help");
   }
+  // behind a command CLI11 takes the name of another for that command
+  if (words.size() > 1 && words[0] == "man" && !words[1].starts_with("-")) words[1] = "--page=" + words[1];
   return words;
 }
 
@@ -160,10 +162,6 @@ std::span<const Command> commands() {
 
 void Arguments::positional(const std::string& name, std::string& target, const std::string& help) {
   app_.add_option(name, target, help)->required();
-}
-
-void Arguments::optional_positional(const std::string& name, std::string& target, const std::string& help) {
-  app_.add_option(name, target, help);
 }
 
 void Arguments::positionals(const std::string& name, std::vector<std::string>& target, const std::string& help) {

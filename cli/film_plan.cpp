@@ -87,8 +87,8 @@ void choose_camera(const std::string& wanted, const scenes::Scene& scene, render
       std::vector<std::string> all = names;
       all.insert(all.end(), presets.begin(), presets.end());
       const std::string near = scenes::nearest(wanted, all);
-      throw UsageError(fmt::format("--camera is \"{}\": the scene has {}{}; presets: {}", wanted, fmt::join(names, ", "),
-                                   near.empty() ? "" : fmt::format("; did you mean {}?", near), fmt::join(presets, ", ")));
+      throw UsageError(fmt::format("--camera is \"{}\": the scene has {}; presets: {}{}", wanted, fmt::join(names, ", "),
+                                   fmt::join(presets, ", "), near.empty() ? "" : fmt::format("; did you mean {}?", near)));
     }
   }
   // the first camera is the one that films the whole run when there are no shots

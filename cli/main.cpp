@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "cli/command.h"
+#include "cli/commit.h"
 #include "cli/exit.h"
 #include "cli/findings.h"
 #include "cli/process.h"
@@ -27,6 +28,7 @@ int report(const char* message, cli::ExitCode code) {
 
 int main(int argc, char** argv) {
   cli::prepare_process();
+  cli::set_commit(cli::commit_of_build());
   try {
     const int code = cli::run_command_line(argc, argv);
     // a full disk or a closed pipe shows only when the buffer is written

@@ -28,7 +28,7 @@ int man(const std::string& name) {
 
 std::function<int()> declare_man(Arguments& arguments) {
   const auto name = std::make_shared<std::string>();
-  arguments.optional_positional("COMMAND", *name, "the command; left out: the program");
+  arguments.option("--page", *name, "COMMAND", "the page of this command, also as crashreel man COMMAND; left out: of the program");
   return [name] { return man(*name); };
 }
 

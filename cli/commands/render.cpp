@@ -49,7 +49,7 @@ void list_cameras(const scenes::Scene& scene, bool json) {
   if (json)
     fmt::print("{}\n", cameras.dump(2));
   else
-    fmt::print("presets: {}\n", fmt::join(preset_names(), ", "));
+    fmt::print(stderr, "besides these every scene has {}\n", fmt::join(preset_names(), ", "));
 }
 
 /// The scene as one view shows it.

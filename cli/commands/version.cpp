@@ -18,6 +18,11 @@ constexpr const char* kCompiler = "clang " __clang_version__;
 constexpr const char* kCompiler = "g++ " __VERSION__;
 #endif
 
+const char*& commit() {
+  static const char* name = "";
+  return name;
+}
+
 int version(bool json) {
   const std::string build = fmt::format("{}, {}", CRASHREEL_BUILD, kCompiler);
   const std::string gl = render::gl_description();
@@ -36,6 +41,10 @@ int version(bool json) {
 }
 
 }  // namespace
+
+void set_commit(const char* name) {
+  commit() = name;
+}
 
 std::function<int()> declare_version(Arguments& arguments) {
   const auto json = std::make_shared<bool>(false);

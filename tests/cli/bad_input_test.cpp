@@ -34,8 +34,9 @@ std::string marked(const std::string& text, const std::string& message) {
   std::istringstream lines(text);
   std::string shown;
   for (int n = 0; n < line; ++n) std::getline(lines, shown);
-  return "    " + std::to_string(line) + " | " + shown + "\n      | " + std::string(static_cast<std::size_t>(column - 1), ' ') +
-         "^\n";
+  const std::string number = std::to_string(line);
+  return std::string(5 - number.size(), ' ') + number + " | " + shown + "\n      | " +
+         std::string(static_cast<std::size_t>(column - 1), ' ') + "^\n";
 }
 
 class BadSceneIsRefused : public testing::TestWithParam<BadScene> {};
@@ -149,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(
                    {},
                    kAuthor,
                    ": no command given; take one of render, simulate, plan, study, figure, check, compare, snapshot, library, "
-                   "schema, version"},
+                   "schema, version, man, completion; see crashreel --help"},
         BadCommand{"unknown_command", {"rendr"}, kAuthor, ": unknown command rendr; did you mean render?"},
         BadCommand{"unknown_option",
                    {"render", "ball.toml", "--siz", "64x64"},
@@ -201,7 +202,7 @@ INSTANTIATE_TEST_SUITE_P(
             "unknown_camera",
             {"render", "ball.toml", "--camera", "sid"},
             kAuthor,
-            ": --camera is \"sid\": the scene has side, above; did you mean side?; presets: top, side, front, driver, follow"},
+            ": --camera is \"sid\": the scene has side, above; presets: top, side, front, driver, follow; did you mean side?"},
         BadCommand{"existing_video",
                    {"render", "ball.toml", "-o", "there.mp4"},
                    kAuthor,

@@ -193,9 +193,9 @@ TEST(Mistakes, InputsAndTargetsAreCheckedBeforeTheFirstRun) {
   const Result unit = run(folder, {"study", "ball.toml", "-o", "out", "--input", "body.ball.mass=2..3"});
   EXPECT_EQ(unit.code, 2);
   EXPECT_EQ(unit.err, "crashreel: --input body.ball.mass=2..3: body.ball.mass = 2 needs a unit: write \"2 kg\" or \"4.41 lb\"\n");
-  const Result target = run(folder, {"study", "ball.toml", "-o", "out", "--target", "travl=1cm"});
+  const Result target = run(folder, {"study", "ball.toml", "-o", "out", "--target", "travl_m=1cm"});
   EXPECT_EQ(target.code, 2);
-  EXPECT_THAT(target.err, StartsWith("crashreel: --target: the scene has no measure travl; did you mean travel_m?"));
+  EXPECT_THAT(target.err, StartsWith("crashreel: --target: the scene has no measure travl_m; did you mean travel_m?"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out/runs")) << "nothing was run";
 }
 
@@ -273,4 +273,56 @@ TEST(Render, ARunsFolderStandsForItsScene) {
   const Result changed = render({"out"}, "later.png");
   EXPECT_EQ(changed.code, 2);
   EXPECT_EQ(changed.err, "crashreel: out holds a run of ball.toml, which has been changed since; name a scene file\n");
+}
+
+TEST(Render, TheTitleTellsWhatWasChanged) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  const std::vector<std::string> still = {"render", "ball.toml", "--at", "0.1s", "--size", "64x64", "-o"};
+  const auto titled = [&](const std::string& file, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = still;
+    arguments.push_back(file);
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run(folder, arguments).code, 0);
+    return contents(folder / file);
+  };
+  EXPECT_THAT(titled("a.png", {}), testing::Not(HasSubstr("changed")));
+  EXPECT_THAT(titled("b.png", {"--set", "body.ball.mass=3 kg"}), HasSubstr("Ball [changed: body.ball.mass=3 kg]"));
+}
+
+TEST(Help, BeginsWithExamplesAndManualPagesSayTheSame) {
+  const Folder folder;
+  const Result help = run(folder, {"render", "--help"});
+  EXPECT_LT(help.out.find("Examples"), help.out.find("Options"));
+  EXPECT_EQ(run(folder, {"help", "render"}).out, help.out);
+  const Result page = run(folder, {"man", "render"});
+  EXPECT_THAT(page.out, StartsWith(".TH crashreel\\-render 1"));
+  for (const char* section : {".SH NAME", ".SH SYNOPSIS", ".SH EXAMPLES", ".SH OPTIONS", ".SH EXIT STATUS", ".SH ENVIRONMENT"})
+    EXPECT_THAT(page.out, HasSubstr(section));
+  EXPECT_THAT(page.out, HasSubstr("\\-\\-look\\-at"));
+  EXPECT_EQ(run(folder, {"man", "rendr"}).code, 2);
+}
+
+TEST(Help, CompletionsAreShellScripts) {
+  const Folder folder;
+  for (const char* shell : {"bash", "zsh", "fish"}) {
+    const Result script = run(folder, {"completion", shell});
+    ASSERT_EQ(script.code, 0) << shell;
+    for (const char* word : {"simulate", "look-at", "draft standard fine"}) EXPECT_THAT(script.out, HasSubstr(word)) << shell;
+    folder.write(shell, script.out);
+  }
+  const std::string bash = "cd " + folder.path().string() +
+                           " && bash -c '. ./bash && COMP_WORDS=(crashreel rend) COMP_CWORD=1 && _crashreel " +
+                           "&& echo ${COMPREPLY[*]}' >.stdout";
+  EXPECT_EQ(std::system(bash.c_str()), 0);
+  EXPECT_EQ(contents(folder / ".stdout"), "render\n");
+  EXPECT_EQ(run(folder, {"completion", "csh"}).code, 2);
+}
+
+TEST(Version, IsAnOptionTooAndNamesTheCommit) {
+  const Folder folder;
+  const Result version = run(folder, {"--version"});
+  EXPECT_EQ(version.code, 0);
+  EXPECT_THAT(version.out, StartsWith("crashreel "));
+  EXPECT_TRUE(Json::parse(run(folder, {"version", "--json"}).out).contains("commit"));
 }

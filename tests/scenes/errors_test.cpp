@@ -20,7 +20,7 @@ const std::string kBall = "[[body]]\nname = \"ball\"\nmass = \"1 kg\"\naxes = \"
 TEST(SceneErrorTexts, BrokenToml) {
   const auto lines = folder().errors("title = \"x\n");
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_EQ(lines[0].substr(0, 25), "case.toml:1:11: not TOML:");
+  EXPECT_EQ(lines[0], "case.toml:1:11: the text has no closing quote; write title = \"x\"");
 }
 
 TEST(SceneErrorTexts, KeysTheParserCannotStand) {
@@ -57,7 +57,7 @@ TEST(SceneErrorTexts, MissingFile) {
     load("no/such/scene.toml");
     FAIL() << "a scene that is not there was loaded";
   } catch (const SceneErrors& error) {
-    EXPECT_THAT(error.lines, ElementsAre("no/such/scene.toml: cannot be read as a scene file; check the path and its permissions"));
+    EXPECT_THAT(error.lines, ElementsAre("no/such/scene.toml: there is no such file; there is no folder no/such either"));
   }
 }
 
@@ -107,8 +107,10 @@ TEST(SceneErrorTexts, UnknownKey) {
 }
 
 TEST(SceneErrorTexts, WrongDimension) {
-  EXPECT_THAT(folder().errors("[simulation]\nduration = \"4 km/h\"\n"),
-              ElementsAre("case.toml:2:12: simulation.duration is \"4 km/h\": must be a time; write it like \"1 s\""));
+  EXPECT_THAT(
+      folder().errors("[simulation]\nduration = \"4 km/h\"\n"),
+      ElementsAre(
+          "case.toml:2:12: simulation.duration is \"4 km/h\": must be a time; write it like \"1 s\"; units: s, ms, min, h"));
 }
 
 TEST(SceneErrorTexts, BareNumber) {
@@ -152,7 +154,7 @@ TEST(SceneErrorTexts, PoseOutsideTheRangeOfMotionNamesTheJoint) {
 TEST(SceneErrorTexts, ComeSeveralAtOnceInTheOrderOfTheFile) {
   EXPECT_THAT(
       folder().errors("[simulation]\nstep = 1\nduraton = \"4 s\"\n" + kBall + "restitution = -0.2\n[[joint]]\nchild = \"bal\"\n"),
-      ElementsAre("case.toml:2:8: simulation.step = 1 needs a unit: write \"1 s\" or \"1000 ms\"",
+      ElementsAre("case.toml:2:8: simulation.step = 1 needs a unit: write \"1 ms\"",
                   "case.toml:3:1: simulation.duraton is not a known key; did you mean \"duration\"?",
                   "case.toml:8:15: body.ball.restitution is -0.2: must lie in 0..1",
                   "case.toml:10:9: joint.0.child is \"bal\": is no body of the scene; did you mean \"ball\"?"));

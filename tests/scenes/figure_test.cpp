@@ -112,8 +112,8 @@ INSTANTIATE_TEST_SUITE_P(OfTheLibrary, Figures, ::testing::ValuesIn(names("perso
   return name;
 });
 
-TEST(Poses, OfTheLibraryAreTwelve) {
-  EXPECT_EQ(names("poses").size(), 12u);
+TEST(Poses, OfTheLibraryAreThirteen) {
+  EXPECT_EQ(names("poses").size(), 13u);
 }
 
 TEST(Person16, HasSixteenPartsFifteenJointsAndKneesOfTheirOwn) {
