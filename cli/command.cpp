@@ -6,9 +6,11 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <map>
 
 #include "cli/exit.h"
+#include "cli/help.h"
 #include "scenes/loader/value.h"
 
 namespace cli {
@@ -24,27 +26,87 @@ std::function<int()> declare_snapshot(Arguments&);
 std::function<int()> declare_library(Arguments&);
 std::function<int()> declare_schema(Arguments&);
 std::function<int()> declare_version(Arguments&);
+std::function<int()> declare_man(Arguments&);
+std::function<int()> declare_completion(Arguments&);
 
 namespace {
 
+constexpr Example kRenderExamples[] = {
+    {"render case.toml -o case.mp4", "the film, as the scene's shots say"},
+    {"render case.toml --at 0.2s --at 0.5s -o still.png", "two stills of one run"},
+    {"render case.toml --camera top --camera side -o case.mp4", "the whole run from two cameras, simulated once"},
+    {"render case.toml --set vehicle.sedan.speed=\"50 km/h\" -o faster.mp4", "another speed; the title says so"},
+    {"render case.toml --size 320x180 --quality draft", "a quick look"},
+};
+constexpr Example kSimulateExamples[] = {
+    {"simulate case.toml -o out", "trajectory.csv, contacts.csv and summary.json in the folder out"},
+    {"simulate case.toml -o out --json", "the summary as JSON on standard output as well"},
+    {"simulate case.toml -o out --dry-run", "how long it will take"},
+};
+constexpr Example kPlanExamples[] = {
+    {"plan case.toml", "which effects act, and what is left out"},
+    {"plan case.toml --measure", "what each of them costs"},
+};
+constexpr Example kStudyExamples[] = {
+    {"study case.toml -o out", "how certain the answer is, numerically"},
+    {"study case.toml -o out --input vehicle.sedan.speed=\"39 km/h..41 km/h\"", "what a range of an input does"},
+    {"study case.toml -o out --target throw_distance=0.05m", "the cheapest setting that holds it"},
+};
+constexpr Example kFigureExamples[] = {
+    {"figure case.toml -o out", "site diagram, contact map, time histories and stills"},
+};
+constexpr Example kCheckExamples[] = {
+    {"check case.toml", "every error with its place and remedy"},
+    {"check *.toml --json", "file, line, column, code and message for an editor"},
+};
+constexpr Example kCompareExamples[] = {
+    {"compare a.png b.png --diff difference.png", "exit code 1 where they are not the same picture"},
+};
+constexpr Example kSnapshotExamples[] = {
+    {"snapshot scenes", "do the scenes still look and measure as they did?"},
+    {"snapshot scenes --update my_case.toml", "accept the new pictures of one scene"},
+};
+constexpr Example kLibraryExamples[] = {{"library", "persons, poses and vehicles by name"}};
+constexpr Example kSchemaExamples[] = {{"schema > scene.schema.json", "for an editor that completes and checks scenes"}};
+constexpr Example kVersionExamples[] = {{"version", "what a report must name to be repeatable"}};
+constexpr Example kManExamples[] = {{"man render | man -l -", "read the page of a command"}};
+constexpr Example kCompletionExamples[] = {{"completion bash > ~/.local/share/bash-completion/completions/crashreel", "for bash"}};
+
 constexpr Command kCommands[] = {
-    {"render", "simulate a scene, then draw it: an MP4, a folder of PNGs, or single PNGs with --at", declare_render},
-    {"simulate", "write trajectory.csv, contacts.csv and summary.json", declare_simulate},
-    {"plan", "which physical effects a scene calls for, and why", declare_plan},
-    {"study", "what accuracy costs in time: errors, bands and sensitivity against computing time", declare_study},
-    {"figure", "report figures: site diagram, contact map, time histories, stroboscopic still, contact sheet", declare_figure},
-    {"check", "read scenes and report every error", declare_check},
-    {"compare", "compare two pictures", declare_compare},
-    {"snapshot", "test the pictures and measures of a folder of scenes against their baselines", declare_snapshot},
-    {"library", "list the persons, poses, vehicles and other entries a scene can name", declare_library},
-    {"schema", "print the JSON Schema of the scene format, for editors", declare_schema},
-    {"version", "print the version, the build, the libraries and the GL renderer", declare_version},
+    {"render", "simulate a scene, then draw it: an MP4, a folder of PNGs, or single PNGs with --at", declare_render,
+     kRenderExamples},
+    {"simulate", "write trajectory.csv, contacts.csv and summary.json", declare_simulate, kSimulateExamples},
+    {"plan", "which physical effects a scene calls for, and why", declare_plan, kPlanExamples},
+    {"study", "what accuracy costs in time: errors, bands and sensitivity against computing time", declare_study, kStudyExamples},
+    {"figure", "report figures: site diagram, contact map, time histories, stroboscopic still, contact sheet", declare_figure,
+     kFigureExamples},
+    {"check", "read scenes and report every error", declare_check, kCheckExamples},
+    {"compare", "compare two pictures", declare_compare, kCompareExamples},
+    {"snapshot", "test the pictures and measures of a folder of scenes against their baselines", declare_snapshot,
+     kSnapshotExamples},
+    {"library", "list the persons, poses, vehicles and other entries a scene can name", declare_library, kLibraryExamples},
+    {"schema", "print the JSON Schema of the scene format, for editors", declare_schema, kSchemaExamples},
+    {"version", "print the version, the build, the libraries and the GL renderer", declare_version, kVersionExamples},
+    {"man", "print the manual page of a command", declare_man, kManExamples},
+    {"completion", "print the completion of command lines for a shell", declare_completion, kCompletionExamples},
 };
 
 /// The option or command nearest to what was typed, as a remedy.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
   const std::string near = scenes::nearest(word, candidates);
-  return near.empty() ? "" : fmt::format("; did you mean {}?", near);
+  // "--seed" is two letters from "--set" and means something else: a short word must come nearer
+  const std::size_t letters = word.size() - std::min(word.size(), word.find_first_not_of('-'));
+  const std::size_t differ = near.size() > word.size() ? near.size() - word.size() : word.size() - near.size();
+  const bool far = word.starts_with("--") && near.size() < 6 && (differ > 1 || letters < 5) && !near.starts_with(word);
+  return near.empty() || far ? "" : fmt::format("; did you mean {}?", near);
+}
+
+/// A value of the scene given as an option: --speed 50.
+std::string instead_of_option(const std::string& name, const std::vector<std::string>& options) {
+  const std::string near = did_you_mean(name, options);
+  const bool sets = std::find(options.begin(), options.end(), "--set") != options.end();
+  if (!near.empty() || !sets) return near;
+  return "; values of the scene are changed by --set, like --set vehicle.sedan.speed=\"50 km/h\"";
 }
 
 std::vector<std::string> option_names(const CLI::App& app) {
@@ -59,7 +121,7 @@ std::vector<std::string> option_names(const CLI::App& app) {
   const std::string first = app.remaining().front();
   if (first.starts_with("-")) {
     const std::string name = first.substr(0, first.find('='));
-    throw UsageError(fmt::format("{}: unknown option {}{}", who, name, did_you_mean(name, option_names(app))));
+    throw UsageError(fmt::format("{}: unknown option {}{}", who, name, instead_of_option(name, option_names(app))));
   }
   throw UsageError(fmt::format("{}: unexpected argument \"{}\"", who, first));
 }
@@ -67,8 +129,29 @@ std::vector<std::string> option_names(const CLI::App& app) {
 [[noreturn]] void refuse_command(const std::string& word) {
   std::vector<std::string> names;
   for (const Command& command : kCommands) names.push_back(command.name);
-  if (word.empty()) throw UsageError(fmt::format("no command given; take one of {}", fmt::join(names, ", ")));
+  if (word.empty()) throw UsageError(fmt::format("no command given; take one of {}; see crashreel --help", fmt::join(names, ", ")));
   throw UsageError(fmt::format("unknown {} {}{}", word.starts_with("-") ? "option" : "command", word, did_you_mean(word, names)));
+}
+
+/// What --help of a command, or of the program, prints.
+std::string help_text(const std::string& chosen) {
+  const std::vector<CommandHelp> all = help_of_commands();
+  for (const CommandHelp& help : all)
+    if (help.command->name == chosen) return help_of(help);
+  return overview_of(all);
+}
+
+/// `crashreel --version` and `crashreel help render` as people type them, in the words of the table.
+std::vector<std::string> as_commands(int argc, const char* const* argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && (words[0] == "--version" || words[0] == "-V")) words[0] = "version";
+  if (!words.empty() && words[0] == "help") {
+    words.erase(words.begin());
+    words.push_back("--help");
+  }
+  // behind a command CLI11 takes the name of another for that command
+  if (words.size() > 1 && words[0] == "man" && !words[1].starts_with("-")) words[1] = "--page=" + words[1];
+  return words;
 }
 
 }  // namespace
@@ -138,6 +221,24 @@ std::vector<std::pair<std::string, std::string>> Arguments::given() const {
   return out;
 }
 
+std::vector<CommandHelp> help_of_commands() {
+  std::vector<CommandHelp> out;
+  for (const Command& command : kCommands) {
+    CLI::App app;
+    app.set_help_flag();
+    Arguments arguments(app);
+    command.declare(arguments);
+    out.push_back({&command, {}});
+    for (const CLI::Option* option : app.get_options()) {
+      const bool positional = option->get_lnames().empty();
+      const bool flag = !positional && option->get_items_expected_max() == 0;
+      out.back().arguments.push_back({option->get_name(positional, !positional), flag || positional ? "" : option->get_type_name(),
+                                      option->get_description(), positional, option->get_required()});
+    }
+  }
+  return out;
+}
+
 int run_command_line(int argc, const char* const* argv) {
   CLI::App app{"Reconstructs traffic accidents: a scene file becomes a simulation, and the simulation a film."};
   app.name("crashreel");
@@ -152,8 +253,10 @@ int run_command_line(int argc, const char* const* argv) {
 
   // what was typed wrong is told by us: in our words, with our exit code
   std::string who = "crashreel";
+  std::vector<std::string> words = as_commands(argc, argv);
+  std::reverse(words.begin(), words.end());  // as the library takes them
   try {
-    app.parse(argc, argv);
+    app.parse(std::move(words));
     const auto chosen = app.get_subcommands();
     if (chosen.empty()) refuse_command(app.remaining().empty() ? "" : app.remaining().front());
     const CLI::App& sub = *chosen.front();
@@ -162,7 +265,8 @@ int run_command_line(int argc, const char* const* argv) {
     if (!app.remaining().empty()) refuse_leftovers(app, who);
     return actions.at(&sub)();
   } catch (const CLI::CallForHelp&) {
-    fmt::print("{}", app.help());
+    const auto asked = app.get_subcommands();
+    fmt::print("{}", help_text(asked.empty() ? "" : asked.front()->get_name()));
     return kDone;
   } catch (const CLI::ParseError& error) {
     const auto chosen = app.get_subcommands();

@@ -10,12 +10,36 @@
 
 namespace cli {
 
+/// A command line people start from, and what it does.
+struct Example {
+  const char* line;  // behind "crashreel "
+  const char* does;
+};
+
 struct Command {
   const char* name;
   const char* summary;
   /// Declares the command's arguments; what it returns runs the command and gives the exit code.
   std::function<int()> (*declare)(Arguments&);
+  std::span<const Example> examples = {};
 };
+
+/// An argument of a command as it is declared: what help, man pages and completions are made of.
+struct ArgumentHelp {
+  std::string names;  // "-o,--output", or SCENE
+  std::string value;  // "OUT", "draft|standard|fine", empty for a flag
+  std::string text;
+  bool positional = false;
+  bool required = false;
+};
+
+struct CommandHelp {
+  const Command* command = nullptr;
+  std::vector<ArgumentHelp> arguments;
+};
+
+/// Of every command, in the order of the table.
+std::vector<CommandHelp> help_of_commands();
 
 std::span<const Command> commands();
 

@@ -179,7 +179,7 @@ double parse_bytes(const std::string& option, const std::string& text) {
   const auto* known = std::find_if(std::begin(kUnits), std::end(kUnits), [&unit](const auto& u) { return unit == u.first; });
   const double bytes = known == std::end(kUnits) ? 0 : number * known->second;
   if (problem != std::errc() || !(bytes >= 1e6) || !(bytes <= 1e15))
-    throw UsageError(fmt::format("{} is \"{}\", must be an amount of memory from 1 MB on, like \"2 GB\"", option, text));
+    throw UsageError(fmt::format("{} is \"{}\": must be an amount of memory from 1 MB on, like \"2 GB\"", option, text));
   return bytes;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <tuple>
 
+#include "cli/camera_presets.h"
 #include "cli/exit.h"
 #include "cli/output/whole_file.h"
 #include "scenes/loader/value.h"
@@ -37,16 +38,16 @@ void choose_container(const FilmArguments& wish, const scenes::Scene& scene, Fil
     const std::size_t end = percent == std::string::npos ? percent : file.find_first_not_of("0123456789", percent + 1);
     if (end == std::string::npos || file[end] != 'd' || file.find('%', end) != std::string::npos || end - percent > 3 ||
         extension != ".png") {
-      throw UsageError(fmt::format("-o is \"{}\", a pattern must hold one %05d in its file name and end in .png", name));
+      throw UsageError(fmt::format("-o is \"{}\": a pattern must hold one %05d in its file name and end in .png", name));
     }
     plan.job.container = Container::png_sequence;
   } else if (extension == ".png") {
     if (!stills)
       throw UsageError(
-          fmt::format("-o is \"{}\", a single PNG needs --at TIME; for a sequence name a folder or frame_%05d.png", name));
+          fmt::format("-o is \"{}\": a single PNG needs --at TIME; for a sequence name a folder or frame_%05d.png", name));
     plan.job.container = Container::single_png;
   } else if (stills) {
-    throw UsageError(fmt::format("-o is \"{}\", --at draws PNGs; name a file that ends in .png", name));
+    throw UsageError(fmt::format("-o is \"{}\": --at draws PNGs; name a file that ends in .png", name));
   } else if (extension == ".mp4") {
     plan.job.container = Container::mp4;
   } else if (extension == ".mkv") {
@@ -55,7 +56,7 @@ void choose_container(const FilmArguments& wish, const scenes::Scene& scene, Fil
     plan.job.output = path / "frame_%05d.png";
     plan.job.container = Container::png_sequence;
   } else {
-    throw UsageError(fmt::format("-o is \"{}\", must end in .mp4, .mkv or .png, or name a folder", name));
+    throw UsageError(fmt::format("-o is \"{}\": must end in .mp4, .mkv or .png, or name a folder", name));
   }
 }
 
@@ -73,29 +74,51 @@ void choose_size(const FilmArguments& wish, const scenes::Scene& scene, FilmPlan
   }
 }
 
-/// With --camera the whole run is seen from there.
-void choose_camera(const FilmArguments& wish, scenes::Scene& scene) {
-  if (wish.camera.empty()) return;
-  std::vector<std::string> names;
-  for (const render::Camera& camera : scene.stage.cameras) names.push_back(camera.name);
-  if (std::find(names.begin(), names.end(), wish.camera) == names.end()) {
-    const std::string near = scenes::nearest(wish.camera, names);
-    throw UsageError(fmt::format("--camera is \"{}\", the scene has {}{}", wish.camera, fmt::join(names, ", "),
-                                 near.empty() ? "" : fmt::format("; did you mean {}?", near)));
+/// With a camera the whole run is seen from there.
+void choose_camera(const std::string& wanted, const scenes::Scene& scene, render::Stage& stage) {
+  const auto named = [&wanted](const render::Camera& camera) { return camera.name == wanted; };
+  if (std::none_of(stage.cameras.begin(), stage.cameras.end(), named)) {
+    if (const auto preset = preset_camera(wanted, scene)) {
+      stage.cameras.push_back(*preset);
+    } else {
+      std::vector<std::string> names;
+      for (const render::Camera& camera : stage.cameras) names.push_back(camera.name);
+      const std::vector<std::string> presets = preset_names();
+      std::vector<std::string> all = names;
+      all.insert(all.end(), presets.begin(), presets.end());
+      const std::string near = scenes::nearest(wanted, all);
+      throw UsageError(fmt::format("--camera is \"{}\": the scene has {}; presets: {}{}", wanted, fmt::join(names, ", "),
+                                   fmt::join(presets, ", "), near.empty() ? "" : fmt::format("; did you mean {}?", near)));
+    }
   }
   // the first camera is the one that films the whole run when there are no shots
-  const auto chosen = std::find_if(scene.stage.cameras.begin(), scene.stage.cameras.end(),
-                                   [&wish](const render::Camera& camera) { return camera.name == wish.camera; });
-  std::rotate(scene.stage.cameras.begin(), chosen, chosen + 1);
-  scene.stage.shots.clear();
-  scene.stage.cards.clear();
+  const auto chosen = std::find_if(stage.cameras.begin(), stage.cameras.end(), named);
+  std::rotate(stage.cameras.begin(), chosen, chosen + 1);
+  stage.shots.clear();
+  stage.cards.clear();
+}
+
+/// The output with a camera's name in it, where several cameras write.
+fs::path with_camera(const fs::path& output, Container container, const std::string& camera) {
+  if (container == Container::png_sequence) return output.parent_path() / camera / output.filename();
+  return output.parent_path() / (output.stem().string() + "_" + camera + output.extension().string());
+}
+
+/// A name that can stand in a file's name.
+std::string as_file_name(std::string camera) {
+  for (char& c : camera)
+    if (c == '/' || c == '%' || c == '\0') c = '_';
+  return camera;
 }
 
 void choose_times(const FilmArguments& wish, const scenes::Scene& scene, FilmPlan& plan) {
   const double duration = scene.model.settings.duration;
   for (const std::string& text : wish.at) {
-    plan.stills.push_back(parse_time("--at", text));
-    if (plan.stills.back() > duration) throw UsageError(fmt::format("--at is \"{}\", the scene ends at {} s", text, duration));
+    const double time = parse_time("--at", text);
+    // the same moment twice is one picture
+    if (std::find(plan.stills.begin(), plan.stills.end(), time) != plan.stills.end()) continue;
+    plan.stills.push_back(time);
+    if (time > duration) throw UsageError(fmt::format("--at is \"{}\": the scene ends at {} s", text, duration));
   }
   const bool cut = !wish.from.empty() || !wish.to.empty() || !wish.frames.empty();
   if (cut && !plan.stills.empty()) throw UsageError("--at draws stills; leave --from, --to and --frames away");
@@ -162,7 +185,11 @@ void declare_film(Arguments& arguments, FilmArguments& film) {
       "-o,--output", film.output, "OUT",
       "OUT.mp4, OUT.mkv (lossless), a folder or pattern (frame_%05d.png), or one PNG with --at; default: the scene's name");
   arguments.repeatable("--at", film.at, "TIME", "draw a still at this simulated time: 0.2s");
-  arguments.option("--camera", film.camera, "NAME", "the whole run from this camera instead of the scene's shots");
+  arguments.repeatable("--camera", film.cameras, "NAME",
+                       "the whole run from this camera of the scene, or top, side, front, driver, follow; several: an output each");
+  arguments.option("--eye", film.eye, "\"X Y Z m\"", "a camera of one's own: where it stands, in world axes");
+  arguments.option("--look-at", film.look_at, "\"X Y Z m\"", "what it looks at; default: the middle of what the scene holds");
+  arguments.option("--lens", film.lens, "\"35 mm\"", "its focal length, as on a 36 x 24 mm film");
   arguments.option("--from", film.from, "TIME", "leave out what comes before this simulated time");
   arguments.option("--to", film.to, "TIME", "leave out what comes after it");
   arguments.option("--frames", film.frames, "LIST", "only these frames of the film, counted from 0: 7, 1-100, 1-100x5, 10-, lists");
@@ -174,11 +201,14 @@ void declare_film(Arguments& arguments, FilmArguments& film) {
   arguments.flag("--resume", film.resume, "begin, or go on where the same command was stopped; keeps every finished frame");
 }
 
-FilmPlan plan_film(const FilmArguments& wish, scenes::Scene& scene) {
+namespace {
+
+/// `camera` is the one that stands in the output's name, empty: none does.
+FilmPlan plan_film(const FilmArguments& wish, const scenes::Scene& scene, const render::Stage& stage, const std::string& camera) {
   FilmPlan plan;
-  choose_camera(wish, scene);
   choose_times(wish, scene, plan);
   choose_container(wish, scene, plan);
+  if (!camera.empty()) plan.job.output = with_camera(plan.job.output, plan.job.container, as_file_name(camera));
   choose_size(wish, scene, plan);
   plan.job.fps = wish.fps.empty() ? scene.output.fps : parse_number("--fps", wish.fps, 1, kLargestRate);
   plan.job.quality = quality_of(wish.quality.empty() ? scene.output.quality : wish.quality);
@@ -193,8 +223,34 @@ FilmPlan plan_film(const FilmArguments& wish, scenes::Scene& scene) {
   if (wish.resume && wish.overwrite) throw UsageError("--resume keeps what --overwrite replaces; give one of them");
   refuse_existing_files(plan);
   // refuses a film too long for its rate
-  if (plan.stills.empty()) render::Film(scene.stage, scene.model.settings.duration, plan.job.fps);
+  if (plan.stills.empty()) render::Film(stage, scene.model.settings.duration, plan.job.fps);
   return plan;
+}
+
+}  // namespace
+
+std::vector<View> plan_views(const FilmArguments& wish, const scenes::Scene& scene) {
+  std::vector<std::string> cameras = wish.cameras;
+  render::Stage stage = scene.stage;
+  const std::string own = "eye";
+  if (!wish.eye.empty()) {
+    std::erase_if(stage.cameras, [&own](const render::Camera& camera) { return camera.name == own; });
+    stage.cameras.push_back(camera_at(own, wish.eye, wish.look_at, wish.lens, scene));
+    cameras.push_back(own);
+  } else if (!wish.look_at.empty() || !wish.lens.empty()) {
+    throw UsageError("--look-at and --lens belong to --eye: give the camera's place as well");
+  }
+  std::vector<View> out;
+  if (cameras.empty()) out.push_back({plan_film(wish, scene, stage, ""), stage});
+  for (const std::string& camera : cameras) {
+    if (std::count(cameras.begin(), cameras.end(), camera) > 1)
+      throw UsageError(fmt::format("--camera {} is given twice; once is enough", camera));
+    View view{{}, stage};
+    choose_camera(camera, scene, view.stage);
+    view.plan = plan_film(wish, scene, view.stage, cameras.size() > 1 ? camera : "");
+    out.push_back(std::move(view));
+  }
+  return out;
 }
 
 void prepare_output(const FilmPlan& plan) {

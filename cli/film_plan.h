@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ struct FilmArguments {
   std::string output;
   std::string size;
   std::string fps;
-  std::string camera;
+  std::vector<std::string> cameras;
+  std::string eye, look_at, lens;  // a camera of the command line
   std::string from;
   std::string to;
   std::string frames;
@@ -41,8 +43,16 @@ struct FilmPlan {
   bool whole = true;               // nothing was asked to be left out
 };
 
-/// Throws UsageError; refuses what exists. With --camera the scene's shots give way to the whole run from that camera.
-FilmPlan plan_film(const FilmArguments&, scenes::Scene&);
+/// What one camera shows, or the scene's shots: one simulation serves them all.
+struct View {
+  FilmPlan plan;
+  render::Stage stage;
+};
+
+/// One view a camera asked for; one of the scene's shots where none was. Where there are several, each has the camera's name in its
+/// output: OUT_side.mp4, OUT_side_0.200s.png, OUT/side/frame_00000.png. Throws UsageError; refuses what exists. With --camera the
+/// scene's shots give way to the whole run from that camera.
+std::vector<View> plan_views(const FilmArguments&, const scenes::Scene&);
 
 /// Makes the folders the film goes into. Throws MachineError when they cannot be written.
 void prepare_output(const FilmPlan&);

@@ -4,9 +4,12 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include "cli/command.h"
+#include "cli/commit.h"
 #include "cli/exit.h"
+#include "cli/findings.h"
 #include "cli/process.h"
 #include "render/error.h"
 #include "render/frames.h"
@@ -15,7 +18,9 @@
 namespace {
 
 int report(const char* message, cli::ExitCode code) {
-  fmt::print(stderr, "crashreel: {}\n", message);
+  // a command tells its own name: "crashreel render: unknown option --siz"
+  const bool named = std::string_view(message).starts_with("crashreel ");
+  fmt::print(stderr, "{}{}\n", named ? "" : "crashreel: ", message);
   return code;
 }
 
@@ -23,13 +28,14 @@ int report(const char* message, cli::ExitCode code) {
 
 int main(int argc, char** argv) {
   cli::prepare_process();
+  cli::set_commit(cli::commit_of_build());
   try {
     const int code = cli::run_command_line(argc, argv);
     // a full disk or a closed pipe shows only when the buffer is written
     if (std::fflush(stdout) != 0) return report("writing the result to standard output failed", cli::kMachineFailed);
     return code;
   } catch (const scenes::SceneErrors& errors) {
-    for (const std::string& line : errors.lines) fmt::print(stderr, "{}\n", line);
+    for (const scenes::Finding& finding : errors.findings) fmt::print(stderr, "{}", cli::finding_text(finding));
     return cli::kAuthorErred;
   } catch (const cli::UsageError& error) {
     return report(error.what(), cli::kAuthorErred);

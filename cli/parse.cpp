@@ -48,14 +48,13 @@ constexpr int kLargestSide = 16384;  // [px] what the renderer's targets can hol
 }  // namespace
 
 double parse_time(const std::string& option, const std::string& text) {
-  double seconds = 0;
-  if (!read_whole(text, seconds)) {
-    const scenes::Quantity quantity = scenes::parse_quantity(text, scenes::Dimension::time);
-    if (!quantity.problem.empty()) throw UsageError(fmt::format("{} is \"{}\", {}", option, text, quantity.problem));
-    seconds = quantity.value;
-  }
+  const scenes::Quantity quantity = scenes::parse_quantity(text, scenes::Dimension::time);
+  // seconds may be left out on the command line: there is nothing else they could be
+  const bool bare = quantity.bare.has_value();
+  if (!quantity.problem.empty() && !bare) throw UsageError(fmt::format("{} is \"{}\": {}", option, text, quantity.problem));
+  const double seconds = bare ? *quantity.bare : quantity.value;
   if (!std::isfinite(seconds) || seconds < 0)
-    throw UsageError(fmt::format("{} is \"{}\", must be a time from 0 on, like 0.2s", option, text));
+    throw UsageError(fmt::format("{} is \"{}\": must be a time from 0 on, like 0.2s", option, text));
   return seconds;
 }
 
@@ -65,10 +64,10 @@ std::pair<int, int> parse_size(const std::string& option, const std::string& tex
   int height = 0;
   if (cross == std::string::npos || !read_whole(std::string_view(text).substr(0, cross), width) ||
       !read_whole(std::string_view(text).substr(cross + 1), height)) {
-    throw UsageError(fmt::format("{} is \"{}\", must be WIDTHxHEIGHT, like 1280x720", option, text));
+    throw UsageError(fmt::format("{} is \"{}\": must be WIDTHxHEIGHT, like 1280x720", option, text));
   }
   if (width < 16 || height < 16 || width > kLargestSide || height > kLargestSide) {
-    throw UsageError(fmt::format("{} is \"{}\", each side must lie in 16..{} pixels", option, text, kLargestSide));
+    throw UsageError(fmt::format("{} is \"{}\": each side must lie in 16..{} pixels", option, text, kLargestSide));
   }
   return {width, height};
 }
@@ -80,7 +79,7 @@ std::vector<FrameRange> parse_frames(const std::string& option, const std::strin
     const std::optional<FrameRange> range = read_range(std::string_view(text).substr(at, comma - at));
     if (!range) {
       throw UsageError(fmt::format(
-          "{} is \"{}\", must be frames counted from 0: 7, 10-20, 10-20x5 (every fifth), 10-, -20, or a list of these with commas",
+          "{} is \"{}\": must be frames counted from 0: 7, 10-20, 10-20x5 (every fifth), 10-, -20, or a list of these with commas",
           option, text));
     }
     out.push_back(*range);
@@ -92,7 +91,7 @@ std::vector<FrameRange> parse_frames(const std::string& option, const std::strin
 int parse_integer(const std::string& option, const std::string& text, int lower, int upper) {
   int value = 0;
   if (!read_whole(text, value) || value < lower || value > upper) {
-    throw UsageError(fmt::format("{} is \"{}\", must be a whole number in {}..{}", option, text, lower, upper));
+    throw UsageError(fmt::format("{} is \"{}\": must be a whole number in {}..{}", option, text, lower, upper));
   }
   return value;
 }
@@ -100,7 +99,7 @@ int parse_integer(const std::string& option, const std::string& text, int lower,
 double parse_number(const std::string& option, const std::string& text, double lower, double upper) {
   double value = 0;
   if (!read_whole(text, value) || !(value >= lower && value <= upper)) {
-    throw UsageError(fmt::format("{} is \"{}\", must be a number in {}..{}", option, text, lower, upper));
+    throw UsageError(fmt::format("{} is \"{}\": must be a number in {}..{}", option, text, lower, upper));
   }
   return value;
 }

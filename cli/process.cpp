@@ -124,8 +124,21 @@ const char* name_of(int stop) {
 
 }  // namespace
 
+namespace {
+
+std::string& what_is_kept() {
+  static std::string words = "nothing was kept";
+  return words;
+}
+
+}  // namespace
+
 Interrupted::Interrupted(int number)
-    : std::runtime_error(fmt::format("stopped by {}; --resume goes on from here", name_of(number))), signal(number) {}
+    : std::runtime_error(fmt::format("stopped by {}; {}", name_of(number), what_is_kept())), signal(number) {}
+
+void tell_when_stopped(const std::string& kept) {
+  what_is_kept() = kept;
+}
 
 void prepare_process() {
   std::set_terminate(end_without_memory);

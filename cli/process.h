@@ -21,6 +21,9 @@ void prepare_process();
 /// Our own moves of the cursor, past what makes texts harmless. Lost where it cannot be written.
 void write_to_terminal(const std::string&);
 
+/// What the message of Interrupted says is left of the work: "nothing was kept" unless a command says otherwise.
+void tell_when_stopped(const std::string& kept);
+
 /// Whether a signal asked to stop. Cheap: for loops.
 bool interrupted();
 /// Throws Interrupted if one did.

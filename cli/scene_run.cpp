@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "cli/estimate.h"
 #include "cli/exit.h"
+#include "cli/foresight.h"
 #include "cli/process.h"
 #include "engine/simulate.h"
 #include "scenes/loader/value.h"
@@ -18,9 +22,40 @@ std::string as_override(const std::string& wish) {
   const std::size_t equals = wish.find('=');
   const std::string state = equals == std::string::npos ? "" : wish.substr(equals + 1);
   if (equals == 0 || (state != "on" && state != "off" && state != "auto")) {
-    throw UsageError(fmt::format("--effects is \"{}\", must be NAME=on, NAME=off or NAME=auto", wish));
+    throw UsageError(fmt::format("--effects is \"{}\": must be NAME=on, NAME=off or NAME=auto", wish));
   }
   return fmt::format("simulation.effects.{}={}", wish.substr(0, equals), state == "auto" ? "automatic" : state);
+}
+
+/// A run's folder stands for the scene it was made of, with the values it was run with. Nothing when it is no such folder.
+std::optional<SceneArguments> scene_of_run(const SceneArguments& wish) {
+  namespace fs = std::filesystem;
+  std::error_code problem;
+  if (!fs::is_directory(wish.scene, problem)) return std::nullopt;
+  std::ifstream file(fs::path(wish.scene) / "summary.json");
+  const auto summary = file ? nlohmann::json::parse(file, nullptr, false) : nlohmann::json();
+  if (!summary.is_object() || !summary.contains("scene") || !summary["scene"].is_object()) return std::nullopt;
+  SceneArguments out = wish;
+  const std::vector<std::string> run_with = summary["scene"].value("overrides", std::vector<std::string>());
+  out.scene = summary["scene"].value("path", "");
+  out.set = run_with;
+  const auto refuse = [&](const std::string& why) {
+    throw UsageError(fmt::format("{} holds a run of {}, {}; name a scene file", wish.scene, out.scene, why));
+  };
+  if (!fs::is_regular_file(out.scene, problem)) refuse("which is not there (paths are as in the folder where it was run)");
+  if (summary["scene"].value("sha256", "") !=
+      scenes::load(scenes::read_scene_file(out.scene, {wish.allow.begin(), wish.allow.end()}), run_with).sha256)
+    refuse("which has been changed since");
+  out.set.insert(out.set.end(), wish.set.begin(), wish.set.end());
+  return out;
+}
+
+/// What --set changed, for the titles of pictures: a film must not say 40 km/h over a run at 50.
+std::string told_overrides(const std::vector<std::string>& overrides) {
+  constexpr std::size_t kMost = 3, kLongest = 80;
+  std::string out = fmt::format("{}", fmt::join(overrides, ", "));
+  if (overrides.size() > kMost || out.size() > kLongest) out = fmt::format("{} values of the file", overrides.size());
+  return fmt::format(" [changed: {}]", out);
 }
 
 /// --verbose: what the run is made of, and what each part of it cost.
@@ -66,7 +101,8 @@ ShowProgress progress_of(const SceneArguments& scene) {
   return scene.progress == "always" ? ShowProgress::always : ShowProgress::automatic;
 }
 
-scenes::Scene load_scene(const SceneArguments& wish, double memory_ceiling) {
+scenes::Scene load_scene(const SceneArguments& given, double memory_ceiling) {
+  const SceneArguments wish = scene_of_run(given).value_or(given);
   std::vector<std::string> overrides = wish.set;
   for (const std::string& effect : wish.effects) overrides.push_back(as_override(effect));
   const LoadingLimit limit(memory_ceiling);
@@ -75,6 +111,10 @@ scenes::Scene load_scene(const SceneArguments& wish, double memory_ceiling) {
     for (const std::string& warning : scene.warnings) fmt::print(stderr, "{}\n", warning);
   }
   scene.stage.provenance = fmt::format("crashreel {} | {}", CRASHREEL_VERSION, scene.stage.provenance);
+  if (!wish.set.empty()) {
+    scene.title += told_overrides(wish.set);
+    scene.stage.title = scene.title;
+  }
   for (const auto& [name, force] : scene.model.settings.effects) {
     if (force == engine::Force::off) scene.stage.warnings.push_back(fmt::format("effect {} switched off by the author", name));
   }
@@ -116,6 +156,8 @@ engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan
   for (const std::string& warning : scene.stage.warnings) {
     if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
   }
+  if (!wish.quiet && nothing_touched(scene.model, recording))
+    fmt::print(stderr, "crashreel: note: nothing touched: no vehicle or person met anything but the ground in this run\n");
   if (!wish.quiet) {
     for (const std::string& warning : warnings) fmt::print(stderr, "crashreel: warning: {}\n", warning);
   }

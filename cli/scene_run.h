@@ -33,7 +33,8 @@ void declare_scene(Arguments&, SceneArguments&);
 void declare_progress(Arguments&, SceneArguments&);
 ShowProgress progress_of(const SceneArguments&);
 
-/// Loads the scene, tells its warnings, and puts program version and forced effects where every picture shows them.
+/// Loads the scene (or that of a finished run whose folder is named, with the values it was run with), tells its warnings, and puts
+/// program version and forced effects where every picture shows them.
 /// With a ceiling [byte] no file that the scene names takes more memory than that while it is read.
 scenes::Scene load_scene(const SceneArguments&, double memory_ceiling = 0);
 

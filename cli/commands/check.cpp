@@ -6,6 +6,8 @@
 
 #include "cli/command.h"
 #include "cli/exit.h"
+#include "cli/findings.h"
+#include "cli/foresight.h"
 #include "cli/scene_run.h"
 #include "scenes/scene.h"
 
@@ -22,16 +24,26 @@ struct CheckWish {
 
 struct Verdict {
   std::string scene;
-  std::vector<std::string> errors;
-  std::vector<std::string> warnings;
+  std::vector<scenes::Finding> errors;
+  std::vector<scenes::Finding> warnings;
 };
 
 Verdict verdict_of(const std::string& file, const CheckWish& wish) {
+  Verdict out{file, {}, {}};
   try {
-    return {file, {}, scenes::load(scenes::read_scene_file(file, {wish.allow.begin(), wish.allow.end()}), wish.set).warnings};
+    const scenes::Scene scene = scenes::load(scenes::read_scene_file(file, {wish.allow.begin(), wish.allow.end()}), wish.set);
+    for (const std::string& warning : scene.warnings) out.warnings.push_back(finding_of(warning, "odd"));
+    for (const std::string& sentence : foresee(scene)) out.warnings.push_back({file, 0, 0, "foreseen", sentence});
   } catch (const scenes::SceneErrors& found) {
-    return {file, found.lines, {}};
+    out.errors = found.findings;
   }
+  return out;
+}
+
+nlohmann::ordered_json as_json(const std::vector<scenes::Finding>& findings) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const scenes::Finding& finding : findings) out.push_back(finding_json(finding));
+  return out;
 }
 
 int check(const CheckWish& wish) {
@@ -41,13 +53,14 @@ int check(const CheckWish& wish) {
     const Verdict verdict = verdict_of(file, wish);
     const bool good = verdict.errors.empty();
     all_good = all_good && good;
-    verdicts.push_back({{"scene", file}, {"ok", good}, {"errors", verdict.errors}, {"warnings", verdict.warnings}});
+    verdicts.push_back(
+        {{"scene", file}, {"ok", good}, {"errors", as_json(verdict.errors)}, {"warnings", as_json(verdict.warnings)}});
     if (wish.json) continue;
-    for (const std::string& line : verdict.errors) fmt::print(stderr, "{}\n", line);
-    for (const std::string& line : verdict.warnings) {
-      if (!wish.quiet) fmt::print(stderr, "{}\n", line);
+    for (const scenes::Finding& error : verdict.errors) fmt::print(stderr, "{}", finding_text(error));
+    for (const scenes::Finding& warning : verdict.warnings) {
+      if (!wish.quiet) fmt::print(stderr, "{}", finding_text(warning));
     }
-    if (good && !wish.quiet) fmt::print("{}: OK\n", file);
+    if (good && !wish.quiet) fmt::print("{}: OK{}\n", file, verdict.warnings.empty() ? "" : ", with warnings");
   }
   if (wish.json) fmt::print("{}\n", verdicts.dump(2));
   return all_good ? kDone : kAuthorErred;

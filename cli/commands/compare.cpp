@@ -30,7 +30,7 @@ render::Limits limits_of(const CompareWish& wish) {
   render::Limits limits;
   for (const std::string& text : wish.limits) {
     const std::size_t equals = text.find('=');
-    if (equals == std::string::npos) throw UsageError(fmt::format("--limit is \"{}\", must be like rms=0.5", text));
+    if (equals == std::string::npos) throw UsageError(fmt::format("--limit is \"{}\": must be like rms=0.5", text));
     set_limit(limits, text.substr(0, equals), parse_number("--limit " + text.substr(0, equals), text.substr(equals + 1), 0, 1e9));
   }
   return limits;
@@ -41,7 +41,7 @@ std::vector<render::Mask> masks_of(const CompareWish& wish) {
   for (const std::string& text : wish.masks) {
     const std::size_t x = text.find('x'), first = text.find('+'), second = text.find('+', first + 1);
     if (x == std::string::npos || first == std::string::npos || second == std::string::npos || x > first)
-      throw UsageError(fmt::format("--mask is \"{}\", must be WxH+X+Y in pixels, like 120x40+0+500", text));
+      throw UsageError(fmt::format("--mask is \"{}\": must be WxH+X+Y in pixels, like 120x40+0+500", text));
     const auto number = [&text](std::size_t from, std::size_t to, int least) {
       return parse_integer("--mask", text.substr(from, to - from), least, 16384);
     };

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/camera_presets.h"
 #include "cli/command.h"
 #include "cli/estimate.h"
 #include "cli/exit.h"
@@ -45,24 +46,35 @@ void list_cameras(const scenes::Scene& scene, bool json) {
       fmt::print("{:<16} {}{}\n", camera.name, kKinds[static_cast<int>(camera.kind)],
                  camera.follow.empty() ? "" : " " + camera.follow);
   }
-  if (json) fmt::print("{}\n", cameras.dump(2));
+  if (json)
+    fmt::print("{}\n", cameras.dump(2));
+  else
+    fmt::print(stderr, "besides these every scene has {}\n", fmt::join(preset_names(), ", "));
 }
 
-int tell_estimate(const scenes::Scene& scene, const FilmPlan& plan, bool json) {
-  const Estimate estimate = estimate_film(scene, plan_of(scene), plan);
-  const double step = scene.model.settings.step;
-  if (json) {
-    nlohmann::ordered_json out = {{"output", plan.job.output.string()},
-                                  {"frames", estimate.frames},
-                                  {"width", plan.job.width},
-                                  {"height", plan.job.height},
-                                  {"fps", plan.job.fps}};
-    out.update(estimate_json(estimate));
-    fmt::print("{}\n", out.dump(2));
-  } else {
-    fmt::print("{}: {} frames of {}x{}, {}\n", plan.job.output.string(), estimate.frames, plan.job.width, plan.job.height,
-               estimate_text(estimate, step));
+/// The scene as one view shows it.
+scenes::Scene seen_by(const View& view, const scenes::Scene& scene) {
+  scenes::Scene out = scene;
+  out.stage = view.stage;
+  return out;
+}
+
+int tell_estimates(const scenes::Scene& scene, const std::vector<View>& views, bool json) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const View& view : views) {
+    const render::FilmJob& job = view.plan.job;
+    const Estimate estimate = estimate_film(seen_by(view, scene), plan_of(scene), view.plan);
+    all.push_back({{"output", job.output.string()},
+                   {"frames", estimate.frames},
+                   {"width", job.width},
+                   {"height", job.height},
+                   {"fps", job.fps}});
+    all.back().update(estimate_json(estimate));
+    if (!json)
+      fmt::print("{}: {} frames of {}x{}, {}\n", job.output.string(), estimate.frames, job.width, job.height,
+                 estimate_text(estimate, scene.model.settings.step));
   }
+  if (json) fmt::print("{}\n", (all.size() == 1 ? all.front() : all).dump(2));
   return kDone;
 }
 
@@ -126,48 +138,96 @@ Drawn draw_film(const FilmPlan& plan, const render::Stage& stage, const engine::
   return drawn;
 }
 
-int render_scene(const RenderWish& wish, const Arguments& arguments) {
-  const double start = clock_seconds();
-  const double ceiling = wish.max_memory.empty() ? 0 : parse_bytes("--max-memory", wish.max_memory);
-  scenes::Scene scene = load_scene(wish.scene, ceiling);
-  if (wish.list_cameras) {
-    list_cameras(scene, wish.scene.json);
-    return kDone;
+/// What can be gone on with when the program is stopped.
+std::string kept_of(const FilmPlan& plan) {
+  const bool video = render::is_video(plan.job.container);
+  if (plan.resume) return "finished frames are kept, and the same command goes on from there";
+  if (video) return "nothing was kept; with --resume a film keeps its finished frames";
+  return "finished pictures are kept; with --resume in place of --overwrite the same command draws the rest";
+}
+
+void hold_to_memory(std::vector<View>& views, double ceiling, const scenes::Scene& scene, bool quiet) {
+  for (View& view : views)
+    cli::hold_to_memory(estimate_film(seen_by(view, scene), plan_of(scene), view.plan), ceiling, view.plan.job.workers, quiet);
+}
+
+/// Folders made and held against other runs.
+std::vector<std::unique_ptr<OutputLock>> held(const std::vector<View>& views) {
+  std::vector<std::unique_ptr<OutputLock>> locks;
+  for (const View& view : views) {
+    const FilmPlan& plan = view.plan;
+    prepare_output(plan);
+    locks.push_back(
+        std::make_unique<OutputLock>(plan.job.output, [&plan](const std::string& name) { return is_file_of(plan, name); }));
+    refuse_existing_files(plan);  // another run may have held the lock, and be done
   }
-  // what cannot be drawn or written is told before the work, not after it
-  FilmPlan plan = plan_film(wish.film, scene);
-  const bool video = render::is_video(plan.job.container) && plan.stills.empty();
-  plan.job.look_around = check_interrupted;
-  if (wish.dry_run) return tell_estimate(scene, plan, wish.scene.json);
-  if (ceiling > 0) hold_to_memory(estimate_film(scene, plan_of(scene), plan), ceiling, plan.job.workers, wish.scene.quiet);
-  prepare_output(plan);
-  const OutputLock lock(plan.job.output, [&plan](const std::string& name) { return is_file_of(plan, name); });
-  refuse_existing_files(plan);  // another run may have held the lock, and be done
+  return locks;
+}
 
-  const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
-  plan.job.metadata["fingerprint"] =
-      fingerprint(video ? ResultKind::whole : ResultKind::frame, scene, arguments, engine::hash(recording));
-  if (recording.failure) scene.stage.warnings.push_back(fmt::format("the model diverged at {:.3f} s", recording.failure->time));
-  const Drawn drawn = plan.stills.empty() ? draw_film(plan, scene.stage, recording, progress_of(wish.scene))
-                                          : draw_stills(plan, scene.stage, recording);
+void mark_with_fingerprints(std::vector<View>& views, const scenes::Scene& scene, const Arguments& arguments,
+                            const engine::Recording& recording) {
+  for (View& view : views) {
+    const bool video = render::is_video(view.plan.job.container) && view.plan.stills.empty();
+    view.plan.job.metadata["fingerprint"] =
+        fingerprint(video ? ResultKind::whole : ResultKind::frame, scene, arguments, engine::hash(recording));
+  }
+}
 
-  const double seconds = clock_seconds() - start;
+/// All views of one recording, one after the other.
+Drawn draw_views(const std::vector<View>& views, const engine::Recording& recording, ShowProgress show) {
+  Drawn all;
+  for (const View& view : views) {
+    render::Stage stage = view.stage;
+    if (recording.failure) stage.warnings.push_back(fmt::format("the model diverged at {:.3f} s", recording.failure->time));
+    const Drawn drawn =
+        view.plan.stills.empty() ? draw_film(view.plan, stage, recording, show) : draw_stills(view.plan, stage, recording);
+    all.files.insert(all.files.end(), drawn.files.begin(), drawn.files.end());
+    all.frames += drawn.frames;
+    add(drawn.cost, all.cost);
+  }
+  return all;
+}
+
+void tell_drawn(const RenderWish& wish, const render::FilmJob& job, const Drawn& drawn, const engine::Recording& recording,
+                double seconds) {
   if (wish.scene.json) {
     nlohmann::ordered_json out = {{"files", drawn.files},
                                   {"frames", drawn.frames},
-                                  {"width", plan.job.width},
-                                  {"height", plan.job.height},
-                                  {"fps", plan.job.fps},
+                                  {"width", job.width},
+                                  {"height", job.height},
+                                  {"fps", job.fps},
                                   {"simulated_s", recording.end_time()},
                                   {"simulate_wall_s", recording.wall_s},
                                   {"wall_s", seconds}};
     if (wish.timings) out["timings"] = timings_json(drawn.cost);
     fmt::print("{}\n", out.dump(2));
-  } else {
-    if (wish.timings) fmt::print("{}", timings_text(drawn.cost));
-    fmt::print("{}: {} frame{}, {}x{}, {:.1f} s\n", fmt::join(drawn.files, ", "), drawn.frames, drawn.frames == 1 ? "" : "s",
-               plan.job.width, plan.job.height, seconds);
+    return;
   }
+  if (wish.timings) fmt::print("{}", timings_text(drawn.cost));
+  fmt::print("{}: {} frame{}, {}x{}, {:.1f} s\n", fmt::join(drawn.files, ", "), drawn.frames, drawn.frames == 1 ? "" : "s",
+             job.width, job.height, seconds);
+}
+
+int render_scene(const RenderWish& wish, const Arguments& arguments) {
+  const double start = clock_seconds();
+  const double ceiling = wish.max_memory.empty() ? 0 : parse_bytes("--max-memory", wish.max_memory);
+  const scenes::Scene scene = load_scene(wish.scene, ceiling);
+  if (wish.list_cameras) {
+    list_cameras(scene, wish.scene.json);
+    return kDone;
+  }
+  // what cannot be drawn or written is told before the work, not after it
+  std::vector<View> views = plan_views(wish.film, scene);
+  for (View& view : views) view.plan.job.look_around = check_interrupted;
+  if (wish.dry_run) return tell_estimates(scene, views, wish.scene.json);
+  if (ceiling > 0) hold_to_memory(views, ceiling, scene, wish.scene.quiet);
+  const auto locks = held(views);
+  tell_when_stopped(kept_of(views.front().plan));
+
+  const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
+  mark_with_fingerprints(views, scene, arguments, recording);
+  const Drawn drawn = draw_views(views, recording, progress_of(wish.scene));
+  tell_drawn(wish, views.front().plan.job, drawn, recording, clock_seconds() - start);
   return exit_code_of(recording);
 }
 

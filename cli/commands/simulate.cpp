@@ -16,6 +16,7 @@
 #include "cli/output/lock.h"
 #include "cli/output/summary.h"
 #include "cli/output/whole_file.h"
+#include "cli/process.h"
 #include "cli/scene_run.h"
 
 namespace cli {
@@ -82,6 +83,7 @@ int simulate(const SimulateWish& wish, const Arguments& arguments) {
 
   int no_workers = 0;
   if (ceiling > 0) hold_to_memory(estimate_results(scene, plan_of(scene)), ceiling, no_workers, wish.scene.quiet);
+  tell_when_stopped("nothing was kept; the same command begins anew");
   const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene, Costs::timed);
   const std::vector<engine::Metric> metrics = engine::measure(scene.model, recording);
   nlohmann::ordered_json summary = summary_json(scene, recording, metrics);

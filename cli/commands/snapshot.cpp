@@ -91,9 +91,11 @@ void tell(const Json& report, const fs::path& folder) {
     if (const std::string cause = cause_of(scene); !cause.empty()) fmt::print("           {}: {}\n", name, cause);
   }
   for (const Json& orphan : report["orphans"]) fmt::print("orphaned   no scene names {}\n", orphan["file"].get<std::string>());
-  std::string counts;
-  for (const auto& [verdict, count] : report["counts"].items())
-    if (count != 0 || verdict == "same") counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count.get<int>(), verdict);
+  const auto count = [&report](const char* verdict) { return report["counts"][verdict].get<int>(); };
+  std::string counts = fmt::format("{} pictures and {} measures unchanged", count("same"), count("measures_same"));
+  for (const auto& [verdict, number] : report["counts"].items())
+    if (number != 0 && verdict != "same" && verdict != "measures_same")
+      counts += fmt::format(", {} {}", number.get<int>(), verdict == "measures_off" ? "measures off" : verdict);
   fmt::print("{}; {}\n", counts, (folder / "report.html").string());
 }
 

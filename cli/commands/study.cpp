@@ -9,12 +9,14 @@
 #include "cli/output/lock.h"
 #include "cli/output/whole_file.h"
 #include "cli/parse.h"
+#include "cli/process.h"
 #include "cli/scene_run.h"
 #include "cli/study/effects.h"
 #include "cli/study/output.h"
 #include "cli/study/page.h"
 #include "cli/study/picture.h"
 #include "cli/study/pool.h"
+#include "cli/study/quantities.h"
 #include "cli/study/run.h"
 #include "cli/study/target.h"
 
@@ -89,6 +91,19 @@ Report of_accuracy(const StudyWish& wish, const scenes::Scene& scene, const stud
   return out;
 }
 
+/// What a study would notice only after its runs: one run shows which measures there are.
+void refuse_before_work(const StudyWish& wish, const scenes::Scene& scene) {
+  study::check_inputs(scene, wish.inputs);
+  if (wish.target.empty()) return;
+  const study::Target target = study::parse_target(wish.target);
+  std::vector<std::string> names;
+  SceneArguments quiet = wish.scene;
+  quiet.quiet = true;
+  const engine::Recording recording = run_scene(scene, plan_of(scene), quiet);
+  for (const study::Quantity& quantity : study::quantities_of(scene.model, recording)) names.push_back(quantity.name);
+  study::check_target(target, names);
+}
+
 int run(const StudyWish& wish) {
   const scenes::Scene scene = load_scene(wish.scene);
   plan_of(scene);  // refuses effects that do not exist
@@ -98,7 +113,6 @@ int run(const StudyWish& wish) {
   run.options.members = parse_integer("--ensemble", wish.ensemble, 0, 1000);
   run.inputs = wish.inputs;
   run.show = progress_of(wish.scene);
-  if (!wish.target.empty()) study::parse_target(wish.target);  // refused before the work, not after it
   if (wish.effects && wish.picture) throw UsageError("--effects and --picture are studies of their own; give one of them");
   make_writable_folder(run.folder);
   // one for all kinds of study: they share DIR/runs
@@ -107,6 +121,8 @@ int run(const StudyWish& wish) {
   });
   clear_parts(run.folder / "runs", [](const std::string& name) { return name.ends_with(".json"); });
   refuse_existing_report(wish, wish.effects ? "effects" : wish.picture ? "picture" : "study");
+  if (!wish.effects && !wish.picture) refuse_before_work(wish, scene);
+  tell_when_stopped(fmt::format("finished runs are kept in {}/runs, and the same command goes on from there", wish.folder));
   Report report = wish.effects ? of_effects(scene, run) : wish.picture ? of_picture(wish, scene) : of_accuracy(wish, scene, run);
   report.json["warnings"] = scene.stage.warnings;
   for (const std::string& warning : scene.stage.warnings) report.text += fmt::format("  warning: {}\n", warning);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/commit.h"
 #include "cli/exit.h"
 #include "render/renderer.h"
 
@@ -17,21 +18,33 @@ constexpr const char* kCompiler = "clang " __clang_version__;
 constexpr const char* kCompiler = "g++ " __VERSION__;
 #endif
 
+const char*& commit() {
+  static const char* name = "";
+  return name;
+}
+
 int version(bool json) {
   const std::string build = fmt::format("{}, {}", CRASHREEL_BUILD, kCompiler);
   const std::string gl = render::gl_description();
   if (json) {
     fmt::print(
         "{}\n",
-        nlohmann::ordered_json{{"version", CRASHREEL_VERSION}, {"build", build}, {"libraries", CRASHREEL_LIBRARIES}, {"gl", gl}}
+        nlohmann::ordered_json{
+            {"version", CRASHREEL_VERSION}, {"commit", commit()}, {"build", build}, {"libraries", CRASHREEL_LIBRARIES}, {"gl", gl}}
             .dump(2));
   } else {
-    fmt::print("crashreel {}\nbuild      {}\nlibraries  {}\ngl         {}\n", CRASHREEL_VERSION, build, CRASHREEL_LIBRARIES, gl);
+    const std::string from = *commit() ? fmt::format(" ({})", commit()) : "";
+    fmt::print("crashreel {}{}\nbuild      {}\nlibraries  {}\ngl         {}\n", CRASHREEL_VERSION, from, build, CRASHREEL_LIBRARIES,
+               gl);
   }
   return kDone;
 }
 
 }  // namespace
+
+void set_commit(const char* name) {
+  commit() = name;
+}
 
 std::function<int()> declare_version(Arguments& arguments) {
   const auto json = std::make_shared<bool>(false);

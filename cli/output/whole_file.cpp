@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 void make_writable_folder(const fs::path& folder) {
   const fs::path place = folder.empty() ? "." : folder;
   std::error_code problem;
-  if (!fs::exists(place, problem)) fs::create_directory(place, problem);
+  if (!fs::exists(place, problem)) fs::create_directories(place, problem);
   if (problem) throw MachineError(fmt::format("making the folder {}: {}", place.string(), problem.message()));
   if (!fs::is_directory(place)) throw MachineError(fmt::format("writing into {}: it is not a folder", place.string()));
   if (access(place.c_str(), W_OK | X_OK) != 0) {

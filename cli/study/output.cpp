@@ -59,6 +59,18 @@ Json judgement_json(const Judgement& j) {
           {"schemes_agree", j.second_scheme.empty() ? Json(nullptr) : Json(j.schemes_agree)}};
 }
 
+/// What each range of --input does to each measure: half the difference between its ends.
+std::string inputs_text(const Study& study) {
+  if (study.inputs.empty()) return "";
+  std::string out = "  ranges given with --input, and half of what each moves a measure by:\n";
+  for (const InputRange& input : study.inputs) {
+    out += fmt::format("  {} from {} to {}\n", input.key, input.low, input.high);
+    for (const auto& [quantity, half_width] : input.half_width)
+      if (!is_defect(quantity)) out += fmt::format("    {:<30} {:>12.3g}\n", quantity, half_width);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> sequence_letters(const SeriesResult& series) {
@@ -135,6 +147,7 @@ std::string study_text(const scenes::Scene& scene, const Study& study) {
                     std::isfinite(j.convergence.order) ? fmt::format("{:.2f}", j.convergence.order) : name_of(j.convergence.trust),
                     j.error_kind == "closed_form" ? fmt::format("closed form, error {:.3g}", a.error) : j.error_kind);
   }
+  out += inputs_text(study);
   return out;
 }
 

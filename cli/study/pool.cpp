@@ -48,7 +48,8 @@ std::vector<Outcome> run_all(const std::vector<Trial>& trials, const std::filesy
   std::stable_sort(waiting.begin(), waiting.end(), [&](std::size_t a, std::size_t b) { return trials[a].cost < trials[b].cost; });
   double total = 0, done = 0;
   for (const std::size_t i : waiting) total += trials[i].cost;
-  Progress progress("study", "units of work", total, show);
+  const bool alike = std::all_of(trials.begin(), trials.end(), [](const Trial& trial) { return trial.cost == 1; });
+  Progress progress("study", alike ? "runs" : "steps", total, show);
 
   const std::vector<int> on = cores();
   std::reverse(waiting.begin(), waiting.end());

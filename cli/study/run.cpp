@@ -61,7 +61,7 @@ InputRange parse_input(const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::size_t dots = text.find("..", equals == std::string::npos ? 0 : equals);
   if (equals == std::string::npos || equals == 0 || dots == std::string::npos)
-    throw UsageError(fmt::format("--input is \"{}\", must be PATH=LOW..HIGH, like vehicle.car.speed=\"39 km/h..41 km/h\"", text));
+    throw UsageError(fmt::format("--input is \"{}\": must be PATH=LOW..HIGH, like vehicle.car.speed=\"39 km/h..41 km/h\"", text));
   return {text.substr(0, equals), text.substr(equals + 1, dots - equals - 1), text.substr(dots + 2), {}};
 }
 
@@ -97,7 +97,27 @@ void fill_inputs(Study& study, const std::vector<std::pair<SettingResult, Settin
     }
 }
 
+/// The loader's complaint of `key=value`, without the words of the override it was given as.
+std::string complaint(const scenes::SceneErrors& errors) {
+  return errors.findings.front().what;
+}
+
 }  // namespace
+
+void check_inputs(const scenes::Scene& scene, const std::vector<std::string>& inputs) {
+  for (const std::string& text : inputs) {
+    const InputRange range = parse_input(text);
+    for (const std::string& end : {range.low, range.high}) {
+      std::vector<std::string> overrides = scene.overrides;
+      overrides.push_back(range.key + "=" + end);
+      try {
+        scenes::load(scene.file, overrides);
+      } catch (const scenes::SceneErrors& errors) {
+        throw UsageError(fmt::format("--input {}: {}", text, complaint(errors)));
+      }
+    }
+  }
+}
 
 std::vector<SettingResult> run_settings(const scenes::Scene& scene, const std::vector<Setting>& settings, const RunWish& wish) {
   Batch batch;

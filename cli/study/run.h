@@ -22,6 +22,10 @@ struct RunWish {
 /// Runs every setting with its ensemble, in parallel; what has been run before is not run again.
 std::vector<SettingResult> run_settings(const scenes::Scene&, const std::vector<Setting>&, const RunWish&);
 
+/// Refuses inputs that are no range, name no value of the scene, or that the scene does not take. Throws UsageError in words of
+/// --input.
+void check_inputs(const scenes::Scene&, const std::vector<std::string>& inputs);
+
 /// Runs and judges everything that means something for the scene. Throws UsageError for an input that is no range.
 Study run_study(const scenes::Scene&, const RunWish&);
 

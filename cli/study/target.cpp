@@ -9,6 +9,7 @@
 
 #include "cli/exit.h"
 #include "cli/study/words.h"
+#include "scenes/loader/value.h"
 
 namespace cli::study {
 namespace {
@@ -29,7 +30,7 @@ Target parse_target(const std::string& text) {
   const std::size_t equals = text.find('=');
   Target out;
   const auto refuse = [&text]() {
-    return UsageError(fmt::format("--target is \"{}\", must be a measure and its width, like throw_distance=0.05m", text));
+    return UsageError(fmt::format("--target is \"{}\": must be a measure and its width, like throw_distance=0.05m", text));
   };
   if (equals == std::string::npos || equals == 0) throw refuse();
   out.quantity = text.substr(0, equals);
@@ -57,6 +58,14 @@ std::string as_scene_lines(const std::vector<std::string>& overrides) {
   std::string out;
   for (const auto& [name, lines] : tables) out += fmt::format("[{}]\n{}", name, lines);
   return out;
+}
+
+void check_target(const Target& target, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    if (fits(name, target.quantity)) return;
+  const std::string near = scenes::nearest(target.quantity, names);
+  throw UsageError(fmt::format("--target: the scene has no measure {}{}; it has {}", target.quantity,
+                               near.empty() ? "" : fmt::format("; did you mean {}?", near), fmt::join(names, ", ")));
 }
 
 TargetAnswer search(const Study& study, const Target& target) {

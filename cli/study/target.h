@@ -15,6 +15,9 @@ struct Target {
 /// "throw_distance=0.05m", "throw_distance_m=5 cm". Throws UsageError.
 Target parse_target(const std::string&);
 
+/// Refuses a target that is none of the run's measures, by their names. Throws UsageError.
+void check_target(const Target&, const std::vector<std::string>& names);
+
 /// The answer in sentences. `setting` is null if no setting holds it.
 struct TargetAnswer {
   const SettingResult* setting = nullptr;

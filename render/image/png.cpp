@@ -30,9 +30,21 @@ using FilePtr = std::unique_ptr<std::FILE, FileCloser>;
 /// libpng reports by a callback that must not return: the message leaves as an exception, which its C code lets pass (built with
 /// unwind tables).
 [[noreturn]] void fail(png_structp png, png_const_charp message) {
-  throw RenderError(std::string(static_cast<const char*>(png_get_error_ptr(png))) + ": " + message);
+  // what libpng calls so is a full disk, a quota, a drive that went away
+  const std::string why = std::strcmp(message, "Write Error") == 0 && errno != 0 ? std::strerror(errno) : message;
+  throw RenderError(std::string(static_cast<const char*>(png_get_error_ptr(png))) + ": " + why);
 }
 void ignore(png_structp, png_const_charp) {}
+
+/// Another kind of picture is told by its name, not by what libpng stumbles over in it.
+void refuse_other_kinds(std::FILE* file, png_structp png) {
+  unsigned char head[8] = {};
+  const std::size_t size = std::fread(head, 1, sizeof head, file);
+  std::rewind(file);
+  if (size == sizeof head && png_sig_cmp(head, 0, sizeof head) == 0) return;
+  if (head[0] == 0xff && head[1] == 0xd8) png_error(png, "it is a JPEG picture, only PNG is read; convert it");
+  png_error(png, size == 0 ? "it is empty" : "it is no PNG picture; convert it to PNG");
+}
 
 /// libpng makes room for what a chunk announces before it looks whether it is there.
 void refuse_endless_chunks(std::FILE* file, png_structp png) {
@@ -63,6 +75,7 @@ class PngReader {
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, const_cast<char*>(what_.c_str()), fail, ignore);
     info_ = png_create_info_struct(png_);
     try {
+      refuse_other_kinds(file_.get(), png_);
       refuse_endless_chunks(file_.get(), png_);
     } catch (...) {
       png_destroy_read_struct(&png_, &info_, nullptr);

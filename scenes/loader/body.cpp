@@ -133,7 +133,8 @@ void read_body(Builder& builder, Reader r) {
   engine::Body body;
   body.name = r.text("name");
   if (body.name.empty()) r.fail("name", "must not be empty");
-  if (body.name == "world" || builder.body_index(body.name) >= 0) r.fail("name", "is taken; every body needs a name of its own");
+  if (body.name == "world" || builder.body_index(body.name) >= 0)
+    r.fail("name", "this name is already used; every body needs a name of its own");
   body.fixed = r.boolean("fixed");
   if (!r.has("mass") && !body.fixed) r.fail("mass", "is missing; write like mass = \"78 kg\", or fixed = true");
   if (r.has("mass")) body.mass = r.number("mass");

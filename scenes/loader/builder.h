@@ -97,10 +97,13 @@ render::MaterialKind read_material_kind(Reader&, std::string_view key);
 /// read: otherwise it would choose what on this machine is opened. Empty after an error, which is collected.
 std::filesystem::path asset_file(Builder&, Reader&, std::string_view key, const std::string& kind);
 
-/// The library beside the scene format: poses, persons, vehicles. CRASHREEL_HOME first, then where the program was built.
+/// Where library, assets and shipped scenes are: CRASHREEL_HOME, else share/crashreel beside the folder of the running program,
+/// else where the program was built.
 std::filesystem::path home_folder();
 /// scene's folder first, then the library: `name`.toml under `kind` ("persons"). None when there is no such file.
 std::optional<Value> library_entry(Builder&, const std::string& kind, const std::string& name);
 std::vector<std::string> library_names(const Builder&, const std::string& kind);
+/// "there is no such pose; did you mean "sitting"? Available: ...": of a `word` that names nothing under `kind`.
+std::string not_in_library(const Builder&, const std::string& kind, const std::string& word, const std::string& name);
 
 }  // namespace scenes

@@ -230,10 +230,7 @@ Figure read_figure(Builder& builder, Reader& person, PersonSize& size) {
   const std::string name = person.text("figure");
   const auto tree = library_entry(builder, "persons", name);
   if (!tree) {
-    const auto names = library_names(builder, "persons");
-    const std::string guess = nearest(name, names);
-    person.fail("figure", fmt::format("is not in the library of persons ({}){}", fmt::join(names, ", "),
-                                      guess.empty() ? "" : fmt::format("; did you mean \"{}\"?", guess)));
+    person.fail("figure", not_in_library(builder, "persons", "figure", name));
     return {};
   }
   const std::size_t errors_before = builder.errors.count();

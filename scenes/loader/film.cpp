@@ -163,7 +163,7 @@ void read_camera(Builder& builder, Reader& r) {
   render::Camera camera;
   camera.name = r.text("name");
   for (const render::Camera& other : builder.scene.stage.cameras)
-    if (other.name == camera.name) r.fail("name", "is taken; every camera needs a name of its own");
+    if (other.name == camera.name) r.fail("name", "this name is already used; every camera needs a name of its own");
   camera.kind = static_cast<render::CameraKind>(r.choice("kind"));
   camera.position = r.vector("position");
   camera.target = r.vector("target");

@@ -67,14 +67,28 @@ void refuse_crowds(const Value& value, const std::string& key) {
 }
 
 void collect_names(Builder& builder, const Value& root) {
+  std::map<std::string, std::string> taken;  // by what
   for (const char* list : {"vehicle", "person", "body"}) {
     const Value* found = root.find(list);
     if (!found) continue;
     for (const Value& item : found->items) {
       const Value* name = item.find("name");
-      if (name && name->kind == Value::Kind::text) builder.declared.push_back(name->text);
+      if (!name || name->kind != Value::Kind::text) continue;
+      builder.declared.push_back(name->text);
+      // two of one kind are told of by its reader
+      const auto [first, fresh] = taken.try_emplace(name->text, list);
+      if (fresh || first->second == list) continue;
+      builder.errors.add(name->place, fmt::format("{}.name \"{}\" is already used by a {}; every vehicle, person and body needs a "
+                                                  "name of its own",
+                                                  list, name->text, first->second));
     }
   }
+}
+
+std::vector<std::string> texts_of(const std::vector<Finding>& findings) {
+  std::vector<std::string> out;
+  for (const Finding& finding : findings) out.push_back(finding.text());
+  return out;
 }
 
 void read_closed_form(Builder& builder, std::optional<Reader> reader) {
@@ -84,8 +98,15 @@ void read_closed_form(Builder& builder, std::optional<Reader> reader) {
 
 }  // namespace
 
-SceneErrors::SceneErrors(std::vector<std::string> found)
-    : std::runtime_error(fmt::format("{}", fmt::join(found, "\n"))), lines(std::move(found)) {}
+std::string Finding::text() const {
+  if (line == 0) return fmt::format("{}: {}", file, what);
+  return column == 0 ? fmt::format("{}:{}: {}", file, line, what) : fmt::format("{}:{}:{}: {}", file, line, column, what);
+}
+
+SceneErrors::SceneErrors(std::vector<Finding> found)
+    : std::runtime_error(fmt::format("{}", fmt::join(texts_of(found), "\n"))),
+      findings(std::move(found)),
+      lines(texts_of(findings)) {}
 
 bool Builder::is_declared(const std::string& name) const {
   return std::find(declared.begin(), declared.end(), name.substr(0, name.find('/'))) != declared.end();
@@ -105,7 +126,22 @@ const Section& scene_section() {
 
 std::filesystem::path home_folder() {
   const char* home = std::getenv("CRASHREEL_HOME");
-  return home && *home ? std::filesystem::path(home) : std::filesystem::path(CRASHREEL_HOME_DEFAULT);
+  if (home && *home) return home;
+  std::error_code problem;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", problem);
+  const std::filesystem::path installed = program.parent_path().parent_path() / "share/crashreel";
+  if (!problem && std::filesystem::is_directory(installed / "scenes/library", problem)) return installed;
+  return CRASHREEL_HOME_DEFAULT;
+}
+
+std::string not_in_library(const Builder& builder, const std::string& kind, const std::string& word, const std::string& name) {
+  const std::vector<std::string> names = library_names(builder, kind);
+  if (names.empty())
+    return fmt::format("there is no such {}, and no library in {}; set CRASHREEL_HOME to the folder that holds scenes/library",
+                       word, home_folder().string());
+  const std::string guess = nearest(name, names);
+  return fmt::format("there is no such {}{} available: {}", word,
+                     guess.empty() ? ";" : fmt::format("; did you mean \"{}\"?", guess), fmt::join(names, ", "));
 }
 
 std::optional<Value> library_entry(Builder& builder, const std::string& kind, const std::string& name) {
@@ -173,7 +209,9 @@ Scene load(const SceneFile& file, const std::vector<std::string>& overrides, Mes
   read_snapshot(builder, r.table("snapshot"), r.table("expect"));
   read_closed_form(builder, r.table("closed_form"));
 
-  if (!builder.errors.empty()) throw SceneErrors(builder.errors.lines());
+  if (builder.errors.empty() && builder.scene.model.bodies.empty())
+    builder.errors.add({file.path.string()}, "the scene is empty; add a [[vehicle]], a [[person]] or a [[body]]");
+  if (!builder.errors.empty()) throw SceneErrors(builder.errors.findings());
   builder.scene.assets_sha256 = sha256(builder.assets);
   builder.scene.warnings = builder.errors.warnings();
   builder.scene.stage.title = builder.scene.title;

@@ -233,6 +233,16 @@ std::shared_ptr<const ImportedMesh> bring_in(const std::filesystem::path& file, 
   return out;
 }
 
+/// The importer's complaint in words of the file.
+std::string import_problem(const std::string& theirs, const std::string& extension) {
+  const auto says = [&theirs](const char* words) { return theirs.find(words) != std::string::npos; };
+  if (says("No output meshes") || says("orphaned") || says("no triangles"))
+    return "holds points or lines but no triangles; a scan must be meshed first";
+  if (says("too small") || says("no suitable reader") || says("Unable to open"))
+    return fmt::format("is no {} file; its name and its content disagree", extension);
+  return fmt::format("is damaged or no {0} file; export it again ({1})", extension, theirs);
+}
+
 }  // namespace
 
 std::shared_ptr<const ImportedMesh> import_mesh(Builder& builder, Reader& r, std::string_view key) {
@@ -252,7 +262,7 @@ std::shared_ptr<const ImportedMesh> import_mesh(Builder& builder, Reader& r, std
   std::string problem;
   if (!imported) imported = bring_in(std::filesystem::canonical(file), extension, problem);
   if (!imported) {
-    r.fail(key, fmt::format("could not be imported: {}", problem));
+    r.fail(key, import_problem(problem, extension));
     return nullptr;
   }
   if (builder.shelf) (*builder.shelf)[file.string()] = imported;

@@ -42,9 +42,26 @@ const Key kKeys[] = {
     {"name", Type::text, Dimension::none, kRequired, "Name; its parts are NAME/head, NAME/left_thigh ..."},
     {"figure", Type::text, Dimension::none, "'person-14'", "A person of the library or of the scene's folder."},
     {"sex", Type::choice, Dimension::none, "'male'", "Which regression gives the masses of the parts.", kAny, "male|female"},
-    {"stature", Type::number, Dimension::length, "",
-     "Height standing, within what the figure is made for. Left out: the figure's own.", kPositive},
-    {"mass", Type::number, Dimension::mass, "", "Mass of the whole person. Left out: the figure's own.", kPositive},
+    {"stature",
+     Type::number,
+     Dimension::length,
+     "",
+     "Height standing, within what the figure is made for. Left out: the figure's own.",
+     kPositive,
+     {},
+     nullptr,
+     {},
+     between(0.4, 2.6)},
+    {"mass",
+     Type::number,
+     Dimension::mass,
+     "",
+     "Mass of the whole person. Left out: the figure's own.",
+     kPositive,
+     {},
+     nullptr,
+     {},
+     between(4, 300)},
     {"pose", Type::text, Dimension::none, "'standing'", "A pose of the library or of the scene's folder."},
     {"angles", Type::table, Dimension::none, "", "Changes to the pose.", kAny, {}, &kAnglesSection},
     {"position", Type::vector2, Dimension::length, "'0 0 m'", "World x, y of the centre of the hips."},
@@ -263,7 +280,7 @@ void read_person(Builder& builder, Reader r) {
   person.name = r.text("name");
   if (person.name.empty() || person.name.find('/') != std::string::npos) r.fail("name", "must be a name without a slash");
   for (const engine::Person& other : model.persons)
-    if (other.name == person.name) r.fail("name", "is taken; every person needs a name of its own");
+    if (other.name == person.name) r.fail("name", "this name is already used; every person needs a name of its own");
   PersonSize size;
   Figure figure = read_figure(builder, r, size);
   if (figure.segments.empty()) return;

@@ -109,10 +109,7 @@ Pose read_pose(Builder& builder, Reader& person, const Figure& figure) {
   const std::string name = person.text("pose");
   const auto tree = library_entry(builder, "poses", name);
   if (!tree) {
-    const auto names = library_names(builder, "poses");
-    const std::string guess = nearest(name, names);
-    person.fail("pose", fmt::format("is not in the library of poses ({}){}", fmt::join(names, ", "),
-                                    guess.empty() ? "" : fmt::format("; did you mean \"{}\"?", guess)));
+    person.fail("pose", not_in_library(builder, "poses", "pose", name));
   } else {
     Reader r(*tree, kPoseSection, name, builder.errors);
     out.roll = r.number("roll");

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -22,18 +24,19 @@ struct Powers {
 struct DimensionLine {
   std::string_view name, si, usual, second;  // `second`: the other way to write it, for the remedy
   Powers powers;
+  std::string_view units = {};  // those people use, for the remedy
 };
 
 constexpr std::array<DimensionLine, 16> kDimensions{{
     {"a plain number", "", "", "", {}},
-    {"a length", "m", "m", "cm", {1, 0, 0, 0}},
-    {"a mass", "kg", "kg", "lb", {0, 1, 0, 0}},
-    {"a time", "s", "s", "ms", {0, 0, 1, 0}},
-    {"an angle", "rad", "deg", "rad", {0, 0, 0, 1}},
-    {"a speed", "m/s", "km/h", "m/s", {1, 0, -1, 0}},
+    {"a length", "m", "m", "cm", {1, 0, 0, 0}, "m, cm, mm, km, ft, in"},
+    {"a mass", "kg", "kg", "lb", {0, 1, 0, 0}, "kg, g, t, lb"},
+    {"a time", "s", "s", "ms", {0, 0, 1, 0}, "s, ms, min, h"},
+    {"an angle", "rad", "deg", "rad", {0, 0, 0, 1}, "deg, rad"},
+    {"a speed", "m/s", "km/h", "m/s", {1, 0, -1, 0}, "km/h, m/s, mph, ft/s"},
     {"an angular speed", "rad/s", "rad/s", "deg/s", {0, 0, -1, 1}},
-    {"an acceleration", "m/s^2", "m/s^2", "g", {1, 0, -2, 0}},
-    {"a force", "N", "N", "kN", {1, 1, -2, 0}},
+    {"an acceleration", "m/s^2", "m/s^2", "g", {1, 0, -2, 0}, "m/s^2, g"},
+    {"a force", "N", "N", "kN", {1, 1, -2, 0}, "N, kN, lbf"},
     {"a stiffness", "N/m", "N/m", "kN/m", {0, 1, -2, 0}},
     {"a damping", "N s/m", "N s/m", "kN s/m", {0, 1, -1, 0}},
     {"a torque", "N m", "N m", "kN m", {2, 1, -2, 0}},
@@ -170,7 +173,8 @@ UnitValue take_unit(std::string_view& t, Dimension wanted) {
 
 std::string must_be(Dimension d) {
   if (d == Dimension::none) return "must be a plain number without a unit";
-  return fmt::format("must be {}; write it like \"{} {}\"", line(d).name, 1, line(d).usual);
+  return fmt::format("must be {}; write it like \"{} {}\"{}{}", line(d).name, 1, line(d).usual,
+                     line(d).units.empty() ? "" : "; units: ", line(d).units);
 }
 
 }  // namespace
@@ -192,6 +196,78 @@ std::string_view usual_unit(Dimension d) {
   return line(d).usual;
 }
 
+namespace {
+
+constexpr std::size_t kLongest = 64;  // [byte] a remedy is looked for in what a person may have typed
+
+/// Whether a text reads as one quantity, or a list of them.
+bool reads(const std::string& text, Dimension wanted) {
+  return text.size() <= kLongest &&
+         (parse_quantity(text, wanted).problem.empty() || parse_quantities(text, wanted).problem.empty());
+}
+
+enum class Commas { decimal, either };  // what a comma may have been meant as
+
+/// "40,5 km/h" and "1, 2 m": what to write instead, where that reads.
+std::optional<std::string> comma_remedy(std::string_view text, Dimension wanted, Commas meant) {
+  if (text.size() > kLongest || text.find(',') == std::string_view::npos) return std::nullopt;
+  const bool spaced = text.find(", ") != std::string_view::npos || text.find(' ') > text.rfind(',');
+  std::string point(text), blank(text);
+  std::replace(point.begin(), point.end(), ',', '.');
+  std::replace(blank.begin(), blank.end(), ',', ' ');
+  blank.erase(std::unique(blank.begin(), blank.end(), [](char a, char b) { return a == ' ' && b == ' '; }), blank.end());
+  if (meant == Commas::either && spaced && reads(blank, wanted))
+    return fmt::format("has commas between its numbers; write \"{}\"", blank);
+  if (reads(point, wanted)) return fmt::format("has a decimal comma; write \"{}\"", point);
+  return std::nullopt;
+}
+
+struct Alias {
+  std::string_view word, unit;
+};
+constexpr Alias kAliases[] = {
+    {"kmh", "km/h"},    {"kmph", "km/h"},     {"km/hr", "km/h"},    {"sec", "s"},          {"secs", "s"},
+    {"second", "s"},    {"seconds", "s"},     {"msec", "ms"},       {"minutes", "min"},    {"hours", "h"},
+    {"hr", "h"},        {"meter", "m"},       {"meters", "m"},      {"metre", "m"},        {"metres", "m"},
+    {"degree", "deg"},  {"degrees", "deg"},   {"kgs", "kg"},        {"kilogram", "kg"},    {"kilograms", "kg"},
+    {"kilo", "kg"},     {"lbs", "lb"},        {"pounds", "lb"},     {"feet", "ft"},        {"foot", "ft"},
+    {"inch", "in"},     {"inches", "in"},     {"mile", "mi"},       {"miles", "mi"},       {"ton", "t"},
+    {"tons", "t"},      {"tonne", "t"},       {"tonnes", "t"},      {"newton", "N"},       {"radian", "rad"},
+    {"radians", "rad"}, {"kilometers", "km"}, {"kilometres", "km"}, {"centimeters", "cm"}, {"centimetres", "cm"},
+};
+
+bool same_letters(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+std::string unknown_unit(std::string_view text, const std::string& unknown, Dimension wanted) {
+  const auto with = [&](std::string_view unit) {
+    std::string out(text);
+    return out.replace(text.rfind(unknown), unknown.size(), unit);
+  };
+  if (wanted == Dimension::speed && (same_letters(unknown, "kn") || same_letters(unknown, "knots")))
+    return fmt::format("\"{}\" is not a unit; a knot is 1.852 km/h", unknown);
+  if (text.size() <= kLongest && text.rfind(unknown) != std::string_view::npos) {
+    for (const Alias& alias : kAliases)
+      if (same_letters(alias.word, unknown) && reads(with(alias.unit), wanted))
+        return fmt::format("\"{}\" is not a unit; did you mean \"{}\"?", unknown, with(alias.unit));
+    for (const Unit& unit : kUnits)
+      if (same_letters(unit.symbol, unknown) && reads(with(unit.symbol), wanted))
+        return fmt::format("\"{}\" is not a unit; did you mean \"{}\"?", unknown, with(unit.symbol));
+  }
+  return fmt::format("\"{}\" is not a unit; {}", unknown, must_be(wanted));
+}
+
+std::vector<std::string_view> split_units(std::string_view units) {
+  std::vector<std::string_view> out;
+  for (std::size_t at = 0; at < units.size(); at = std::min(units.find(", ", at), units.size() - 2) + 2)
+    out.push_back(units.substr(at, std::min(units.find(", ", at), units.size()) - at));
+  return out;
+}
+
+}  // namespace
+
 Quantity parse_quantity(std::string_view text, Dimension wanted) {
   Quantity out;
   std::string_view t = text;
@@ -200,19 +276,19 @@ Quantity parse_quantity(std::string_view text, Dimension wanted) {
   bool negative = false;
   while (!t.empty()) {
     const auto number = take_number(t);
-    if (!number) return {0, fmt::format("{}", must_be(wanted))};
+    if (!number) return {0, comma_remedy(text, wanted, Commas::decimal).value_or(must_be(wanted)), {}};
     const UnitValue unit = take_unit(t, wanted);
-    if (!unit.unknown.empty()) return {0, fmt::format("\"{}\" is not a unit; {}", unit.unknown, must_be(wanted))};
+    if (!unit.unknown.empty()) return {0, unknown_unit(text, unit.unknown, wanted), {}};
     if (unit.powers == Powers{} && unit.factor == 1 && wanted != Dimension::none) {
-      return {0, fmt::format("needs a unit: write {}", unit_examples(*number, wanted))};
+      return {0, fmt::format("needs a unit: write {}", unit_examples(*number, wanted)), number};
     }
-    if (!(unit.powers == line(wanted).powers)) return {0, must_be(wanted)};
+    if (!(unit.powers == line(wanted).powers)) return {0, must_be(wanted), {}};
     // "-5 ft 9 in" means -(5 ft 9 in)
     if (terms++ == 0) negative = std::signbit(*number);
     out.value += (negative && terms > 1 ? -1 : 1) * *number * unit.factor;
     skip_spaces(t);
   }
-  if (terms == 0) return {0, must_be(wanted)};
+  if (terms == 0) return {0, must_be(wanted), {}};
   return out;
 }
 
@@ -221,11 +297,11 @@ Quantities parse_quantities(std::string_view text, Dimension wanted) {
   std::string_view t = text;
   for (skip_spaces(t); is_number_start(t); skip_spaces(t)) {
     const auto number = take_number(t);
-    if (!number) return {{}, must_be(wanted)};
+    if (!number) return {{}, comma_remedy(text, wanted, Commas::either).value_or(must_be(wanted))};
     out.values.push_back(*number);
   }
   const UnitValue unit = take_unit(t, wanted);
-  if (!unit.unknown.empty()) return {{}, fmt::format("\"{}\" is not a unit; {}", unit.unknown, must_be(wanted))};
+  if (!unit.unknown.empty()) return {{}, unknown_unit(text, unit.unknown, wanted)};
   if (!(unit.powers == line(wanted).powers) || !t.empty()) {
     return {{},
             wanted == Dimension::none ? "must be plain numbers"
@@ -236,8 +312,15 @@ Quantities parse_quantities(std::string_view text, Dimension wanted) {
   return out;
 }
 
-std::string unit_examples(double number, Dimension d) {
+std::string unit_examples(double number, Dimension d, double lower, double upper) {
   const auto factor = [&](std::string_view unit) { return take_unit(unit, d).factor; };
+  const auto fits = [&](std::string_view unit) { return number * factor(unit) >= lower && number * factor(unit) <= upper; };
+  if (!fits(line(d).usual)) {
+    std::vector<std::string> others;
+    for (const std::string_view unit : split_units(line(d).units))
+      if (fits(unit)) others.push_back(fmt::format("\"{} {}\"", number, unit));
+    if (!others.empty()) return fmt::format("{}", fmt::join(others, " or "));
+  }
   const double second = number * factor(line(d).usual) / factor(line(d).second);
   const std::string rounded =
       std::abs(second) >= 100 && std::abs(second) < 1e6 ? fmt::format("{:.0f}", second) : fmt::format("{:.3g}", second);

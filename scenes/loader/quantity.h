@@ -1,6 +1,7 @@
 // "40 km/h", "5 ft 9 in", "25 N/mm": a number with a unit, checked for its dimension, in SI.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,8 +37,9 @@ std::string_view si_unit(Dimension);
 std::string_view usual_unit(Dimension);
 
 struct Quantity {
-  double value = 0;     // SI
-  std::string problem;  // empty: understood. Else what is wrong, to follow "key is VALUE, "
+  double value = 0;              // SI
+  std::string problem;           // empty: understood. Else what is wrong, to follow "key is VALUE: "
+  std::optional<double> bare{};  // the number, where only its unit is missing
 };
 
 /// Reads `text` as a quantity of the dimension. "g" is the acceleration of gravity (9.81 m/s^2) where an acceleration is asked for,
@@ -51,7 +53,9 @@ struct Quantities {
 };
 Quantities parse_quantities(std::string_view text, Dimension);
 
-/// What to write in place of the bare number: `"40 km/h" or "11.1 m/s"`.
-std::string unit_examples(double number, Dimension);
+/// What to write in place of the bare number: `"40 km/h" or "11.1 m/s"`. Where that is not within lower..upper (SI), the number in
+/// the units that are: `"178 cm"`.
+std::string unit_examples(double number, Dimension, double lower = -std::numeric_limits<double>::infinity(),
+                          double upper = std::numeric_limits<double>::infinity());
 
 }  // namespace scenes

@@ -24,6 +24,14 @@ const Value* fallback_of(const Key& key) {
   return &at->second;
 }
 
+/// The number with the units it may have been meant in. Where the usual unit would put it out of the key's range, those that would
+/// not.
+std::string units_meant(double number, const Key& key) {
+  const bool guessed = std::isfinite(key.usual.upper);
+  const Range& range = guessed ? key.usual : key.range;
+  return unit_examples(number, key.dimension, range.lower, range.upper);
+}
+
 std::string range_message(const Key& key) {
   return fmt::format("must {}{}{}", key.range.lower_open || std::isinf(key.range.upper) ? "be " : "lie in ", describe_range(key),
                      key.remedy.empty() ? "" : "; " + std::string(key.remedy));
@@ -31,19 +39,40 @@ std::string range_message(const Key& key) {
 
 }  // namespace
 
-std::vector<std::string> Errors::sorted(std::vector<Finding> findings) {
+void Errors::add(const Place& place, const std::string& what, const std::string& code) {
+  found_.push_back({place.file, place.line, place.column, code, what});
+}
+
+void Errors::add_of(const std::string& path, const Place& place, const std::string& what, const std::string& code) {
+  const std::string value = path + " " + place.text();
+  if (std::find(told_.begin(), told_.end(), value) != told_.end()) return;
+  told_.push_back(value);
+  add(place, what, code);
+}
+
+void Errors::warn(const Place& place, const std::string& what) {
+  odd_.push_back({place.file, place.line, place.column, "warning", what});
+}
+
+std::vector<std::string> Errors::warnings() const {
+  std::vector<std::string> out;
+  for (const Finding& f : sorted(odd_)) out.push_back(f.text());
+  return out;
+}
+
+std::vector<Finding> Errors::sorted(std::vector<Finding> findings) {
   // files stay in the order in which they were first complained of: the scene before its library
   std::vector<std::string> files;
   for (const Finding& f : findings)
-    if (std::find(files.begin(), files.end(), f.place.file) == files.end()) files.push_back(f.place.file);
+    if (std::find(files.begin(), files.end(), f.file) == files.end()) files.push_back(f.file);
   const auto rank = [&](const Finding& f) {
-    return std::tuple(std::find(files.begin(), files.end(), f.place.file) - files.begin(), f.place.line, f.place.column);
+    return std::tuple(std::find(files.begin(), files.end(), f.file) - files.begin(), f.line, f.column);
   };
   std::stable_sort(findings.begin(), findings.end(), [&](const Finding& a, const Finding& b) { return rank(a) < rank(b); });
-  std::vector<std::string> out;
+  std::vector<Finding> out;
   for (const Finding& f : findings) {
-    std::string line = f.place.text() + ": " + f.what;
-    if (std::find(out.begin(), out.end(), line) == out.end()) out.push_back(std::move(line));
+    const auto same = [&](const Finding& other) { return other.text() == f.text(); };
+    if (std::none_of(out.begin(), out.end(), same)) out.push_back(f);
   }
   return out;
 }
@@ -60,13 +89,16 @@ Reader::Reader(const Value& table, const Section& section, std::string path, Err
   for (const Entry& entry : table.entries) {
     if (section.find(entry.key)) continue;
     const std::string guess = nearest(entry.key, known);
-    errors.add(entry.place, fmt::format("{} is not a known key{}", this->path(entry.key),
-                                        guess.empty() ? fmt::format("; {} is described in scenes/README.md", section.header)
-                                                      : fmt::format("; did you mean \"{}\"?", guess)));
+    errors.add(entry.place,
+               fmt::format("{} is not a known key{}", this->path(entry.key),
+                           guess.empty() ? fmt::format("; {} is described in scenes/README.md", section.header)
+                                         : fmt::format("; did you mean \"{}\"?", guess)),
+               "unknown_key");
   }
   for (const Key& key : section.keys) {
     if (key.fallback == kRequired && !table.find(key.name)) {
-      errors.add(table.place, fmt::format("{} is missing; {} needs {}", this->path(key.name), section.header, describe_type(key)));
+      errors.add(table.place, fmt::format("{} is missing; {} needs {}", this->path(key.name), section.header, describe_type(key)),
+                 "missing_key");
     }
   }
 }
@@ -83,8 +115,8 @@ const Place& Reader::place(std::string_view key) const {
   return value ? value->place : table_->place;
 }
 
-void Reader::bad(const Value& value, const std::string& path, const std::string& what) {
-  errors_->add(value.place, fmt::format("{} is {}, {}", path, kind_in_words(value), what));
+void Reader::bad(const Value& value, const std::string& path, const std::string& what, const std::string& code) {
+  errors_->add_of(path, value.place, fmt::format("{} is {}: {}", path, kind_in_words(value), what), code);
 }
 
 void Reader::fail(std::string_view key, const std::string& what) {
@@ -107,7 +139,7 @@ bool Reader::boolean(std::string_view key) {
   const Key* line;
   const Value* value = get(key, line);
   if (!value) return false;
-  if (value->kind != Value::Kind::boolean) bad(*value, path(key), "must be true or false");
+  if (value->kind != Value::Kind::boolean) bad(*value, path(key), "must be true or false", "type");
   return value->boolean;
 }
 
@@ -119,24 +151,25 @@ double Reader::read_number(const Value& value, const Key& key, const std::string
       return 0;
     }
     if (key.dimension != Dimension::none && value.number != 0) {
-      errors_->add(value.place,
-                   fmt::format("{} = {} needs a unit: write {}", at, written(value), unit_examples(value.number, key.dimension)));
+      errors_->add_of(at, value.place,
+                      fmt::format("{} = {} needs a unit: write {}", at, written(value), units_meant(value.number, key)), "unit");
       return 0;
     }
     number = value.number;
   } else if (value.kind == Value::Kind::text) {
     const Quantity quantity = parse_quantity(value.text, key.dimension);
     if (!quantity.problem.empty()) {
-      bad(value, at, quantity.problem);
+      const bool bare = quantity.bare.has_value();
+      bad(value, at, bare ? fmt::format("needs a unit: write {}", units_meant(*quantity.bare, key)) : quantity.problem, "unit");
       return 0;
     }
     number = quantity.value;
   } else {
-    bad(value, at, fmt::format("must be {}", describe_type(key)));
+    bad(value, at, fmt::format("must be {}", describe_type(key)), "type");
     return 0;
   }
   const bool low = key.range.lower_open ? !(number > key.range.lower) : !(number >= key.range.lower);
-  if (low || !(number <= key.range.upper)) bad(value, at, range_message(key));
+  if (low || !(number <= key.range.upper)) bad(value, at, range_message(key), "range");
   return number;
 }
 
@@ -168,7 +201,7 @@ std::string Reader::text(std::string_view key) {
   const Value* value = get(key, line);
   if (!value) return {};
   if (value->kind != Value::Kind::text) {
-    bad(*value, path(key), "must be a text in quotes");
+    bad(*value, path(key), "must be a text in quotes", "type");
     return {};
   }
   return value->text;
@@ -184,7 +217,8 @@ int Reader::choice(std::string_view key) {
   const std::string guess = value->kind == Value::Kind::text ? nearest(value->text, choices) : "";
   bad(*value, path(key),
       fmt::format("must be one of \"{}\"{}", fmt::join(choices, "\", \""),
-                  guess.empty() ? "" : fmt::format("; did you mean \"{}\"?", guess)));
+                  guess.empty() ? "" : fmt::format("; did you mean \"{}\"?", guess)),
+      "choice");
   return 0;
 }
 
@@ -192,20 +226,20 @@ bool Reader::read_numbers(const Value& value, const Key& key, const std::string&
   if (value.kind == Value::Kind::text) {
     const Quantities quantities = parse_quantities(value.text, key.dimension);
     if (!quantities.problem.empty()) {
-      bad(value, at, quantities.problem);
+      bad(value, at, quantities.problem, "unit");
       return false;
     }
     out = quantities.values;
     for (double number : out) {
       if (number < key.range.lower || (key.range.lower_open && number == key.range.lower) || number > key.range.upper) {
-        bad(value, at, range_message(key));
+        bad(value, at, range_message(key), "range");
         return false;
       }
     }
     return true;
   }
   if (value.kind != Value::Kind::array) {
-    bad(value, at, fmt::format("must be {}", describe_type(key)));
+    bad(value, at, fmt::format("must be {}", describe_type(key)), "type");
     return false;
   }
   const std::size_t before = errors_->count();

@@ -9,6 +9,7 @@
 
 #include "engine/math/types.h"
 #include "engine/model/schedule.h"
+#include "scenes/error.h"
 #include "scenes/loader/table.h"
 #include "scenes/loader/value.h"
 
@@ -17,22 +18,22 @@ namespace scenes {
 /// What was found so far. Loading goes on after an error so that several are told at once.
 class Errors {
  public:
-  void add(const Place& place, const std::string& what) { found_.push_back({place, what}); }
-  void warn(const Place& place, const std::string& what) { odd_.push_back({place, what}); }
+  /// `code` tells scripts of what kind the error is (scenes/error.h).
+  void add(const Place& place, const std::string& what, const std::string& code = "value");
+  /// The same of the value of a key; the second error of one value is not told, the first one explains it.
+  void add_of(const std::string& path, const Place& place, const std::string& what, const std::string& code);
+  void warn(const Place& place, const std::string& what);
   std::size_t count() const { return found_.size(); }
   bool empty() const { return found_.empty(); }
-  /// "file:line:column: what" in the order of the file, each once.
-  std::vector<std::string> lines() const { return sorted(found_); }
-  std::vector<std::string> warnings() const { return sorted(odd_); }
+  /// In the order of the file, each once.
+  std::vector<Finding> findings() const { return sorted(found_); }
+  std::vector<std::string> warnings() const;
 
  private:
-  struct Finding {
-    Place place;
-    std::string what;
-  };
-  static std::vector<std::string> sorted(std::vector<Finding>);
+  static std::vector<Finding> sorted(std::vector<Finding>);
   std::vector<Finding> found_;
   std::vector<Finding> odd_;
+  std::vector<std::string> told_;  // values with an error: path and place
 };
 
 /// Every getter returns a usable value: after an error, the key's default or a harmless one. The key must be in the section's
@@ -64,7 +65,8 @@ class Reader {
   /// Tables or values of a map, by name.
   std::vector<std::pair<std::string, Reader>> map(std::string_view key);
 
-  /// "path.key is VALUE, what" at the value's place, or at the table's when the key is not there.
+  /// "path.key is VALUE: what" at the value's place, or at the
+  /// table's when the key is not there.
   void fail(std::string_view key, const std::string& what);
   void fail_here(const std::string& what);
   void warn(std::string_view key, const std::string& what);
@@ -80,7 +82,7 @@ class Reader {
   const Value* get(std::string_view key, const Key*& line) const;
   double read_number(const Value&, const Key&, const std::string& path);
   bool read_numbers(const Value&, const Key&, const std::string& path, std::vector<double>& out);
-  void bad(const Value&, const std::string& path, const std::string& what);
+  void bad(const Value&, const std::string& path, const std::string& what, const std::string& code = "value");
 
   const Value* table_;
   const Section* section_;

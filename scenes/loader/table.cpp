@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "scenes/loader/figure.h"
 
@@ -92,11 +93,15 @@ std::string describe_type(const Key& key) {
 
 std::string describe_range(const Key& key) {
   const Range& r = key.range;
-  const std::string unit = key.dimension == Dimension::none ? "" : " " + std::string(si_unit(key.dimension));
+  const bool angle = key.dimension == Dimension::angle;  // nobody thinks in radians
+  const std::string unit = angle ? " deg" : key.dimension == Dimension::none ? "" : " " + std::string(si_unit(key.dimension));
+  const auto limit = [angle](double value) {
+    return angle ? fmt::format("{:.4g}", value * 180 / std::numbers::pi) : fmt::format("{}", value);
+  };
   if (std::isinf(r.lower) && std::isinf(r.upper)) return {};
-  if (std::isinf(r.upper)) return fmt::format("{} {}{}", r.lower_open ? "greater than" : "at least", r.lower, unit);
-  if (r.lower_open) return fmt::format("greater than {} and at most {}{}", r.lower, r.upper, unit);
-  return fmt::format("{}..{}{}", r.lower, r.upper, unit);
+  if (std::isinf(r.upper)) return fmt::format("{} {}{}", r.lower_open ? "greater than" : "at least", limit(r.lower), unit);
+  if (r.lower_open) return fmt::format("greater than {} and at most {}{}", limit(r.lower), limit(r.upper), unit);
+  return fmt::format("{}..{}{}", limit(r.lower), limit(r.upper), unit);
 }
 
 std::string reference_markdown() {

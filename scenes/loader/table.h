@@ -67,6 +67,7 @@ struct Key {
   std::string_view choices = {};     // "plane|none"
   const Section* section = nullptr;  // of table, tables and map
   std::string_view remedy = {};      // follows the message of a value out of range
+  Range usual = kAny;                // what a bare number is guessed by; kAny: `range`
 };
 
 struct Section {

@@ -20,10 +20,13 @@ void parser_lost() {
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
 #include "scenes/error.h"
+#include "scenes/loader/syntax.h"
 #include "scenes/loader/value.h"
 
 namespace scenes {
@@ -75,7 +78,7 @@ constexpr std::size_t kLargestFile = std::size_t{16} << 20;  // [byte] a scene i
 /// Refuses what the parser cannot stand: it follows a dotted key of any length until the stack ends.
 void check_before_parsing(std::string_view text, const std::string& name) {
   int line = 1, parts = 0;
-  const auto refuse = [&](const std::string& why) { throw SceneErrors{{fmt::format("{}:{}: not TOML: {}", name, line, why)}}; };
+  const auto refuse = [&](const std::string& why) { throw SceneErrors({Finding{name, line, 0, "syntax", "not TOML: " + why}}); };
   std::string_view quotes;  // what ends the string that is open
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -120,31 +123,47 @@ int line_that_loses_parser(std::string_view text) {
   return static_cast<int>(lost - ends.begin()) + 1;
 }
 
+/// "; did you mean case.toml?" of the files beside it.
+std::string similar_file(const std::filesystem::path& file) {
+  std::vector<std::string> names;
+  std::error_code problem;
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder, problem)) return fmt::format("; there is no folder {} either", folder.string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder, problem))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().filename().string());
+  const std::string near = nearest(file.filename().string(), names);
+  return near.empty() ? "" : fmt::format("; did you mean {}?", file.has_parent_path() ? (folder / near).string() : near);
+}
+
 }  // namespace
 
 Value parse_text(std::string_view toml_text, const std::string& name) {
+  refuse_other_files(toml_text, name);
   check_before_parsing(toml_text, name);
   try {
     return converted(toml::parse(toml_text, name), name);
   } catch (const toml::parse_error& error) {
-    throw SceneErrors{{fmt::format("{}: not TOML: {}", place_of(error.source(), name).text(), error.description())}};
+    throw SceneErrors({syntax_error(toml_text, place_of(error.source(), name), std::string(error.description()))});
   } catch (const ParserLost&) {
-    throw SceneErrors{{fmt::format("{}:{}: not TOML: a key or a value is not whole", name, line_that_loses_parser(toml_text))}};
+    const int line = line_that_loses_parser(toml_text);
+    throw SceneErrors({Finding{name, line, 0, "syntax", "not TOML: a key or a value is not whole"}});
   }
 }
 
 std::string read_text(const std::filesystem::path& file) {
+  const auto refuse = [&file](const std::string& why) { throw SceneErrors({Finding{file.string(), 0, 0, "file", why}}); };
+  std::error_code problem;
+  if (std::filesystem::is_directory(file, problem)) refuse("is a folder; name a scene file in it");
+  errno = 0;
   std::ifstream in(file, std::ios::binary);
-  std::error_code ignored;
-  if (!in || std::filesystem::is_directory(file, ignored)) {
-    throw SceneErrors{{fmt::format("{}: cannot be read as a scene file; check the path and its permissions", file.string())}};
-  }
+  if (!in && errno == ENOENT)
+    refuse(file == "-" ? "there is no such file; standard input is /dev/stdin" : "there is no such file" + similar_file(file));
+  if (!in) refuse(fmt::format("cannot be opened: {}", std::strerror(errno)));
   // whatever it is, a disk or an endless device, no more of it is read than a scene can be
   std::string text;
   for (char piece[1 << 14]; in.read(piece, sizeof piece) || in.gcount() > 0;) {
     text.append(piece, static_cast<std::size_t>(in.gcount()));
-    if (text.size() > kLargestFile)
-      throw SceneErrors{{fmt::format("{}: is larger than {} MB, this is no scene file", file.string(), kLargestFile >> 20)}};
+    if (text.size() > kLargestFile) refuse(fmt::format("is larger than {} MB, this is no scene file", kLargestFile >> 20));
   }
   return text;
 }
@@ -209,18 +228,18 @@ std::vector<std::string> split(const std::string& path) {
 
 void apply_override(Value& root, const std::string& assignment) {
   const Place place{"--set " + assignment};
+  const auto refuse = [&place](const std::string& why) { throw SceneErrors({Finding{place.file, 0, 0, "override", why}}); };
   const auto equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw SceneErrors{{fmt::format("{}: must be path.to.key=value; write --set simulation.step='0.5 ms'", place.text())}};
+    refuse("must be path.to.key=value; write --set simulation.step='0.5 ms'");
   }
   const std::vector<std::string> parts = split(assignment.substr(0, equals));
-  if (parts.size() > kDeepestKey) throw SceneErrors{{fmt::format("{}: the key has more than {} parts", place.text(), kDeepestKey)}};
+  if (parts.size() > kDeepestKey) refuse(fmt::format("the key has more than {} parts", kDeepestKey));
   Value* at = &root;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
     if (at->kind == Value::Kind::array) {
       Value* found = element(*at, parts[i]);
-      if (!found)
-        throw SceneErrors{{fmt::format("{}: there is no {} named or numbered \"{}\"", place.text(), parts[i - 1], parts[i])}};
+      if (!found) refuse(fmt::format("there is no {} named or numbered \"{}\"", parts[i - 1], parts[i]));
       at = found;
       continue;
     }
@@ -235,14 +254,14 @@ void apply_override(Value& root, const std::string& assignment) {
       child = &at->entries.back().value;
     }
     if (child->kind != Value::Kind::table && child->kind != Value::Kind::array) {
-      throw SceneErrors{{fmt::format("{}: {} is {}, it has no keys of its own", place.text(), parts[i], written(*child))}};
+      refuse(fmt::format("{} is {}, it has no keys of its own", parts[i], written(*child)));
     }
     at = child;
   }
   Value value = override_value(assignment.substr(equals + 1), place);
   if (at->kind == Value::Kind::array) {
     Value* found = element(*at, parts.back());
-    if (!found) throw SceneErrors{{fmt::format("{}: there is no element \"{}\"", place.text(), parts.back())}};
+    if (!found) refuse(fmt::format("there is no element \"{}\"", parts.back()));
     *found = std::move(value);
   } else if (Value* old = at->find(parts.back())) {
     *old = std::move(value);

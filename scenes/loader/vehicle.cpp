@@ -125,10 +125,7 @@ std::optional<Value> with_model(Builder& builder, Reader& r) {
   const std::string name = r.text("model");
   if (name.empty()) return r.value();
   if (const auto model = library_entry(builder, "vehicles", name)) return overlaid(*model, r.value());
-  const auto names = library_names(builder, "vehicles");
-  const std::string guess = nearest(name, names);
-  r.fail("model", fmt::format("is not in the library of vehicles ({}){}", fmt::join(names, ", "),
-                              guess.empty() ? "" : fmt::format("; did you mean \"{}\"?", guess)));
+  r.fail("model", not_in_library(builder, "vehicles", "model", name));
   return std::nullopt;
 }
 
@@ -341,7 +338,7 @@ void read_vehicle(Builder& builder, Reader scene) {
   engine::Vehicle vehicle;
   vehicle.name = scene.text("name");
   if (vehicle.name.empty()) scene.fail("name", "must be given; every vehicle needs a name");
-  if (builder.body_index(vehicle.name) >= 0) scene.fail("name", "is taken; every body needs a name of its own");
+  if (builder.body_index(vehicle.name) >= 0) scene.fail("name", "this name is already used; every body needs a name of its own");
   const std::size_t errors_before = builder.errors.count();
   need(r, "mesh", "\"my_car.obj\"");
   need(r, "mass", "\"1500 kg\"");

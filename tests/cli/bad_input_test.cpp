@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <sstream>
+
 #include "tests/cli/program.h"
 
 using namespace cli_tests;
@@ -24,6 +27,18 @@ void PrintTo(const BadScene& scene, std::ostream* out) {
   *out << scene.name;
 }
 
+/// The line of the text that the message names, and a mark under its column.
+std::string marked(const std::string& text, const std::string& message) {
+  int line = 0, column = 0;
+  std::sscanf(message.c_str(), "case.toml:%d:%d:", &line, &column);
+  std::istringstream lines(text);
+  std::string shown;
+  for (int n = 0; n < line; ++n) std::getline(lines, shown);
+  const std::string number = std::to_string(line);
+  return std::string(5 - number.size(), ' ') + number + " | " + shown + "\n      | " +
+         std::string(static_cast<std::size_t>(column - 1), ' ') + "^\n";
+}
+
 class BadSceneIsRefused : public testing::TestWithParam<BadScene> {};
 
 }  // namespace
@@ -36,7 +51,8 @@ TEST_P(BadSceneIsRefused, WithItsPlaceAndARemedyAndExitCode2) {
     if (std::string(command) == "simulate") arguments.insert(arguments.end(), {"-o", "out"});
     const Result result = run(folder, arguments);
     EXPECT_EQ(result.code, kAuthor) << command;
-    EXPECT_EQ(result.err, GetParam().message) << command;
+    EXPECT_THAT(result.err, StartsWith(GetParam().message)) << command;
+    EXPECT_EQ(result.err.substr(GetParam().message.size()), marked(GetParam().text, GetParam().message)) << command;
     EXPECT_THAT(result.out, IsEmpty()) << command;
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
@@ -47,25 +63,25 @@ INSTANTIATE_TEST_SUITE_P(
     Scenes, BadSceneIsRefused,
     testing::Values(
         BadScene{"broken_toml", "title = \"Ball\"\n[simulation\n",
-                 "case.toml:2:12: not TOML: Error while parsing table header: expected ']', saw '\\n'\n"},
+                 "case.toml:2:12: the section's bracket is not closed; write [simulation]\n"},
         BadScene{"negative_mass", ball_with("\"2 kg\"", "\"-2 kg\""),
-                 "case.toml:9:8: body.ball.mass is \"-2 kg\", must be greater than 0 kg\n"},
+                 "case.toml:9:8: body.ball.mass is \"-2 kg\": must be greater than 0 kg\n"},
         BadScene{"impossible_inertia", ball_with("friction = 0.5", "inertia = \"1 1 3 kg m^2\""),
-                 "case.toml:13:11: body.ball.inertia is \"1 1 3 kg m^2\", must be physically possible; of its principal moments 1 "
+                 "case.toml:13:11: body.ball.inertia is \"1 1 3 kg m^2\": must be physically possible; of its principal moments 1 "
                  "+ 1 is less than 3 kg m^2\n"},
         BadScene{"exponent_below_two", ball_with("friction = 0.5", "exponent = 1.5"),
-                 "case.toml:13:12: body.ball.exponent is 1.5, must lie in 2..100; a hyper-ellipsoid needs n >= 2\n"},
+                 "case.toml:13:12: body.ball.exponent is 1.5: must lie in 2..100; a hyper-ellipsoid needs n >= 2\n"},
         BadScene{"unknown_key", ball_with("friction = 0.5", "fricton = 0.5"),
                  "case.toml:13:1: body.ball.fricton is not a known key; did you mean \"friction\"?\n"},
         BadScene{"wrong_dimension", ball_with("\"2 kg\"", "\"2 m\""),
-                 "case.toml:9:8: body.ball.mass is \"2 m\", must be a mass; write it like \"1 kg\"\n"},
+                 "case.toml:9:8: body.ball.mass is \"2 m\": must be a mass; write it like \"1 kg\"; units: kg, g, t, lb\n"},
         BadScene{"missing_unit", ball_with("\"2 kg\"", "2"),
                  "case.toml:9:8: body.ball.mass = 2 needs a unit: write \"2 kg\" or \"4.41 lb\"\n"},
         BadScene{"step_of_zero", ball_with("duration = \"0.4 s\"", "step = \"0 ms\""),
-                 "case.toml:4:8: simulation.step is \"0 ms\", must be greater than 0 and at most 0.1 s; 1 ms is a good start\n"},
+                 "case.toml:4:8: simulation.step is \"0 ms\": must be greater than 0 and at most 0.1 s; 1 ms is a good start\n"},
         BadScene{
             "missing_mesh", ball_with("axes = \"0.1 0.1 0.1 m\"", "mesh = \"none.obj\""),
-            "case.toml:10:8: body.ball.mesh is \"none.obj\", must be a mesh file; there is no none.obj and no " CRASHREEL_SOURCE_DIR
+            "case.toml:10:8: body.ball.mesh is \"none.obj\": must be a mesh file; there is no none.obj and no " CRASHREEL_SOURCE_DIR
             "/none.obj\n"}),
     [](const auto& scene) { return scene.param.name; });
 
@@ -93,7 +109,7 @@ TEST(BadInput, MissingSceneFile) {
   const Folder folder;
   const Result result = run(folder, {"render", "none.toml"});
   EXPECT_EQ(result.code, kAuthor);
-  EXPECT_EQ(result.err, "none.toml: cannot be read as a scene file; check the path and its permissions\n");
+  EXPECT_EQ(result.err, "none.toml: there is no such file\n");
 }
 
 namespace {
@@ -134,26 +150,21 @@ INSTANTIATE_TEST_SUITE_P(
                    {},
                    kAuthor,
                    ": no command given; take one of render, simulate, plan, study, figure, check, compare, snapshot, library, "
-                   "schema, version"},
+                   "schema, version, man, completion; see crashreel --help"},
         BadCommand{"unknown_command", {"rendr"}, kAuthor, ": unknown command rendr; did you mean render?"},
         BadCommand{"unknown_option",
                    {"render", "ball.toml", "--siz", "64x64"},
                    kAuthor,
-                   ": crashreel render: unknown option --siz; did you mean --size?"},
+                   " render: unknown option --siz; did you mean --size?"},
         BadCommand{"unknown_option_alone", {"--verbos"}, kAuthor, ": unknown option --verbos"},
-        BadCommand{"second_scene",
-                   {"render", "ball.toml", "other.toml"},
-                   kAuthor,
-                   ": crashreel render: unexpected argument \"other.toml\""},
-        BadCommand{"no_scene", {"render"}, kAuthor, ": crashreel render: SCENE is required; see crashreel render --help"},
-        BadCommand{"no_folder",
-                   {"simulate", "ball.toml"},
-                   kAuthor,
-                   ": crashreel simulate: --output is required; see crashreel simulate --help"},
+        BadCommand{"second_scene", {"render", "ball.toml", "other.toml"}, kAuthor, " render: unexpected argument \"other.toml\""},
+        BadCommand{"no_scene", {"render"}, kAuthor, " render: SCENE is required; see crashreel render --help"},
+        BadCommand{
+            "no_folder", {"simulate", "ball.toml"}, kAuthor, " simulate: --output is required; see crashreel simulate --help"},
         BadCommand{"bad_quality",
                    {"render", "ball.toml", "--quality", "best"},
                    kAuthor,
-                   ": crashreel render: --quality: \"best\" is none of draft, standard, fine; see crashreel render --help"},
+                   " render: --quality: \"best\" is none of draft, standard, fine; see crashreel render --help"},
         BadCommand{"odd_size",
                    {"render", "ball.toml", "--size", "641x480"},
                    kAuthor,
@@ -161,36 +172,37 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"size_not_a_size",
                    {"render", "ball.toml", "--size", "0x10"},
                    kAuthor,
-                   ": --size is \"0x10\", each side must lie in 16..16384 pixels"},
+                   ": --size is \"0x10\": each side must lie in 16..16384 pixels"},
         BadCommand{"size_nonsense",
                    {"render", "ball.toml", "--size", "nanx1e3"},
                    kAuthor,
-                   ": --size is \"nanx1e3\", must be WIDTHxHEIGHT, like 1280x720"},
-        BadCommand{"fps_nan", {"render", "ball.toml", "--fps", "nan"}, kAuthor, ": --fps is \"nan\", must be a number in 1..1000"},
+                   ": --size is \"nanx1e3\": must be WIDTHxHEIGHT, like 1280x720"},
+        BadCommand{"fps_nan", {"render", "ball.toml", "--fps", "nan"}, kAuthor, ": --fps is \"nan\": must be a number in 1..1000"},
         BadCommand{
-            "jobs_zero", {"render", "ball.toml", "--jobs", "0"}, kAuthor, ": --jobs is \"0\", must be a whole number in 1..256"},
+            "jobs_zero", {"render", "ball.toml", "--jobs", "0"}, kAuthor, ": --jobs is \"0\": must be a whole number in 1..256"},
         BadCommand{
-            "at_late", {"render", "ball.toml", "-o", "a.png", "--at", "9s"}, kAuthor, ": --at is \"9s\", the scene ends at 0.4 s"},
+            "at_late", {"render", "ball.toml", "-o", "a.png", "--at", "9s"}, kAuthor, ": --at is \"9s\": the scene ends at 0.4 s"},
         BadCommand{"at_infinite",
                    {"render", "ball.toml", "-o", "a.png", "--at", "1e999"},
                    kAuthor,
-                   ": --at is \"1e999\", must be a time; write it like \"1 s\""},
+                   ": --at is \"1e999\": must be a time; write it like \"1 s\"; units: s, ms, min, h"},
         BadCommand{"png_without_at",
                    {"render", "ball.toml", "-o", "a.png"},
                    kAuthor,
-                   ": -o is \"a.png\", a single PNG needs --at TIME; for a sequence name a folder or frame_%05d.png"},
+                   ": -o is \"a.png\": a single PNG needs --at TIME; for a sequence name a folder or frame_%05d.png"},
         BadCommand{"unknown_ending",
                    {"render", "ball.toml", "-o", "a.avi"},
                    kAuthor,
-                   ": -o is \"a.avi\", must end in .mp4, .mkv or .png, or name a folder"},
+                   ": -o is \"a.avi\": must end in .mp4, .mkv or .png, or name a folder"},
         BadCommand{"wild_pattern",
                    {"render", "ball.toml", "-o", "a%s%n.png"},
                    kAuthor,
-                   ": -o is \"a%s%n.png\", a pattern must hold one %05d in its file name and end in .png"},
-        BadCommand{"unknown_camera",
-                   {"render", "ball.toml", "--camera", "sid"},
-                   kAuthor,
-                   ": --camera is \"sid\", the scene has side, above; did you mean side?"},
+                   ": -o is \"a%s%n.png\": a pattern must hold one %05d in its file name and end in .png"},
+        BadCommand{
+            "unknown_camera",
+            {"render", "ball.toml", "--camera", "sid"},
+            kAuthor,
+            ": --camera is \"sid\": the scene has side, above; presets: top, side, front, driver, follow; did you mean side?"},
         BadCommand{"existing_video",
                    {"render", "ball.toml", "-o", "there.mp4"},
                    kAuthor,
@@ -208,9 +220,9 @@ INSTANTIATE_TEST_SUITE_P(
                    kMachine,
                    ": writing into there.png: it is not a folder"},
         BadCommand{"unwritable_folder",
-                   {"simulate", "ball.toml", "-o", "none/none/out"},
+                   {"simulate", "ball.toml", "-o", "there.png/none/out"},
                    kMachine,
-                   ": making the folder none/none/out: No such file or directory"},
+                   ": making the folder there.png/none/out: Not a directory"},
         BadCommand{"unknown_effect",
                    {"plan", "ball.toml", "--effects", "gravty=off"},
                    kAuthor,
@@ -218,11 +230,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"effect_state",
                    {"plan", "ball.toml", "--effects", "gravity=no"},
                    kAuthor,
-                   ": --effects is \"gravity=no\", must be NAME=on, NAME=off or NAME=auto"},
+                   ": --effects is \"gravity=no\": must be NAME=on, NAME=off or NAME=auto"},
         BadCommand{"frames_reversed",
                    {"render", "ball.toml", "--frames", "9:3"},
                    kAuthor,
-                   ": --frames is \"9:3\", must be frames counted from 0: 7, 10-20, 10-20x5 (every fifth), 10-, -20, or a list of "
+                   ": --frames is \"9:3\": must be frames counted from 0: 7, 10-20, 10-20x5 (every fifth), 10-, -20, or a list of "
                    "these with commas"}),
     [](const auto& command) { return command.param.name; });
 

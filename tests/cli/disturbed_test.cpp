@@ -132,6 +132,22 @@ TEST_F(Disturbed, SignalsEndARunWithinTwoSeconds) {
   }
 }
 
+TEST_F(Disturbed, AStoppedRunTellsWhatIsKept) {
+  folder.write("long.toml", ball_with("duration = \"0.4 s\"", "duration = \"600 s\"\nstep = \"0.1 ms\""));
+  // it is stopped while it simulates: some time after it holds its lock
+  const auto stopped = [this](const std::string& command, const std::string& lock) {
+    under_shell(folder, "{ $P " + command + " -q 2>told & } ; run=$!; until [ -e " + lock +
+                            " ]; do sleep 0.05; done; sleep 1; kill -TERM $run; wait $run");
+    return contents(folder / "told");
+  };
+  EXPECT_EQ(stopped("simulate long.toml -o out", "out/summary.json.lock"),
+            "crashreel: stopped by SIGTERM; nothing was kept; the same command begins anew\n");
+  EXPECT_EQ(stopped("render long.toml -o a.mp4", "a.mp4.lock"),
+            "crashreel: stopped by SIGTERM; nothing was kept; with --resume a film keeps its finished frames\n");
+  EXPECT_EQ(stopped("render long.toml -o b.mp4 --resume", "b.mp4.lock"),
+            "crashreel: stopped by SIGTERM; finished frames are kept, and the same command goes on from there\n");
+}
+
 TEST_F(Disturbed, ResumedFramesAreThoseOfAnUndisturbedRun) {
   ASSERT_EQ(run(folder, film({"-o", "whole"})).code, 0);
   ASSERT_EQ(run(folder, film({"-o", "part", "--frames", "1:1"})).code, 0);

@@ -60,9 +60,10 @@ std::string in_browser(const Folder& folder, const std::string& probe) {
   page.insert(page.rfind("</body>"), "<script>" + probe + "</script>");
   folder.write("probe.html", page);
   const std::string command =
-      "timeout 60 chromium --headless --no-sandbox --disable-gpu --user-data-dir=" + (folder / "profile").string() +
-      " --virtual-time-budget=4000 --dump-dom file://" + (folder / "probe.html").string() + " >" + (folder / "dom.html").string() +
-      " 2>/dev/null";
+      "timeout 60 chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
+      "--disable-component-update --disable-sync --user-data-dir=" +
+      (folder / "profile").string() + " --virtual-time-budget=4000 --dump-dom file://" + (folder / "probe.html").string() + " >" +
+      (folder / "dom.html").string() + " 2>/dev/null";
   if (std::system(command.c_str()) != 0) return "chromium failed";
   const std::string dom = contents(folder / "dom.html"), before = "data-result=\"";
   const std::size_t at = dom.find(before);

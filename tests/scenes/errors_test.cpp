@@ -20,7 +20,7 @@ const std::string kBall = "[[body]]\nname = \"ball\"\nmass = \"1 kg\"\naxes = \"
 TEST(SceneErrorTexts, BrokenToml) {
   const auto lines = folder().errors("title = \"x\n");
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_EQ(lines[0].substr(0, 25), "case.toml:1:11: not TOML:");
+  EXPECT_EQ(lines[0], "case.toml:1:11: the text has no closing quote; write title = \"x\"");
 }
 
 TEST(SceneErrorTexts, KeysTheParserCannotStand) {
@@ -57,19 +57,19 @@ TEST(SceneErrorTexts, MissingFile) {
     load("no/such/scene.toml");
     FAIL() << "a scene that is not there was loaded";
   } catch (const SceneErrors& error) {
-    EXPECT_THAT(error.lines, ElementsAre("no/such/scene.toml: cannot be read as a scene file; check the path and its permissions"));
+    EXPECT_THAT(error.lines, ElementsAre("no/such/scene.toml: there is no such file; there is no folder no/such either"));
   }
 }
 
 TEST(SceneErrorTexts, NegativeMass) {
   EXPECT_THAT(folder().errors("[[body]]\nname = \"ball\"\nmass = \"-3 kg\"\naxes = \"0.1 0.1 0.1 m\"\n"),
-              ElementsAre("case.toml:3:8: body.ball.mass is \"-3 kg\", must be greater than 0 kg"));
+              ElementsAre("case.toml:3:8: body.ball.mass is \"-3 kg\": must be greater than 0 kg"));
 }
 
 TEST(SceneErrorTexts, NegativeDrag) {
   EXPECT_THAT(folder().errors("[air]\ndrag = -1.2\nvehicle_drag = [0.3, -0.8, 1]\n" + kBall),
-              ElementsAre("case.toml:2:8: air.drag is -1.2, must be at least 0",
-                          "case.toml:3:22: air.vehicle_drag[1] is -0.8, must be at least 0"));
+              ElementsAre("case.toml:2:8: air.drag is -1.2: must be at least 0",
+                          "case.toml:3:22: air.vehicle_drag[1] is -0.8: must be at least 0"));
 }
 
 TEST(SceneErrorTexts, BrakeSharesOfSomeWheelsOnly) {
@@ -88,17 +88,17 @@ TEST(SceneErrorTexts, BrakeSharesOfSomeWheelsOnly) {
 TEST(SceneErrorTexts, ImpossibleInertia) {
   EXPECT_THAT(
       folder().errors(kBall + "inertia = \"1 2 5 kg m^2\"\n"),
-      ElementsAre("case.toml:5:11: body.ball.inertia is \"1 2 5 kg m^2\", must be physically possible; of its principal moments "
+      ElementsAre("case.toml:5:11: body.ball.inertia is \"1 2 5 kg m^2\": must be physically possible; of its principal moments "
                   "1 + 2 is less than 5 kg m^2"));
   EXPECT_THAT(
       folder().errors(kBall + "inertia = \"-1 2 2 kg m^2\"\n"),
-      ElementsAre("case.toml:5:11: body.ball.inertia is \"-1 2 2 kg m^2\", must be positive definite; its smallest principal "
+      ElementsAre("case.toml:5:11: body.ball.inertia is \"-1 2 2 kg m^2\": must be positive definite; its smallest principal "
                   "moment is -1 kg m^2"));
 }
 
 TEST(SceneErrorTexts, ExponentBelowTwo) {
   EXPECT_THAT(folder().errors(kBall + "exponent = 1.5\n"),
-              ElementsAre("case.toml:5:12: body.ball.exponent is 1.5, must lie in 2..100; a hyper-ellipsoid needs n >= 2"));
+              ElementsAre("case.toml:5:12: body.ball.exponent is 1.5: must lie in 2..100; a hyper-ellipsoid needs n >= 2"));
 }
 
 TEST(SceneErrorTexts, UnknownKey) {
@@ -107,8 +107,10 @@ TEST(SceneErrorTexts, UnknownKey) {
 }
 
 TEST(SceneErrorTexts, WrongDimension) {
-  EXPECT_THAT(folder().errors("[simulation]\nduration = \"4 km/h\"\n"),
-              ElementsAre("case.toml:2:12: simulation.duration is \"4 km/h\", must be a time; write it like \"1 s\""));
+  EXPECT_THAT(
+      folder().errors("[simulation]\nduration = \"4 km/h\"\n"),
+      ElementsAre(
+          "case.toml:2:12: simulation.duration is \"4 km/h\": must be a time; write it like \"1 s\"; units: s, ms, min, h"));
 }
 
 TEST(SceneErrorTexts, BareNumber) {
@@ -119,43 +121,43 @@ TEST(SceneErrorTexts, BareNumber) {
 TEST(SceneErrorTexts, StepOfZero) {
   EXPECT_THAT(
       folder().errors("[simulation]\nstep = \"0 s\"\n"),
-      ElementsAre("case.toml:2:8: simulation.step is \"0 s\", must be greater than 0 and at most 0.1 s; 1 ms is a good start"));
+      ElementsAre("case.toml:2:8: simulation.step is \"0 s\": must be greater than 0 and at most 0.1 s; 1 ms is a good start"));
 }
 
 TEST(SceneErrorTexts, NotANumber) {
   EXPECT_THAT(folder().errors(kBall + "friction = nan\n"),
-              ElementsAre("case.toml:5:12: body.ball.friction is nan, must be a finite decimal number"));
+              ElementsAre("case.toml:5:12: body.ball.friction is nan: must be a finite decimal number"));
   EXPECT_THAT(folder().errors(kBall + "friction = 0x10\n"),
-              ElementsAre("case.toml:5:12: body.ball.friction is 16, must be a finite decimal number"));
+              ElementsAre("case.toml:5:12: body.ball.friction is 16: must be a finite decimal number"));
 }
 
 TEST(SceneErrorTexts, MissingMesh) {
   EXPECT_THAT(
       folder().errors("[[body]]\nname = \"rock\"\nmass = \"1 kg\"\ninertia = \"1 1 1 kg m^2\"\nmesh = \"rock.obj\"\n"),
       ElementsAre(
-          "case.toml:5:8: body.rock.mesh is \"rock.obj\", must be a mesh file; there is no rock.obj and no " CRASHREEL_SOURCE_DIR
+          "case.toml:5:8: body.rock.mesh is \"rock.obj\": must be a mesh file; there is no rock.obj and no " CRASHREEL_SOURCE_DIR
           "/rock.obj"));
 }
 
 TEST(SceneErrorTexts, OddPictureWidth) {
   EXPECT_THAT(folder().errors("[output]\nwidth = 641\n"),
-              ElementsAre("case.toml:2:9: output.width is 641, must be even; the video's colour is stored for pairs of pixels"));
+              ElementsAre("case.toml:2:9: output.width is 641: must be even; the video's colour is stored for pairs of pixels"));
 }
 
 TEST(SceneErrorTexts, PoseOutsideTheRangeOfMotionNamesTheJoint) {
   EXPECT_THAT(
       folder().errors("[[person]]\nname = \"p\"\n[person.angles]\nleft_knee_flexion = \"-20 deg\"\n"),
-      ElementsAre("case.toml:4:21: person.p.angles.left_knee_flexion is \"-20 deg\", must lie in 0..140 deg; that is the range of "
+      ElementsAre("case.toml:4:21: person.p.angles.left_knee_flexion is \"-20 deg\": must lie in 0..140 deg; that is the range of "
                   "flexion of joint left_knee"));
 }
 
 TEST(SceneErrorTexts, ComeSeveralAtOnceInTheOrderOfTheFile) {
   EXPECT_THAT(
       folder().errors("[simulation]\nstep = 1\nduraton = \"4 s\"\n" + kBall + "restitution = -0.2\n[[joint]]\nchild = \"bal\"\n"),
-      ElementsAre("case.toml:2:8: simulation.step = 1 needs a unit: write \"1 s\" or \"1000 ms\"",
+      ElementsAre("case.toml:2:8: simulation.step = 1 needs a unit: write \"1 ms\"",
                   "case.toml:3:1: simulation.duraton is not a known key; did you mean \"duration\"?",
-                  "case.toml:8:15: body.ball.restitution is -0.2, must lie in 0..1",
-                  "case.toml:10:9: joint.0.child is \"bal\", is no body of the scene; did you mean \"ball\"?"));
+                  "case.toml:8:15: body.ball.restitution is -0.2: must lie in 0..1",
+                  "case.toml:10:9: joint.0.child is \"bal\": is no body of the scene; did you mean \"ball\"?"));
 }
 
 TEST(Overrides, ReachElementsByNameAndNumber) {
@@ -167,7 +169,7 @@ TEST(Overrides, ReachElementsByNameAndNumber) {
 
 TEST(Overrides, AreNamedInErrors) {
   EXPECT_THAT(folder().errors(kBall, {"body.ball.mass=0"}),
-              ElementsAre("--set body.ball.mass=0: body.ball.mass is 0, must be greater than 0 kg"));
+              ElementsAre("--set body.ball.mass=0: body.ball.mass is 0: must be greater than 0 kg"));
   EXPECT_THAT(folder().errors(kBall, {"body.bell.mass=1 kg"}),
               ElementsAre("--set body.bell.mass=1 kg: there is no body named or numbered \"bell\""));
   EXPECT_THAT(folder().errors(kBall, {"nonsense"}),

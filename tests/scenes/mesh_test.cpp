@@ -181,7 +181,7 @@ TEST(MeshAudit, RefusesWhatCannotBeTouched) {
   EXPECT_THAT(folder.errors(kCar), ::testing::ElementsAre(HasSubstr("has no triangle with an area; there is nothing to touch")));
   folder.write("car.obj", box(4));
   EXPECT_THAT(folder.errors(kCar + "mesh_scale = 1e-12\n"),
-              ::testing::ElementsAre(HasSubstr("mesh_scale is 1e-12, leaves no triangle with an area")));
+              ::testing::ElementsAre(HasSubstr("mesh_scale is 1e-12: leaves no triangle with an area")));
 }
 
 TEST(MeshAudit, CountsDegenerateAndDuplicateTriangles) {

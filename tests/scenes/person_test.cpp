@@ -125,8 +125,8 @@ TEST_P(Poses, StandsOnTheGroundWithItsJointsTogether) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Twelve, Poses,
-                         ::testing::Values("standing", "walking_left", "walking_right", "sitting", "sitting_upright",
+INSTANTIATE_TEST_SUITE_P(Library, Poses,
+                         ::testing::Values("standing", "walking_left", "walking_right", "running", "sitting", "sitting_upright",
                                            "lying_supine", "lying_prone", "leaning", "cyclist", "motorcyclist", "cat", "prayer"));
 
 TEST(PoseHeights, OfLyingSittingAndStandingComeInThatOrder) {

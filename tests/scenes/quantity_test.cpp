@@ -47,17 +47,18 @@ TEST_P(Texts, ThatAreNoQuantityAreRefusedWithTheRemedy) {
   EXPECT_EQ(parse_quantity(GetParam().text, GetParam().dimension).problem, GetParam().problem);
 }
 
-INSTANTIATE_TEST_SUITE_P(Slips, Texts,
-                         ::testing::Values(Refused{"40 kg", Dimension::speed, "must be a speed; write it like \"1 km/h\""},
-                                           Refused{"40", Dimension::speed, "needs a unit: write \"40 km/h\" or \"11.1 m/s\""},
-                                           Refused{"40 kmh", Dimension::speed,
-                                                   "\"kmh\" is not a unit; must be a speed; write it like \"1 km/h\""},
-                                           Refused{"nan m", Dimension::length, "must be a length; write it like \"1 m\""},
-                                           Refused{"1e999 m", Dimension::length, "must be a length; write it like \"1 m\""},
-                                           Refused{"0x10 m", Dimension::length, "must be a length; write it like \"1 m\""},
-                                           Refused{"1,5 m", Dimension::length, "must be a length; write it like \"1 m\""},
-                                           Refused{"", Dimension::length, "must be a length; write it like \"1 m\""},
-                                           Refused{"0.6 m", Dimension::none, "must be a plain number without a unit"}));
+INSTANTIATE_TEST_SUITE_P(
+    Slips, Texts,
+    ::testing::Values(Refused{"40 kg", Dimension::speed, "must be a speed; write it like \"1 km/h\"; units: km/h, m/s, mph, ft/s"},
+                      Refused{"40", Dimension::speed, "needs a unit: write \"40 km/h\" or \"11.1 m/s\""},
+                      Refused{"40 kmh", Dimension::speed, "\"kmh\" is not a unit; did you mean \"40 km/h\"?"},
+                      Refused{"nan m", Dimension::length, "must be a length; write it like \"1 m\"; units: m, cm, mm, km, ft, in"},
+                      Refused{"1e999 m", Dimension::length,
+                              "must be a length; write it like \"1 m\"; units: m, cm, mm, km, ft, in"},
+                      Refused{"0x10 m", Dimension::length, "must be a length; write it like \"1 m\"; units: m, cm, mm, km, ft, in"},
+                      Refused{"1,5 m", Dimension::length, "has a decimal comma; write \"1.5 m\""},
+                      Refused{"", Dimension::length, "must be a length; write it like \"1 m\"; units: m, cm, mm, km, ft, in"},
+                      Refused{"0.6 m", Dimension::none, "must be a plain number without a unit"}));
 
 TEST(QuantityLists, ShareOneUnit) {
   const Quantities q = parse_quantities("1 -2 3.5 km", Dimension::length);

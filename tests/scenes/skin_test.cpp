@@ -147,8 +147,8 @@ constexpr double kCrease = 0.04, kVolume = 0.02;
 
 TEST_P(SkinOf, HasNoPinchesInAnyPose) {
   const Bent figure(GetParam());
-  for (const char* pose : {"standing", "walking_left", "walking_right", "sitting", "sitting_upright", "lying_supine", "lying_prone",
-                           "leaning", "cyclist", "motorcyclist", "cat", "prayer"}) {
+  for (const char* pose : {"standing", "walking_left", "walking_right", "running", "sitting", "sitting_upright", "lying_supine",
+                           "lying_prone", "leaning", "cyclist", "motorcyclist", "cat", "prayer"}) {
     const Strain s = figure.in("pose = \"" + std::string(pose) + "\"\n");
     EXPECT_LT(s.folded, kCrease) << pose;
     EXPECT_NEAR(s.girth, 1, kVolume) << pose;

@@ -1,0 +1,17 @@
+# Makes the meshes in SCRATCH and moves those that changed to MESHES: a run that reads one meanwhile never sees half of it.
+file(REMOVE_RECURSE ${SCRATCH})
+file(MAKE_DIRECTORY ${SCRATCH} ${MESHES})
+execute_process(COMMAND ${GENERATOR} ${SCRATCH} RESULT_VARIABLE failed)
+if(failed)
+  message(FATAL_ERROR "the generator failed: ${failed}")
+endif()
+file(GLOB made RELATIVE ${SCRATCH} ${SCRATCH}/*)
+foreach(name ${made})
+  execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${SCRATCH}/${name} ${MESHES}/${name} RESULT_VARIABLE differs ERROR_QUIET)
+  if(differs)
+    # a name of its own in the folder of the meshes: the last step is a rename on one disk
+    string(RANDOM LENGTH 12 suffix)
+    file(COPY_FILE ${SCRATCH}/${name} ${MESHES}/${name}.${suffix})
+    file(RENAME ${MESHES}/${name}.${suffix} ${MESHES}/${name})
+  endif()
+endforeach()

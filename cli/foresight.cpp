@@ -1,0 +1,248 @@
+#include "cli/foresight.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "cli/estimate.h"
+#include "engine/simulate.h"
+#include "render/cameras.h"
+#include "render/frames.h"
+
+namespace cli {
+namespace {
+
+using engine::Vec3;
+using Sentences = std::vector<std::string>;
+
+constexpr double kFastestVehicle = 250 / 3.6;  // [m/s] beyond it a unit is wrong more often than the accident is real
+constexpr double kFastestPerson = 45 / 3.6;    // [m/s] the fastest sprint; riders are not held to it
+constexpr double kHardestDriving = 10;         // [m/s^2] no tyre accelerates or brakes harder on the road
+constexpr double kBytesPerPixel = 0.02;        // [byte] of a film, twice what the flagship takes
+constexpr int kFirstSteps = 3;
+
+/// What moves as one: a vehicle, a person, a free body.
+struct Thing {
+  std::string name;
+  std::vector<int> bodies;
+  Vec3 centre = Vec3::Zero();
+  double radius = 0;        // [m] horizontally, about the centre
+  double speed = 0;         // [m/s] at the start
+  double acceleration = 0;  // [m/s^2] it may reach by itself
+  bool fixed = false;
+  int holds_on_to = -1;  // the body it rides or is towed by: touching that is no accident
+};
+
+double radius_of(const engine::Body& body) {
+  if (const auto* ellipsoid = std::get_if<engine::HyperEllipsoid>(&body.shape)) return ellipsoid->semi_axes.norm();
+  if (const auto* mesh = std::get_if<engine::MeshShape>(&body.shape)) {
+    const auto bounds = mesh->mesh->bounds();
+    return bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).norm() + mesh->X_BM.p.norm();
+  }
+  return 0;
+}
+
+Thing thing_of(const engine::Model& model, const std::string& name, const std::vector<int>& bodies) {
+  Thing out;
+  out.name = name;
+  out.bodies = bodies;
+  out.fixed = true;
+  for (const int b : bodies) {
+    const engine::Body& body = model.bodies[static_cast<std::size_t>(b)];
+    out.centre += body.X_WB.p / static_cast<double>(bodies.size());
+    out.speed = std::max(out.speed, body.V_WB.v.norm());
+    out.fixed = out.fixed && body.fixed;
+  }
+  for (const int b : bodies) {
+    const engine::Body& body = model.bodies[static_cast<std::size_t>(b)];
+    out.radius = std::max(out.radius, (body.X_WB.p - out.centre).norm() + radius_of(body));
+  }
+  return out;
+}
+
+std::vector<Thing> things_of(const engine::Model& model) {
+  std::vector<Thing> out;
+  for (const engine::Vehicle& vehicle : model.vehicles) {
+    out.push_back(thing_of(model, vehicle.name, {vehicle.body}));
+    out.back().acceleration = kHardestDriving;
+  }
+  for (const engine::Person& person : model.persons) {
+    out.push_back(thing_of(model, person.name, person.bodies));
+    out.back().holds_on_to = person.mount;
+  }
+  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
+    const engine::Body& body = model.bodies[static_cast<std::size_t>(b)];
+    if (body.person < 0 && body.vehicle < 0) out.push_back(thing_of(model, body.name, {b}));
+  }
+  return out;
+}
+
+/// The first steps of the run: what overlaps at the start, what cannot be computed at all.
+Sentences first_steps(const scenes::Scene& scene) {
+  engine::Model model = scene.model;
+  model.settings.duration = std::min(model.settings.duration, kFirstSteps * model.settings.step);
+  const engine::Recording recording = engine::simulate(model);
+  Sentences out = recording.diagnostics.warnings;
+  if (const auto& failure = recording.failure)
+    out.push_back(fmt::format("the model diverges at {:.4f} s, body {}, effect {}: {}", failure->time, failure->body,
+                              failure->effect, failure->message));
+  return out;
+}
+
+/// Who stands inside a vehicle's shell touches nothing there, and the run begins without a word.
+Sentences inside_vehicles(const engine::Model& model) {
+  Sentences out;
+  for (const engine::Person& person : model.persons)
+    for (const engine::Vehicle& vehicle : model.vehicles) {
+      const engine::Body& car = model.bodies[static_cast<std::size_t>(vehicle.body)];
+      const auto* shell = std::get_if<engine::MeshShape>(&car.shape);
+      if (!shell || person.mount == vehicle.body) continue;
+      const Vec3 hips = shell->X_BM.inverse() * (car.X_WB.inverse() * model.bodies[static_cast<std::size_t>(person.hips)].X_WB.p);
+      const auto bounds = shell->mesh->bounds();
+      if ((hips - bounds.lower).minCoeff() > 0 && (bounds.upper - hips).minCoeff() > 0)
+        out.push_back(fmt::format("{} stands inside {} at the start", person.name, vehicle.name));
+    }
+  return out;
+}
+
+Sentences unlikely_speeds(const engine::Model& model) {
+  Sentences out;
+  const auto tell = [&out](const std::string& name, double speed, double most) {
+    if (speed > most)
+      out.push_back(
+          fmt::format("{} starts at {:.4g} km/h, faster than {:.4g} km/h; is the unit right?", name, 3.6 * speed, 3.6 * most));
+  };
+  for (const engine::Vehicle& vehicle : model.vehicles)
+    tell(vehicle.name, model.bodies[static_cast<std::size_t>(vehicle.body)].V_WB.v.norm(), kFastestVehicle);
+  for (const engine::Person& person : model.persons)
+    if (person.mount < 0) tell(person.name, model.bodies[static_cast<std::size_t>(person.hips)].V_WB.v.norm(), kFastestPerson);
+  return out;
+}
+
+bool belong_together(const engine::Model& model, const Thing& a, const Thing& b) {
+  const auto has = [](const Thing& thing, int body) {
+    return std::find(thing.bodies.begin(), thing.bodies.end(), body) != thing.bodies.end();
+  };
+  if (has(b, a.holds_on_to) || has(a, b.holds_on_to)) return true;
+  return std::any_of(model.joints.begin(), model.joints.end(), [&](const engine::Joint& j) {
+    return (has(a, j.parent) && has(b, j.child)) || (has(b, j.parent) && has(a, j.child));
+  });
+}
+
+/// Objects so far from all others that nothing brings them together before the run ends. Slopes, terrain and wind are left out of
+/// it: there it is not known without computing.
+Sentences out_of_reach(const engine::Model& model) {
+  const std::vector<Thing> things = things_of(model);
+  const Vec3& gravity = model.settings.gravity;
+  const auto wind = model.inputs.find("air.wind");
+  if (wind != model.inputs.end() && wind->second.norm() > 0) return {};
+  if (things.size() < 2 || model.ground.terrain || !model.ground.plane || gravity.head<2>().norm() > 0) return {};
+  const double time = model.settings.duration;
+  const auto reach = [time](const Thing& t) { return t.fixed ? 0 : t.speed * time + 0.5 * t.acceleration * time * time; };
+  Sentences out;
+  for (const Thing& a : things) {
+    bool alone = true, free = false;
+    double nearest = 1e300;
+    for (const Thing& b : things) {
+      if (&a == &b || belong_together(model, a, b)) continue;
+      free = true;
+      const double gap = (a.centre - b.centre).head<2>().norm() - a.radius - b.radius;
+      nearest = std::min(nearest, gap);
+      alone = alone && gap > reach(a) + reach(b);
+    }
+    if (alone && free)
+      out.push_back(
+          fmt::format("{} can touch nothing: at the start it is {:.3g} m from the nearest other object, too far for {:.3g} s",
+                      a.name, nearest, time));
+  }
+  return out;
+}
+
+/// Whether the camera sees any of the things where they are at the start or would be later, each on its straight way.
+bool sees_something(const render::Camera& camera, const engine::Model& model, double aspect) {
+  const Vec3 axis = (camera.target - camera.position).normalized();
+  const double half = std::atan(std::tan(camera.vertical_fov / 2) * std::hypot(1.0, aspect));  // to the picture's corner
+  for (const Thing& thing : things_of(model)) {
+    const engine::Body& body = model.bodies[static_cast<std::size_t>(thing.bodies.front())];
+    for (int i = 0; i <= 20; ++i) {
+      const double t = model.settings.duration * i / 20;
+      const Vec3 way =
+          thing.centre + (body.fixed ? Vec3::Zero() : Vec3(body.V_WB.v.x() * t, body.V_WB.v.y() * t, 0)) - camera.position;
+      const double distance = way.norm();
+      if (distance <= thing.radius) return true;
+      const double angle = std::acos(std::clamp(way.dot(axis) / distance, -1.0, 1.0));
+      if (angle - std::asin(thing.radius / distance) <= half) return true;
+    }
+  }
+  return false;
+}
+
+Sentences blind_cameras(const scenes::Scene& scene) {
+  Sentences out;
+  const render::Stage& stage = scene.stage;
+  const double aspect = static_cast<double>(scene.output.width) / scene.output.height;
+  for (const render::Camera& camera : stage.cameras) {
+    const bool aims = camera.kind == render::CameraKind::fixed && camera.follow.empty();
+    if (aims && !sees_something(camera, scene.model, aspect))
+      out.push_back(fmt::format("camera {} looks away: no vehicle, person or body comes into its picture", camera.name));
+  }
+  return out;
+}
+
+Sentences room_on_disk(const scenes::Scene& scene) {
+  std::error_code unknown;
+  const std::filesystem::space_info space = std::filesystem::space(".", unknown);
+  if (unknown) return {};
+  int frames = 0;
+  try {
+    frames = render::Film(scene.stage, scene.model.settings.duration, scene.output.fps).size();
+  } catch (const render::FilmTooLong& error) {
+    return {error.what()};
+  }
+  const double bytes = kBytesPerPixel * frames * scene.output.width * scene.output.height;
+  if (static_cast<double>(space.available) >= bytes) return {};
+  return {fmt::format("the disk of this folder has {} left; a film of this scene may take {}",
+                      bytes_text(static_cast<double>(space.available)), bytes_text(bytes))};
+}
+
+/// Whether two things of an accident could have met: a vehicle or a person, and something it does not ride, tow or hang on.
+bool could_meet(const engine::Model& model) {
+  const std::vector<Thing> things = things_of(model);
+  const auto acts = [&model](const Thing& thing) {
+    const engine::Body& body = model.bodies[static_cast<std::size_t>(thing.bodies.front())];
+    return body.vehicle >= 0 || body.person >= 0;
+  };
+  for (const Thing& a : things)
+    for (const Thing& b : things)
+      if (&a != &b && acts(a) && !belong_together(model, a, b)) return true;
+  return false;
+}
+
+bool is_touch(const engine::Model& model, const engine::ContactRecord& contact) {
+  if (contact.body_a < 0 || contact.body_b < 0) return false;
+  const engine::Body& a = model.bodies[static_cast<std::size_t>(contact.body_a)];
+  const engine::Body& b = model.bodies[static_cast<std::size_t>(contact.body_b)];
+  return !(a.person >= 0 && a.person == b.person) && (contact.normal_impulse > 0 || contact.state == engine::ContactState::impact);
+}
+
+}  // namespace
+
+bool nothing_touched(const engine::Model& model, const engine::Recording& recording) {
+  if (!could_meet(model)) return false;
+  return std::none_of(recording.snapshots.begin(), recording.snapshots.end(), [&](const engine::Snapshot& snapshot) {
+    return std::any_of(snapshot.contacts.begin(), snapshot.contacts.end(),
+                       [&](const engine::ContactRecord& contact) { return is_touch(model, contact); });
+  });
+}
+
+std::vector<std::string> foresee(const scenes::Scene& scene) {
+  Sentences out = first_steps(scene);
+  for (const Sentences& more : {inside_vehicles(scene.model), unlikely_speeds(scene.model), out_of_reach(scene.model),
+                                blind_cameras(scene), room_on_disk(scene)})
+    out.insert(out.end(), more.begin(), more.end());
+  return out;
+}
+
+}  // namespace cli

@@ -1,0 +1,19 @@
+// What a run would tell too late: looked for in the scene before anything is computed at length.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/recording.h"
+#include "scenes/scene.h"
+
+namespace cli {
+
+/// Sentences without a place, most weighty first: overlaps and divergence in the first three steps, speeds no accident has, objects
+/// that can touch nothing, cameras that see nothing, a film larger than the disk has room for.
+std::vector<std::string> foresee(const scenes::Scene&);
+
+/// Whether a run that could have held a collision held none: no vehicle or person touched anything but the ground and itself.
+bool nothing_touched(const engine::Model&, const engine::Recording&);
+
+}  // namespace cli
