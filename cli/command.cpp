@@ -17,6 +17,8 @@ std::function<int()> declare_render(Arguments&);
 std::function<int()> declare_simulate(Arguments&);
 std::function<int()> declare_plan(Arguments&);
 std::function<int()> declare_study(Arguments&);
+std::function<int()> declare_sample(Arguments&);
+std::function<int()> declare_fit(Arguments&);
 std::function<int()> declare_figure(Arguments&);
 std::function<int()> declare_check(Arguments&);
 std::function<int()> declare_compare(Arguments&);
@@ -32,6 +34,8 @@ constexpr Command kCommands[] = {
     {"simulate", "write trajectory.csv, contacts.csv and summary.json", declare_simulate},
     {"plan", "which physical effects a scene calls for, and why", declare_plan},
     {"study", "what accuracy costs in time: errors, bands and sensitivity against computing time", declare_study},
+    {"sample", "many runs over what the scene does not know: percentiles, sensitivity, a table of runs", declare_sample},
+    {"fit", "which inputs explain the evidence, and how sure is that", declare_fit},
     {"figure", "report figures: site diagram, contact map, time histories, stroboscopic still, contact sheet", declare_figure},
     {"check", "read scenes and report every error", declare_check},
     {"compare", "compare two pictures", declare_compare},

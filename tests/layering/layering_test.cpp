@@ -56,6 +56,7 @@ const std::vector<Library> kLibraries = {
     {"toml\\+\\+.*|toml\\.hpp", {"scenes/loader/toml.cpp"}},
     {"assimp/.*|meshoptimizer\\.h", {"scenes/loader/"}},
     {"CLI/.*", {"cli/command.cpp"}},
+    {"boost/.*", {"cli/inference/"}},
     {"nlohmann/.*", {"scenes/", "cli/"}},
     {"fmt/.*", {"render/", "scenes/", "cli/"}},
     {"linux/.*|sys/.*|malloc\\.h|unistd\\.h|fcntl\\.h|poll\\.h|semaphore\\.h|signal\\.h|sched\\.h|fnmatch\\.h",
