@@ -19,6 +19,7 @@ std::function<int()> declare_plan(Arguments&);
 std::function<int()> declare_study(Arguments&);
 std::function<int()> declare_sample(Arguments&);
 std::function<int()> declare_fit(Arguments&);
+std::function<int()> declare_eval(Arguments&);
 std::function<int()> declare_figure(Arguments&);
 std::function<int()> declare_check(Arguments&);
 std::function<int()> declare_compare(Arguments&);
@@ -36,6 +37,7 @@ constexpr Command kCommands[] = {
     {"study", "what accuracy costs in time: errors, bands and sensitivity against computing time", declare_study},
     {"sample", "many runs over what the scene does not know: percentiles, sensitivity, a table of runs", declare_sample},
     {"fit", "which inputs explain the evidence, and how sure is that", declare_fit},
+    {"eval", "runs for another program: parameters from a file, measures into a file", declare_eval},
     {"figure", "report figures: site diagram, contact map, time histories, stroboscopic still, contact sheet", declare_figure},
     {"check", "read scenes and report every error", declare_check},
     {"compare", "compare two pictures", declare_compare},

@@ -9,7 +9,6 @@
 #include "cli/inference/best_scene.h"
 #include "cli/inference/fit.h"
 #include "cli/inference/search.h"
-#include "cli/output/lock.h"
 #include "cli/output/whole_file.h"
 #include "cli/parse.h"
 #include "cli/scene_run.h"
@@ -38,8 +37,8 @@ void refuse_empty(const scenes::Scene& scene) {
 }
 
 /// Equally probable runs of the posterior, once more with the change.
-inference::ButFor but_for(const scenes::Scene& scene, const inference::Prior& prior, const inference::Fit& fit,
-                          inference::Ensemble& ensemble, const std::string& change) {
+inference::ButFor but_for(const inference::Prior& prior, const inference::Fit& fit, inference::Ensemble& ensemble,
+                          const std::string& change) {
   if (change.find('=') == std::string::npos)
     throw UsageError(fmt::format("--but-for is \"{}\", must be KEY=VALUE, like vehicle.sedan.speed=\"30 km/h\"", change));
   std::vector<std::vector<std::string>> changed;
@@ -77,13 +76,13 @@ int run(const FitWish& wish) {
   for (const std::string& change : wish.but_for) {
     std::vector<std::string> all = scene.overrides;
     all.push_back(change);
-    scenes::load(scene.path, all);
+    scenes::load(scene.file, all);
   }
   const std::filesystem::path folder = wish.folder;
   make_writable_folder(folder);
   for (const char* name : {"posterior.csv", "fit.json", "best.toml", "fit.pdf", "fit.svg", "fit.png"})
     refuse_existing(folder / name, wish.overwrite);
-  const OutputLock lock(folder / "fit.json");
+  const inference::FolderLock lock(folder);
 
   inference::Ensemble ensemble(scene, {folder, jobs, progress_of(wish.scene), "fit"});
   inference::Search found = inference::search(scene, prior, ensemble, search);
@@ -96,7 +95,7 @@ int run(const FitWish& wish) {
   const inference::Fit fit =
       inference::conclude(prior, scene.inference.evidence, std::move(found.table), std::move(found.log_ratios), search.seed);
   std::vector<inference::ButFor> others;
-  for (const std::string& change : wish.but_for) others.push_back(but_for(scene, prior, fit, ensemble, change));
+  for (const std::string& change : wish.but_for) others.push_back(but_for(prior, fit, ensemble, change));
 
   write_whole(folder / "posterior.csv", inference::posterior_csv(prior, scene.inference.evidence, fit));
   write_whole(folder / "best.toml", best_scene(scene, prior, fit));

@@ -7,7 +7,6 @@
 #include "cli/command.h"
 #include "cli/exit.h"
 #include "cli/inference/sample.h"
-#include "cli/output/lock.h"
 #include "cli/output/whole_file.h"
 #include "cli/parse.h"
 #include "cli/scene_run.h"
@@ -42,7 +41,7 @@ int run(const SampleWish& wish) {
   make_writable_folder(folder);
   for (const char* name : {"runs.csv", "sample.json", "sample.pdf", "sample.svg", "sample.png"})
     refuse_existing(folder / name, wish.overwrite);
-  const OutputLock lock(folder / "runs.csv");
+  const inference::FolderLock lock(folder);
 
   inference::Table table = inference::plan_rows(prior, grid, static_cast<std::uint64_t>(count), static_cast<std::uint64_t>(seed));
   std::vector<std::vector<std::string>> overrides;

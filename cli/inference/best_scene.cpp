@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "scenes/loader/key_path.h"
 
@@ -15,12 +13,6 @@ struct Edit {
   std::size_t at = 0, length = 0;
   std::string text;
 };
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream out;
-  out << std::ifstream(file, std::ios::binary).rdbuf();
-  return out.str();
-}
 
 std::size_t offset_of(const std::string& text, const scenes::Place& place) {
   std::size_t at = 0;
@@ -103,10 +95,14 @@ void find_paths(const scenes::Value& table, const scenes::Section& section, cons
 }  // namespace
 
 std::string with_overrides(const scenes::Scene& scene, const std::vector<std::string>& overrides, const std::string& remark) {
-  std::string text = text_of(scene.path);
+  std::string text = scene.file.text;
   const scenes::Value root = scenes::parse_text(text, scene.path.string());
   std::vector<Edit> edits;
   find_paths(root, scenes::scene_section(), text, scene.path.parent_path(), edits);
+  std::string head = remark;
+  if (!edits.empty())
+    head += fmt::format("# Meshes and pictures lie elsewhere: --allow {}\n",
+                        std::filesystem::absolute(scene.path).parent_path().string());
   for (const std::string& assignment : overrides) {
     const std::size_t equals = assignment.find('=');
     const std::string path = assignment.substr(0, equals), value = assignment.substr(equals + 1);
@@ -122,7 +118,7 @@ std::string with_overrides(const scenes::Scene& scene, const std::vector<std::st
   }
   std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.at > b.at; });
   for (const Edit& e : edits) text.replace(e.at, e.length, e.text);
-  return remark + text;
+  return head + text;
 }
 
 }  // namespace cli::inference

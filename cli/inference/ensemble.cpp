@@ -25,13 +25,20 @@ std::string head_of(const scenes::Scene& scene) {
 
 }  // namespace
 
+FolderLock::FolderLock(const std::filesystem::path& folder)
+    : lock_(folder / "runs", [](const std::string& name) {
+        for (const char* ours : {"runs.", "sample.", "fit.", "posterior.", "best."})
+          if (name.starts_with(ours)) return true;
+        return false;
+      }) {}
+
 Ensemble::Ensemble(const scenes::Scene& scene, EnsembleWish wish) : scene_(scene), wish_(std::move(wish)) {
   make_writable_folder(wish_.folder);
   make_writable_folder(wish_.folder / "runs");
   const std::string head = head_of(scene_);
   journal_ = wish_.folder / "runs" / (head.substr(15, 32) + ".jsonl");
   // meshes are brought in once, before the processes part
-  scenes::load(scene_.path, scene_.overrides, meshes_.get());
+  scenes::load(scene_.file, scene_.overrides, meshes_.get());
   recall();
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/output/lock.h"
 #include "cli/progress.h"
 #include "scenes/scene.h"
 
@@ -49,6 +50,15 @@ class Ensemble {
   std::filesystem::path journal_;
   std::shared_ptr<scenes::MeshShelf> meshes_ = std::make_shared<scenes::MeshShelf>();
   std::map<std::string, Answer> known_;  // by overrides
+};
+
+/// Holds off other jobs that would write the same results into the folder.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder);
+
+ private:
+  OutputLock lock_;
 };
 
 /// One run on this process' core. What is wrong with the inputs stands in the status.

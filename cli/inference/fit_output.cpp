@@ -83,14 +83,14 @@ Json calibration_json(const Calibration& c) {
 
 /// "48.1 to 51.9 mph", with the digits the width allows.
 std::string range_in_words(double low, double high, const scenes::WrittenUnit& unit) {
-  const double fine = (high - low) / 30;
+  const double fine = (high - low) / 4;  // no digits the width does not carry
   return fmt::format("{} to {}", told(low, {"", unit.factor}, fine), told(high, unit, fine));
 }
 
 std::string answer_in_words(const scenes::Uncertain& u, std::size_t i, const Fit& fit) {
   const Interval& v = fit.inputs[i];
   return fmt::format("{} {} (95 %), most probably near {}", u.key, range_in_words(v.low, v.high, u.unit),
-                     told(v.median, u.unit, (v.high - v.low) / 30));
+                     told(v.median, u.unit, (v.high - v.low) / 4));
 }
 
 void add_modes(const Prior& prior, const Fit& fit, std::vector<std::string>& out) {

@@ -102,7 +102,7 @@ charts::Chart residuals(const scenes::Scene& scene, const Fit& fit) {
 }
 
 std::string value_in_words(const Interval& i, const scenes::WrittenUnit& unit) {
-  const double fine = std::max((i.high - i.low) / 30, std::abs(i.median) / 1e4);
+  const double fine = std::max((i.high - i.low) / 8, std::abs(i.median) / 1e4);
   return std::isfinite(i.mean) ? fmt::format("{} to {}", told(i.low, {"", unit.factor}, fine), told(i.high, unit, fine)) : "none";
 }
 

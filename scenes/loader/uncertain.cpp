@@ -253,6 +253,14 @@ const Section kUncertainSection{"uncertain", "[[uncertain]]",
                                 "the scene says.",
                                 kKeys};
 
+KeyUnit unit_of_key(const Value& root, const std::string& path) {
+  const KeyOfPath found = key_of_path(root, path);
+  if (!found.key) return {"", found.problem};
+  const std::optional<Dimension> dimension = dimension_of_key(found, root);
+  if (!dimension) return {"", "is of a dimension no key of a scene has"};
+  return {std::string(si_unit(*dimension)), ""};
+}
+
 ReadValues read_values(const Value& value, Dimension dimension) {
   ReadValues out;
   out.unit = unit_of(value, dimension);
