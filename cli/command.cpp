@@ -19,6 +19,9 @@ std::function<int()> declare_render(Arguments&);
 std::function<int()> declare_simulate(Arguments&);
 std::function<int()> declare_plan(Arguments&);
 std::function<int()> declare_study(Arguments&);
+std::function<int()> declare_sample(Arguments&);
+std::function<int()> declare_fit(Arguments&);
+std::function<int()> declare_eval(Arguments&);
 std::function<int()> declare_figure(Arguments&);
 std::function<int()> declare_check(Arguments&);
 std::function<int()> declare_compare(Arguments&);
@@ -52,6 +55,15 @@ constexpr Example kStudyExamples[] = {
     {"study case.toml -o out --input vehicle.sedan.speed=\"39 km/h..41 km/h\"", "what a range of an input does"},
     {"study case.toml -o out --target throw_distance=0.05m", "the cheapest setting that holds it"},
 };
+constexpr Example kSampleExamples[] = {
+    {"sample case.toml -n 1000 -o out", "1000 runs over the inputs under [[uncertain]]"},
+};
+constexpr Example kFitExamples[] = {
+    {"fit case.toml -o out", "the inputs that explain what stands under [[evidence]], with intervals"},
+};
+constexpr Example kEvalExamples[] = {
+    {"eval case.toml params.in results.out", "one run for an outside tool"},
+};
 constexpr Example kFigureExamples[] = {
     {"figure case.toml -o out", "site diagram, contact map, time histories and stills"},
 };
@@ -78,6 +90,10 @@ constexpr Command kCommands[] = {
     {"simulate", "write trajectory.csv, contacts.csv and summary.json", declare_simulate, kSimulateExamples},
     {"plan", "which physical effects a scene calls for, and why", declare_plan, kPlanExamples},
     {"study", "what accuracy costs in time: errors, bands and sensitivity against computing time", declare_study, kStudyExamples},
+    {"sample", "many runs over what the scene does not know: percentiles, sensitivity, a table of runs", declare_sample,
+     kSampleExamples},
+    {"fit", "which inputs explain the evidence, and how sure is that", declare_fit, kFitExamples},
+    {"eval", "runs for another program: parameters from a file, measures into a file", declare_eval, kEvalExamples},
     {"figure", "report figures: site diagram, contact map, time histories, stroboscopic still, contact sheet", declare_figure,
      kFigureExamples},
     {"check", "read scenes and report every error", declare_check, kCheckExamples},

@@ -9,6 +9,7 @@
 #include "engine/model/model.h"
 #include "render/stage.h"
 #include "scenes/error.h"
+#include "scenes/inference.h"
 
 namespace scenes {
 
@@ -70,6 +71,7 @@ struct Scene {
   render::Stage stage;
   Output output;
   SnapshotTest snapshot;
+  Inference inference;
   std::vector<std::string> warnings;          // file:line:column: what looked odd but loads
   std::map<std::string, double> closed_form;  // expected measures the scene carries, SI, by metric key
 };

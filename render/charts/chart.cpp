@@ -123,7 +123,7 @@ void draw_line(const Pen& pen, const Line& line, int style, const Axis& x, const
       pen.line(x.at(p.x), y.at(p.low), x.at(p.x), y.at(p.high), 0.8);
       for (const double end : {p.low, p.high}) pen.line(x.at(p.x) - 2.5, y.at(end), x.at(p.x) + 2.5, y.at(end), 0.8);
     }
-    pen.marker(style, x.at(p.x), y.at(p.y), line.emphasised ? 1.2 * kMarkerSize : kMarkerSize);
+    if (line.marker > 0) pen.marker(style, x.at(p.x), y.at(p.y), line.marker * (line.emphasised ? 1.2 * kMarkerSize : kMarkerSize));
   }
 }
 
@@ -154,7 +154,7 @@ double legend(const Pen& pen, const Chart& chart, double left, double width, dou
       pen.dash(style);
       if (chart.lines[i].joined) pen.line(at, middle, at + 18, middle, chart.lines[i].emphasised ? 1.6 : 0.9);
       cairo_set_dash(pen.cairo(), nullptr, 0, 0);
-      pen.marker(style, at + 9, middle, kMarkerSize);
+      if (chart.lines[i].marker > 0) pen.marker(style, at + 9, middle, kMarkerSize);
     });
   for (const Band& band : chart.bands)
     entry(band.label, [&](double at, double middle) {

@@ -30,6 +30,18 @@ struct CairoDeleter {
 using SurfacePtr = std::unique_ptr<cairo_surface_t, SurfaceDeleter>;
 using CairoPtr = std::unique_ptr<cairo_t, CairoDeleter>;
 
+/// Charts side by side, as wide as each other.
+void draw_grid(const Pen& pen, const std::vector<Chart>& grid, const Box& box) {
+  constexpr double kGap = 20;
+  const std::size_t rows = (grid.size() + 3) / 4, columns = (grid.size() + rows - 1) / rows;
+  const double width = (box.width - kGap * static_cast<double>(columns - 1)) / static_cast<double>(columns);
+  const double height = (box.height - 0.4 * kGap * static_cast<double>(rows - 1)) / static_cast<double>(rows);
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    draw_chart(pen, grid[i],
+               {box.x + static_cast<double>(i % columns) * (width + kGap),
+                box.y + static_cast<double>(i / columns) * (height + 0.4 * kGap), width, height});
+}
+
 void draw(const Page& page, cairo_t* c) {
   const Pen pen(c);
   cairo_set_source_rgb(c, 1, 1, 1);
@@ -43,13 +55,14 @@ void draw(const Page& page, cairo_t* c) {
     y += pen.text("\u2022 " + finding, kMargin, y, 8.5, Align::left, false, width).height + 1.5;
   y += 7;
   const double bottom = kHeight - kMargin - 6;
-  const bool charts = !page.left.title.empty();
+  const bool charts = !page.left.title.empty() || !page.grid.empty();
   const double gap = 26, half = (width - gap) / 2;
   const double rows = 15.0 * static_cast<double>(std::max(page.upper_left.rows.size(), page.upper_right.rows.size()));
   const double split = y + (charts ? 0.60 * (bottom - y) : rows > 0 ? std::min(0.5 * (bottom - y), rows + 48) : 0);
   const Box left{kMargin, y, half, split - y - 8}, right{kMargin + half + gap, y, half, split - y - 8};
   draw_chart(pen, page.left, left);
   draw_chart(pen, page.right, right);
+  if (!page.grid.empty()) draw_grid(pen, page.grid, {kMargin, y, width, split - y - 8});
   if (!charts) {
     draw_bars(pen, page.upper_left, left);
     draw_bars(pen, page.upper_right, right);

@@ -18,6 +18,7 @@ struct Line {
   std::vector<Point> points;
   bool joined = true;  // a line through the points
   bool emphasised = false;
+  double marker = 1;  // size of the points, 0: none; a cloud of a thousand wants small ones
 };
 
 /// Shaded between low and high.
@@ -69,6 +70,7 @@ struct Page {
   std::vector<std::string> findings;  // sentences between the title and the charts
   Chart left, right;
   Bars upper_left, upper_right;  // in place of charts that have no title
+  std::vector<Chart> grid;       // in place of all of these, in rows of at most four
   Bars bars;
   Table table;
   std::string footer;

@@ -6,6 +6,8 @@
 
 #include "scenes/loader/builder.h"
 #include "scenes/loader/sha256.h"
+#include "scenes/loader/uncertain.h"
+#include "scenes/loader/variables.h"
 
 #ifndef CRASHREEL_HOME_DEFAULT
 #define CRASHREEL_HOME_DEFAULT "."
@@ -23,6 +25,9 @@ const Section kClosedFormSection{"closed_form", "[closed_form]",
 const Key kSceneKeys[] = {
     {"title", Type::text, Dimension::none, "'Untitled scene'", "Shown in pictures and files."},
     {"description", Type::text, Dimension::none, "''", "What the scene shows and where its numbers come from."},
+    {"variables", Type::table, Dimension::none, "", "Names for quantities.", kAny, {}, &kVariablesSection},
+    {"uncertain", Type::tables, Dimension::none, "", "What is not known exactly.", kAny, {}, &kUncertainSection},
+    {"evidence", Type::tables, Dimension::none, "", "What was seen.", kAny, {}, &kEvidenceSection},
     {"simulation", Type::table, Dimension::none, "", "How the motion is computed.", kAny, {}, &kSimulationSection},
     {"ground", Type::table, Dimension::none, "", "What everything stands on.", kAny, {}, &kGroundSection},
     {"vehicle", Type::tables, Dimension::none, "", "Vehicles.", kAny, {}, &kVehicleSection},
@@ -185,6 +190,8 @@ Scene load(const SceneFile& file, const std::vector<std::string>& overrides, Mes
   refuse_crowds(root, "");
 
   Builder builder;
+  const Value written_root = root;  // with its expressions: what an uncertain key may name
+  resolve_variables(root, builder.errors);
   builder.folder = file.path.parent_path();
   builder.scene.file = file;
   builder.shelf = shelf;
@@ -208,6 +215,9 @@ Scene load(const SceneFile& file, const std::vector<std::string>& overrides, Mes
   read_film(builder, r);
   read_snapshot(builder, r.table("snapshot"), r.table("expect"));
   read_closed_form(builder, r.table("closed_form"));
+  r.table("variables");
+  read_uncertain(builder, written_root, r.tables("uncertain"));
+  read_evidence(builder, r.tables("evidence"));
 
   if (builder.errors.empty() && builder.scene.model.bodies.empty())
     builder.errors.add({file.path.string()}, "the scene is empty; add a [[vehicle]], a [[person]] or a [[body]]");

@@ -15,12 +15,6 @@
 namespace scenes {
 namespace {
 
-/// Powers of metre, kilogram, second, radian.
-struct Powers {
-  int m = 0, kg = 0, s = 0, rad = 0;
-  bool operator==(const Powers&) const = default;
-};
-
 struct DimensionLine {
   std::string_view name, si, usual, second;  // `second`: the other way to write it, for the remedy
   Powers powers;
@@ -178,6 +172,16 @@ std::string must_be(Dimension d) {
 }
 
 }  // namespace
+
+Powers powers_of(Dimension d) {
+  return line(d).powers;
+}
+
+std::optional<UnitSize> unit_named(std::string_view symbol) {
+  for (const Unit& unit : kUnits)
+    if (unit.symbol == symbol) return UnitSize{unit.factor, unit.powers};
+  return std::nullopt;
+}
 
 Dimension dimension_of(std::string_view unit) {
   for (std::size_t d = 0; d < kDimensions.size(); ++d)

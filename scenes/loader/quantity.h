@@ -28,6 +28,20 @@ enum class Dimension {
   density
 };
 
+/// Powers of metre, kilogram, second, radian: what a product of units is.
+struct Powers {
+  int m = 0, kg = 0, s = 0, rad = 0;
+  bool operator==(const Powers&) const = default;
+};
+Powers powers_of(Dimension);
+
+/// One unit by its symbol ("km", "mph"): what it is in SI. "g" is a gram here.
+struct UnitSize {
+  double factor = 1;
+  Powers powers;
+};
+std::optional<UnitSize> unit_named(std::string_view symbol);
+
 /// The dimension whose SI unit is written so; asserts that there is one.
 Dimension dimension_of(std::string_view si_unit);
 

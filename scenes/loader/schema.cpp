@@ -16,11 +16,12 @@ json schema_of(const Section&);
 
 /// A plain number, or a text with a unit; the number zero needs none.
 json scalar(const Key& key) {
-  if (key.dimension != Dimension::none) return json::array({{{"type", "string"}, {"pattern", "[0-9]"}}, {{"const", 0}}});
+  // a quantity has a digit; an expression may be a variable's name alone
+  if (key.dimension != Dimension::none) return json::array({{{"type", "string"}, {"pattern", "[0-9a-z]"}}, {{"const", 0}}});
   json number{{"type", key.type == Type::integer ? "integer" : "number"}};
   if (std::isfinite(key.range.lower)) number[key.range.lower_open ? "exclusiveMinimum" : "minimum"] = key.range.lower;
   if (std::isfinite(key.range.upper)) number["maximum"] = key.range.upper;
-  return json::array({number, {{"type", "string"}, {"pattern", "^[-+]?[0-9.][0-9.eE+-]* *%?$"}}});
+  return json::array({number, {{"type", "string"}, {"pattern", "^[-+]?[0-9.][0-9.eE+-]* *%?$|[a-z(]"}}});
 }
 
 json list_of(json items, int least, int most) {
@@ -65,6 +66,8 @@ json value_schema(const Key& key) {
     }
     case Type::texts:
       return {{"type", "array"}, {"items", text}};
+    case Type::any:
+      return {{"type", {"string", "number", "array"}}};
     case Type::table:
       return schema_of(*key.section);
     case Type::tables:

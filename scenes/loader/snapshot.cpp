@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "engine/model/model.h"
 #include "scenes/loader/builder.h"
+#include "scenes/loader/metric_unit.h"
 
 namespace scenes {
 namespace {
@@ -44,21 +44,6 @@ const Key kExpectKeys[] = {
      "objects have it: `\"throw_distance pedestrian\"`."},
 };
 
-/// Units as the keys of summary.json end in them: what one SI unit is in them.
-struct Unit {
-  Dimension dimension;
-  std::string_view suffix;
-  double per_si;
-};
-constexpr Unit kUnits[] = {
-    {Dimension::length, "_m", 1},
-    {Dimension::time, "_s", 1},
-    {Dimension::speed, "_mps", 1},
-    {Dimension::angle, "_deg", 180 / std::numbers::pi},
-    {Dimension::acceleration, "_g", 1 / 9.81},
-    {Dimension::none, "", 1},
-};
-
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
@@ -74,7 +59,7 @@ void read_expectation(Builder& builder, Reader& r, const std::string& key) {
   if (sign == std::string::npos) return r.fail(key, kRemedy);
   const std::string_view value = trimmed(std::string_view(text).substr(0, sign));
   const std::string_view tolerance = trimmed(std::string_view(text).substr(sign + sign_length));
-  for (const Unit& unit : kUnits) {
+  for (const MetricUnit& unit : kMetricUnits) {
     // a bare zero is of every dimension: only a text with a unit, or the last line of the table, decides
     const bool bare = tolerance.find_first_not_of("0123456789.eE+-") == std::string_view::npos;
     if (bare != (unit.dimension == Dimension::none)) continue;

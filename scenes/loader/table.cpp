@@ -79,6 +79,8 @@ std::string describe_type(const Key& key) {
       return quantity_in_words(key.dimension) + ", or a list of them";
     case Type::texts:
       return "a list of texts";
+    case Type::any:
+      return "a value or a list";
     case Type::colour:
       return "a colour, like \"#a03020\"";
     case Type::table:

@@ -26,6 +26,7 @@ enum class Type {
   range,     // ["-30 deg", "45 deg"]
   numbers,   // a list of any length
   texts,     // a list of texts
+  any,       // a value of whatever kind, or a list: its reader looks for itself
   colour,    // "#a03020" or [0.6, 0.2, 0.1]
   table,
   tables,

@@ -172,10 +172,7 @@ Value parse_file(const std::filesystem::path& file) {
   return parse_text(read_text(file), file.string());
 }
 
-namespace {
-
-/// Finds the element of an array of tables by its `name` or its number.
-Value* element(Value& array, const std::string& key) {
+Value* element_of(Value& array, const std::string& key) {
   for (Value& item : array.items) {
     const Value* name = item.find("name");
     if (name && name->kind == Value::Kind::text && name->text == key) return &item;
@@ -184,6 +181,8 @@ Value* element(Value& array, const std::string& key) {
   const std::size_t number = std::stoul(key);
   return number < array.items.size() ? &array.items[number] : nullptr;
 }
+
+namespace {
 
 /// The value an override gives, every part of it placed at the override itself.
 void place_everywhere(Value& value, const Place& place) {
@@ -212,19 +211,19 @@ Value override_value(const std::string& text, const Place& place) {
   return value;
 }
 
+}  // namespace
+
 std::string singular(const std::string& word) {
   if (word.size() > 3 && word.ends_with("ies")) return word.substr(0, word.size() - 3) + "y";
   return word.size() > 1 && word.back() == 's' ? word.substr(0, word.size() - 1) : word;
 }
 
-std::vector<std::string> split(const std::string& path) {
+std::vector<std::string> split_path(const std::string& path) {
   std::vector<std::string> parts;
   std::stringstream stream(path);
   for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
   return parts;
 }
-
-}  // namespace
 
 void apply_override(Value& root, const std::string& assignment) {
   const Place place{"--set " + assignment};
@@ -233,12 +232,12 @@ void apply_override(Value& root, const std::string& assignment) {
   if (equals == std::string::npos || equals == 0) {
     refuse("must be path.to.key=value; write --set simulation.step='0.5 ms'");
   }
-  const std::vector<std::string> parts = split(assignment.substr(0, equals));
+  const std::vector<std::string> parts = split_path(assignment.substr(0, equals));
   if (parts.size() > kDeepestKey) refuse(fmt::format("the key has more than {} parts", kDeepestKey));
   Value* at = &root;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
     if (at->kind == Value::Kind::array) {
-      Value* found = element(*at, parts[i]);
+      Value* found = element_of(*at, parts[i]);
       if (!found) refuse(fmt::format("there is no {} named or numbered \"{}\"", parts[i - 1], parts[i]));
       at = found;
       continue;
@@ -260,7 +259,7 @@ void apply_override(Value& root, const std::string& assignment) {
   }
   Value value = override_value(assignment.substr(equals + 1), place);
   if (at->kind == Value::Kind::array) {
-    Value* found = element(*at, parts.back());
+    Value* found = element_of(*at, parts.back());
     if (!found) refuse(fmt::format("there is no element \"{}\"", parts.back()));
     *found = std::move(value);
   } else if (Value* old = at->find(parts.back())) {

@@ -56,6 +56,13 @@ Value parse_text(std::string_view toml, const std::string& name);
 /// TOML; what is not TOML is taken as text, so quotes may be left out: speed=50 km/h. Throws SceneErrors.
 void apply_override(Value& root, const std::string& assignment);
 
+/// The parts of "path.to.key".
+std::vector<std::string> split_path(const std::string& path);
+/// "person" of "persons": a path may name a list in the plural.
+std::string singular(const std::string& word);
+/// The element of a list of tables by its `name` or its number; nullptr when there is none.
+Value* element_of(Value& list, const std::string& name_or_number);
+
 /// `over` on top of `under`: tables key by key, everything else replaced. For a scene's changes to a library file.
 Value overlaid(const Value& under, const Value& over);
 

@@ -72,6 +72,7 @@ const std::vector<Library> kLibraries = {
     {"meshoptimizer\\.h", {"scenes/loader/"}},
     {"seccomp\\.h", {"scenes/cage/"}},
     {"CLI/.*", {"cli/command.cpp"}},
+    {"boost/.*", {"cli/inference/"}},
     {"nlohmann/.*", {"scenes/", "cli/"}},
     {"fmt/.*", {"render/", "scenes/", "cli/"}},
     {"linux/.*|sys/.*|malloc\\.h|unistd\\.h|fcntl\\.h|poll\\.h|semaphore\\.h|signal\\.h|sched\\.h|fnmatch\\.h",

@@ -1,0 +1,84 @@
+// crashreel sample SCENE -n N -o DIR: what follows from what is not known.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/exit.h"
+#include "cli/inference/sample.h"
+#include "cli/output/whole_file.h"
+#include "cli/parse.h"
+#include "cli/scene_run.h"
+#include "cli/study/pool.h"
+
+namespace cli {
+namespace {
+
+struct SampleWish {
+  SceneArguments scene;
+  std::string folder, runs, seed = "1", jobs;
+  std::vector<std::string> grid;
+  bool overwrite = false;
+};
+
+constexpr int kMostRuns = 10'000'000;
+
+int run(const SampleWish& wish) {
+  const scenes::Scene scene = load_scene(wish.scene);
+  plan_of(scene);  // refuses effects that do not exist
+  const inference::Prior prior(scene.inference.uncertain);
+  std::vector<inference::GridAxis> grid;
+  for (const std::string& text : wish.grid) grid.push_back(inference::parse_grid(text));
+  const int count = wish.runs.empty() ? (grid.empty() ? 256 : 0) : parse_integer("-n", wish.runs, 1, kMostRuns);
+  if (prior.size() == 0 && grid.empty())
+    throw UsageError(
+        fmt::format("{}: nothing is uncertain; add [[uncertain]] with a key and what is known of it, or give --grid KEY=VALUES",
+                    scene.path.string()));
+  const int seed = parse_integer("--seed", wish.seed, 0, 1'000'000'000);
+  const int jobs = wish.jobs.empty() ? study::available_cores() : parse_integer("--jobs", wish.jobs, 1, 1024);
+  const std::filesystem::path folder = wish.folder;
+  make_writable_folder(folder);
+  for (const char* name : {"runs.csv", "sample.json", "sample.pdf", "sample.svg", "sample.png"})
+    refuse_existing(folder / name, wish.overwrite);
+  const inference::FolderLock lock(folder);
+
+  inference::Table table = inference::plan_rows(prior, grid, static_cast<std::uint64_t>(count), static_cast<std::uint64_t>(seed));
+  std::vector<std::vector<std::string>> overrides;
+  for (const inference::Row& row : table.rows) overrides.push_back(inference::overrides_of(prior, table, row));
+  inference::Ensemble ensemble(scene, {folder, jobs, progress_of(wish.scene), "sample"});
+  const std::vector<inference::Answer> answers = ensemble.run(overrides);
+  for (std::size_t i = 0; i < answers.size(); ++i) table.rows[i].answer = answers[i];
+  inference::judge(scene.inference.evidence, table);
+
+  write_whole(folder / "runs.csv", inference::runs_csv(prior, scene.inference.evidence, table));
+  const inference::Sample sample = inference::summarise(scene, prior, std::move(table), static_cast<std::uint64_t>(seed));
+  const auto json = inference::sample_json(scene, prior, sample);
+  write_whole(folder / "sample.json", json.dump(2) + "\n");
+  render::charts::write_page(inference::sample_page(scene, prior, sample), folder / "sample");
+  if (wish.scene.json)
+    fmt::print("{}\n", json.dump(2));
+  else
+    fmt::print("{}{}: runs.csv, sample.json, sample.pdf, sample.svg, sample.png\n", inference::sample_text(scene, prior, sample),
+               wish.folder);
+  return kDone;
+}
+
+}  // namespace
+
+std::function<int()> declare_sample(Arguments& arguments) {
+  const auto wish = std::make_shared<SampleWish>();
+  declare_scene_file(arguments, wish->scene);
+  declare_progress(arguments, wish->scene);
+  arguments.required_option("-o,--output", wish->folder, "DIR",
+                            "folder for the results; made if missing. Finished runs stay in DIR/runs");
+  arguments.option("-n,--runs", wish->runs, "N", "runs (default 256; powers of two fill the range best)");
+  arguments.option("--seed", wish->seed, "S", "which of the possible samples (default 1)");
+  arguments.repeatable("--grid", wish->grid, "KEY=VALUES",
+                       "every one of these values of a key: vehicle.sedan.speed=\"30,40,50 km/h\"");
+  arguments.option("--jobs", wish->jobs, "N", "runs side by side (default: every core); the numbers do not hang on it");
+  arguments.flag("--overwrite", wish->overwrite, "replace results that exist; finished runs are used again");
+  return [wish] { return run(*wish); };
+}
+
+}  // namespace cli

@@ -1,0 +1,85 @@
+// One run of an ensemble, and its line in the journal.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "cli/inference/ensemble.h"
+#include "cli/inference/observe.h"
+#include "cli/study/quantities.h"
+#include "engine/plan.h"
+#include "engine/simulate.h"
+
+namespace cli::inference {
+namespace {
+
+using Json = nlohmann::json;
+
+bool is_meeting(const engine::Event& event) {
+  return event.kind == "first_contact" || event.kind == "impact";
+}
+
+Json numbers_json(const std::vector<double>& numbers) {
+  Json out = Json::array();
+  for (const double x : numbers) out.push_back(std::isfinite(x) ? Json(x) : Json(nullptr));
+  return out;
+}
+
+double number_of(const Json& json) {
+  return json.is_number() ? json.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string first_line(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
+
+}  // namespace
+
+Answer answer(const scenes::Scene& scene, const std::vector<std::string>& overrides, scenes::MeshShelf& meshes) {
+  Answer out;
+  try {
+    std::vector<std::string> all = scene.overrides;
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    const scenes::Scene variant = scenes::load(scene.file, all, &meshes);
+    const engine::Recording recording = engine::simulate(variant.model, engine::compile(variant.model));
+    if (const auto& failure = recording.failure) {
+      out.status = fmt::format("diverged at {:.4f} s, body {}: {}", failure->time, failure->body, failure->message);
+      return out;
+    }
+    for (const study::Quantity& q : study::quantities_of(variant.model, recording)) out.outputs[q.name] = q.value;
+    for (const scenes::Evidence& e : scene.inference.evidence) out.predicted.push_back(observe(e, variant.model, recording));
+    out.touched = std::any_of(recording.events.begin(), recording.events.end(), is_meeting);
+  } catch (const scenes::SceneErrors& error) {
+    out.status = "refused: " + first_line(error.what());
+  }
+  return out;
+}
+
+std::string as_line(const std::string& name, const Answer& a) {
+  Json json = {{"run", name}, {"status", a.status}, {"touched", a.touched}, {"out", Json::object()}, {"predicted", Json::array()}};
+  for (const auto& [key, value] : a.outputs) json["out"][key] = std::isfinite(value) ? Json(value) : Json(nullptr);
+  for (const auto& p : a.predicted) json["predicted"].push_back(p ? numbers_json(*p) : Json(nullptr));
+  return json.dump() + "\n";
+}
+
+std::optional<std::pair<std::string, Answer>> from_line(const std::string& line) {
+  const Json json = Json::parse(line, nullptr, false);
+  if (json.is_discarded() || !json.contains("predicted")) return std::nullopt;
+  Answer out;
+  out.status = json["status"].get<std::string>();
+  out.touched = json["touched"].get<bool>();
+  for (const auto& [key, value] : json["out"].items()) out.outputs[key] = number_of(value);
+  for (const Json& p : json["predicted"]) {
+    if (p.is_null()) {
+      out.predicted.emplace_back();
+      continue;
+    }
+    std::vector<double> numbers;
+    for (const Json& x : p) numbers.push_back(number_of(x));
+    out.predicted.emplace_back(std::move(numbers));
+  }
+  return std::pair(json["run"].get<std::string>(), std::move(out));
+}
+
+}  // namespace cli::inference

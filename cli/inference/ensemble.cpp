@@ -1,0 +1,86 @@
+#include "cli/inference/ensemble.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "cli/exit.h"
+#include "cli/inference/crew.h"
+#include "cli/output/whole_file.h"
+#include "cli/study/trial.h"
+#include "scenes/loader/sha256.h"
+
+namespace cli::inference {
+namespace {
+
+std::string name_of(const std::vector<std::string>& overrides) {
+  return fmt::format("{}", fmt::join(overrides, "\x1f"));
+}
+
+/// What every line of a journal rests on.
+std::string head_of(const scenes::Scene& scene) {
+  return "crashreel runs " + scenes::sha256(scene.sha256 + scene.assets_sha256 + study::program_hash()) + "\n";
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const std::filesystem::path& folder)
+    : lock_(folder / "runs", [](const std::string& name) {
+        for (const char* ours : {"runs.", "sample.", "fit.", "posterior.", "best."})
+          if (name.starts_with(ours)) return true;
+        return false;
+      }) {}
+
+Ensemble::Ensemble(const scenes::Scene& scene, EnsembleWish wish) : scene_(scene), wish_(std::move(wish)) {
+  make_writable_folder(wish_.folder);
+  make_writable_folder(wish_.folder / "runs");
+  const std::string head = head_of(scene_);
+  journal_ = wish_.folder / "runs" / (head.substr(15, 32) + ".jsonl");
+  // meshes are brought in once, before the processes part
+  scenes::load(scene_.file, scene_.overrides, meshes_.get());
+  recall();
+}
+
+void Ensemble::recall() {
+  std::ifstream in(journal_);
+  std::string all;
+  for (std::string line; std::getline(in, line);) {
+    const auto found = from_line(line);
+    if (!found) continue;  // the last line of a job that was killed
+    known_.insert(*found);
+    all += line + "\n";
+  }
+  // written anew, so that a broken last line does not swallow the next one
+  if (in.is_open()) write_whole(journal_, all);
+}
+
+void Ensemble::keep(const std::string& name, const Answer& a) {
+  std::ofstream out(journal_, std::ios::app | std::ios::binary);
+  out << as_line(name, a) << std::flush;
+  if (!out) throw MachineError(fmt::format("writing {}: the disk may be full", journal_.string()));
+  known_[name] = a;
+}
+
+std::vector<Answer> Ensemble::run(const std::vector<std::vector<std::string>>& runs) {
+  std::vector<std::size_t> waiting;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (!known_.contains(name_of(runs[i]))) waiting.push_back(i);
+  Progress progress(wish_.verb, "runs", static_cast<double>(waiting.size()), wish_.show);
+  std::size_t done = 0;
+  const auto work = [&](std::size_t k) { return as_line(name_of(runs[waiting[k]]), answer(scene_, runs[waiting[k]], *meshes_)); };
+  const auto take = [&](std::size_t k, const std::string& line, const std::string& death) {
+    auto found = line.empty() ? std::nullopt : from_line(line);
+    Answer a = found ? std::move(found->second) : Answer{};
+    if (!found) a.status = "the run's process ended: " + death;
+    keep(name_of(runs[waiting[k]]), a);
+    progress.at(static_cast<double>(++done));
+  };
+  run_crew(waiting.size(), wish_.jobs, work, take);
+  progress.finish(static_cast<double>(done));
+  std::vector<Answer> out;
+  for (const auto& overrides : runs) out.push_back(known_.at(name_of(overrides)));
+  return out;
+}
+
+}  // namespace cli::inference

@@ -1,0 +1,71 @@
+// Many runs of one scene with other inputs: in processes side by side that share the loaded meshes, each run kept on the disk as
+// soon as it is done, so that a job broken off goes on where it stood.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/output/lock.h"
+#include "cli/progress.h"
+#include "scenes/scene.h"
+
+namespace cli::inference {
+
+/// What came of one run.
+struct Answer {
+  std::string status = "ok";                                  // else why there is none: "diverged at 0.431 s, body ..."
+  std::map<std::string, double> outputs;                      // measures by name ("throw_distance_m", "delta_v_mps red")
+  std::vector<std::optional<std::vector<double>>> predicted;  // of each piece of evidence
+  bool touched = false;                                       // a person and a vehicle, or two vehicles, met
+  bool ok() const { return status == "ok"; }
+};
+
+struct EnsembleWish {
+  std::filesystem::path folder;  // runs lie in folder/runs
+  int jobs = 1;
+  ShowProgress show = ShowProgress::automatic;
+  std::string verb = "sample";
+};
+
+class Ensemble {
+ public:
+  /// `scene` as loaded, with its overrides. Answers of an earlier job with the same scene and program are taken over. Throws
+  /// MachineError.
+  Ensemble(const scenes::Scene& scene, EnsembleWish wish);
+
+  /// Answers in the order of the runs; each run is its overrides on top of the scene's. A run that was done before is not done
+  /// again. Throws Interrupted; what is done by then is kept.
+  std::vector<Answer> run(const std::vector<std::vector<std::string>>& runs);
+
+ private:
+  void recall();
+  void keep(const std::string& name, const Answer&);
+
+  scenes::Scene scene_;
+  EnsembleWish wish_;
+  std::filesystem::path journal_;
+  std::shared_ptr<scenes::MeshShelf> meshes_ = std::make_shared<scenes::MeshShelf>();
+  std::map<std::string, Answer> known_;  // by overrides
+};
+
+/// Holds off other jobs that would write the same results into the folder.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder);
+
+ private:
+  OutputLock lock_;
+};
+
+/// One run on this process' core. What is wrong with the inputs stands in the status.
+Answer answer(const scenes::Scene& scene, const std::vector<std::string>& overrides, scenes::MeshShelf&);
+
+/// A line of text that holds an answer, and back.
+std::string as_line(const std::string& name, const Answer&);
+std::optional<std::pair<std::string, Answer>> from_line(const std::string& line);
+
+}  // namespace cli::inference

@@ -1,0 +1,142 @@
+// [[evidence]]: what was seen, and how exactly.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scenes/loader/metric_unit.h"
+#include "scenes/loader/uncertain.h"
+
+namespace scenes {
+namespace {
+
+const Key kKeys[] = {
+    {"name", Type::text, Dimension::none, kRequired, "What it is called in tables and pages."},
+    {"metric", Type::text, Dimension::none, "",
+     "What it is compared with: a measure of summary.json with or without its unit (`throw_distance`, `wrap_around_distance`, "
+     "`delta_v`, "
+     "`ees`, `head_impact_speed`), or `rest_place`, `landing_place` (world x, y), `contact_place` (of the part `of` on the vehicle "
+     "`with`, in the vehicle's axes from its centre of mass), `speed` (at the time `at`, as an event data recorder has it), "
+     "`contact` or "
+     "`no_contact` (of `of` and `with`)."},
+    {"mark", Type::any, Dimension::none, "",
+     "In place of a metric: a skid or scuff mark on the ground as a list of world points, `[\"3.1 -1.2 m\", \"9.8 -1.4 m\"]`. Of a "
+     "vehicle it is held against the way its wheels slip, of a person or body against the way it slides."},
+    {"of", Type::text, Dimension::none, "''",
+     "The person, vehicle or body meant, or a part of a person (`pedestrian/head`). Left out where there is only one."},
+    {"with", Type::text, Dimension::none, "''", "The other one, of contact_place, contact and no_contact."},
+    {"at", Type::number, Dimension::time, "'0 s'", "The time of `speed`.", kNotNegative},
+    {"value", Type::any, Dimension::none, "", "What was seen: `\"14.2 m\"`, a place as `\"12.1 -3.0 m\"`."},
+    {"tolerance", Type::any, Dimension::none, "",
+     "How exactly: one standard deviation of everything that may be off (two in three times the truth lies within). Of a mark, "
+     "of its distance."},
+};
+
+constexpr const char* kSpecial[] = {"metric", "rest_place", "landing_place", "contact_place",
+                                    "speed",  "mark",       "contact",       "no_contact"};
+
+void check_name(const Builder& builder, Reader& r, const char* key, const std::string& name) {
+  if (name.empty() || builder.is_declared(name)) return;
+  const std::string near = nearest(name.substr(0, name.find('/')), builder.declared);
+  r.fail(key, fmt::format("is nobody and nothing of the scene{}", near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+}
+
+/// value and tolerance of one dimension, which is found from what was written.
+void read_measure(Reader& r, Evidence& out) {
+  const Value *value = r.value().find("value"), *tolerance = r.value().find("tolerance");
+  std::string problem = "must be a value with a unit, and the tolerance with the same kind of unit";
+  for (const MetricUnit& unit : kMetricUnits) {
+    const ReadValues v = read_values(*value, unit.dimension), t = read_values(*tolerance, unit.dimension);
+    const bool bare = tolerance->is_number() || (tolerance->kind == Value::Kind::text &&
+                                                 tolerance->text.find_first_not_of("0123456789.eE+- ") == std::string::npos);
+    if (bare != (unit.dimension == Dimension::none) || !v.problem.empty() || !t.problem.empty()) continue;
+    if (v.numbers.size() != 1 || t.numbers.size() != 1) problem = "must be one value";
+    if (v.numbers.size() != 1 || t.numbers.size() != 1) break;
+    if (!out.metric.ends_with(unit.suffix)) out.metric += unit.suffix;
+    out.value = {v.numbers[0] * unit.per_si};
+    out.tolerance = t.numbers[0] * unit.per_si;
+    out.unit = {v.unit.name, v.unit.factor * unit.per_si};
+    return;
+  }
+  r.fail("value", problem);
+}
+
+void read_quantities(Reader& r, Evidence& out, Dimension dimension, std::size_t least, std::size_t most) {
+  const ReadValues v = read_values(*r.value().find("value"), dimension), t = read_values(*r.value().find("tolerance"), dimension);
+  if (!v.problem.empty()) return r.fail("value", v.problem);
+  if (!t.problem.empty()) return r.fail("tolerance", t.problem);
+  if (v.numbers.size() < least || v.numbers.size() > most)
+    return r.fail("value", most == 1
+                               ? "must be one value"
+                               : fmt::format("must have {} components", least == most ? fmt::format("{}", least) : "two or three"));
+  if (t.numbers.size() != 1) return r.fail("tolerance", "must be one value");
+  out.value = v.numbers;
+  out.tolerance = t.numbers[0];
+  out.unit = v.unit;
+}
+
+void read_mark(Reader& r, Evidence& out) {
+  const Value* mark = r.value().find("mark");
+  constexpr const char* kShape = "must be a list of two or more world points, like [\"3.1 -1.2 m\", \"9.8 -1.4 m\"]";
+  if (mark->kind != Value::Kind::array || mark->items.size() < 2) return r.fail("mark", kShape);
+  for (const Value& item : mark->items) {
+    const ReadValues point = read_values(item, Dimension::length);
+    if (!point.problem.empty()) return r.fail("mark", point.problem);
+    if (point.numbers.size() != 2) return r.fail("mark", kShape);
+    out.mark.emplace_back(point.numbers[0], point.numbers[1], 0);
+  }
+  const ReadValues t = read_values(*r.value().find("tolerance"), Dimension::length);
+  if (!t.problem.empty() || t.numbers.size() != 1) return r.fail("tolerance", t.problem.empty() ? "must be one length" : t.problem);
+  out.value = {0};
+  out.tolerance = t.numbers[0];
+  out.unit = t.unit;
+}
+
+void read_one(Builder& builder, Reader& r) {
+  Evidence out;
+  out.name = r.text("name");
+  out.place = r.place().text();
+  out.metric = r.text("metric");
+  out.of = r.text("of");
+  out.with = r.text("with");
+  out.at = r.number("at");
+  check_name(builder, r, "of", out.of);
+  check_name(builder, r, "with", out.with);
+  for (const Evidence& other : builder.scene.inference.evidence)
+    if (other.name == out.name) return r.fail("name", fmt::format("is the name of other evidence, at {}", other.place));
+  if (out.metric.empty() != r.has("mark")) return r.fail_here("needs either a metric or a mark");
+  for (std::size_t i = 1; i < std::size(kSpecial); ++i)
+    if (out.metric == kSpecial[i]) out.seen = static_cast<Seen>(i);
+  if (r.has("mark")) out.seen = Seen::mark;
+  const bool pair = out.seen == Seen::contact_place || out.seen == Seen::contact || out.seen == Seen::no_contact;
+  if (pair && (out.of.empty() || out.with.empty())) return r.fail_here(fmt::format("needs `of` and `with`: who touched whom"));
+  if (out.seen == Seen::contact || out.seen == Seen::no_contact) {
+    out.value = {out.seen == Seen::contact ? 1.0 : 0.0};
+    out.tolerance = 1;
+    builder.scene.inference.evidence.push_back(std::move(out));
+    return;
+  }
+  for (const char* key : {"value", "tolerance"})
+    if (!r.has(key) && !(out.seen == Seen::mark && key[0] == 'v')) return r.fail(key, "is missing; [[evidence]] needs it");
+  const std::size_t before = r.errors().count();
+  if (out.seen == Seen::metric) read_measure(r, out);
+  if (out.seen == Seen::speed) read_quantities(r, out, Dimension::speed, 1, 1);
+  if (out.seen == Seen::rest_place || out.seen == Seen::landing_place) read_quantities(r, out, Dimension::length, 2, 2);
+  if (out.seen == Seen::contact_place) read_quantities(r, out, Dimension::length, 3, 3);
+  if (out.seen == Seen::mark) read_mark(r, out);
+  if (r.errors().count() > before) return;
+  if (!(out.tolerance > 0)) return r.fail("tolerance", "must be above zero: nothing is measured without error");
+  builder.scene.inference.evidence.push_back(std::move(out));
+}
+
+}  // namespace
+
+const Section kEvidenceSection{"evidence", "[[evidence]]",
+                               "Something seen: a rest place, a throw, a mark, a dent, a recorded speed, and how exactly. "
+                               "`crashreel fit` asks which inputs explain it.",
+                               kKeys};
+
+void read_evidence(Builder& builder, std::vector<Reader> readers) {
+  for (Reader& r : readers) read_one(builder, r);
+}
+
+}  // namespace scenes
