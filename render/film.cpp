@@ -113,7 +113,6 @@ FrameCost draw_frame(const Job& j, Painter& painter, Image& image, int i) {
 [[noreturn]] void work(const Job& j, int first, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(4);  // the parent died before the line above could bind us to it
-  setenv("LP_NUM_THREADS", "0", 1);
   int at = first;
   try {
     Painter painter(j.job.width, j.job.height, j.job.quality);

@@ -85,7 +85,6 @@ struct Running {
 [[noreturn]] void work(const fs::path& scene, const CheckJob& job, std::FILE* report, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(kMachineFailed);  // the parent died before the line above could bind us to it
-  setenv("LP_NUM_THREADS", "0", 1);                // one process a core: threads inside would only wait for each other
   const std::string text = check_scene(scene, job).dump(-1, ' ', false, Json::error_handler_t::replace);
   const bool written = std::fwrite(text.data(), 1, text.size(), report) == text.size() && std::fflush(report) == 0;
   _exit(written ? kDone : kMachineFailed);

@@ -1,6 +1,4 @@
-// An off-screen OpenGL 3.3 core context. OSMesa today; whoever replaces it changes this pair of files. Pictures are drawn by our
-// own kernels (shade/), faster and with the same bytes whatever Mesa is installed; OpenGL is the second method they
-// are held against (tests/snapshots/second_renderer_test.cpp) and the yardstick of the benchmark.
+// An off-screen OpenGL 3.3 core context, current in the process that made it. Made after a fork, never carried over one.
 #pragma once
 
 #include <string>
@@ -10,7 +8,8 @@ namespace render {
 
 class GlContext {
  public:
-  GlContext(int width, int height);  // throws RenderError
+  enum class Threads { none, own };                           // of the rasteriser, beside the caller's
+  GlContext(int width, int height, Threads = Threads::none);  // throws RenderError
   ~GlContext();
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
