@@ -44,6 +44,9 @@ class Renderer {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Which OpenGL draws from here on, in this process and in those it starts: "osmesa", as if nothing had been said, or "egl".
+void choose_gl(const std::string& name);
+
 /// What draws: "OSMesa, 3.3 (Core Profile) Mesa ..., llvmpipe ..." for `crashreel version`.
 std::string gl_description();
 

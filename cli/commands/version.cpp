@@ -17,7 +17,8 @@ constexpr const char* kCompiler = "clang " __clang_version__;
 constexpr const char* kCompiler = "g++ " __VERSION__;
 #endif
 
-int version(bool json) {
+int version(bool json, const std::string& gl_wanted) {
+  render::choose_gl(gl_wanted);
   const std::string build = fmt::format("{}, {}", CRASHREEL_BUILD, kCompiler);
   const std::string gl = render::gl_description();
   if (json) {
@@ -35,8 +36,10 @@ int version(bool json) {
 
 std::function<int()> declare_version(Arguments& arguments) {
   const auto json = std::make_shared<bool>(false);
+  const auto gl = std::make_shared<std::string>("osmesa");
   arguments.flag("--json", *json, "print as JSON");
-  return [json] { return version(*json); };
+  arguments.choice("--gl", *gl, {"osmesa", "egl"}, "which OpenGL to ask");
+  return [json, gl] { return version(*json, *gl); };
 }
 
 }  // namespace cli

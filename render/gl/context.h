@@ -1,4 +1,5 @@
-// An off-screen OpenGL 3.3 core context, current in the process that made it. Made after a fork, never carried over one.
+// An off-screen OpenGL 3.3 core context, current in the process that made it. Made after a fork, never carried over one. Two back
+// ends: OSMesa, and EGL without a surface (for graphics cards, and for Mesa from 25.1 on, which has no OSMesa).
 #pragma once
 
 #include <string>
@@ -8,8 +9,9 @@ namespace render {
 
 class GlContext {
  public:
-  enum class Threads { none, own };                           // of the rasteriser, beside the caller's
-  GlContext(int width, int height, Threads = Threads::none);  // throws RenderError
+  enum class Threads { none, own };  // of llvmpipe, beside the caller's
+  /// The back end that choose_gl named. Throws RenderError: no context, or too old a one.
+  explicit GlContext(Threads = Threads::none);
   ~GlContext();
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
@@ -17,8 +19,11 @@ class GlContext {
   std::string description() const;
 
  private:
+  void open_osmesa();
+  void open_egl();
+
   void* context_ = nullptr;
-  int width_, height_;
+  void* display_ = nullptr;                    // of EGL; null: OSMesa
   mutable std::vector<unsigned char> buffer_;  // OSMesa wants one to be current; pictures are read from our own framebuffer
 };
 

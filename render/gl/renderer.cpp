@@ -32,7 +32,7 @@ std::array<Rectangle, 4> around(const Rectangle& r, int width, int height) {
 }  // namespace
 
 struct Renderer::Impl {
-  Impl(int w, int h, const Effort& e) : width(w), height(h), effort(e), context(16, 16) {}
+  Impl(int w, int h, const Effort& e) : width(w), height(h), effort(e), context() {}
 
   shade::Canvas canvas_on(Image&);
   void reduce(Image&) const;
@@ -145,7 +145,7 @@ const FrameCost& Renderer::cost() const {
 }
 
 std::string gl_description() {
-  return GlContext(16, 16).description();
+  return GlContext().description();
 }
 
 }  // namespace render

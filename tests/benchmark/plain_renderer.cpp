@@ -121,7 +121,7 @@ std::unique_ptr<Program> program(const std::string& vertex, const std::string& f
 
 }  // namespace
 
-PlainRenderer::PlainRenderer(int width, int height) : width_(width), height_(height), context_(16, 16, GlContext::Threads::own) {
+PlainRenderer::PlainRenderer(int width, int height) : width_(width), height_(height), context_(GlContext::Threads::own) {
   glBindFramebuffer(GL_FRAMEBUFFER, *many_);
   store(many_colour_, GL_COLOR_ATTACHMENT0, GL_RGBA8, kSamples, width, height);
   store(many_depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, kSamples, width, height);

@@ -33,7 +33,7 @@ std::shared_ptr<const Mesh> fan(double x, double z, int spokes) {
 }
 
 struct Drawn {
-  explicit Drawn(const DrawList& list_in) : list(list_in), context(16, 16) {
+  explicit Drawn(const DrawList& list_in) : list(list_in) {
     std::vector<CasterBox> boxes;
     pieces = collect(list, geometry, materials, 0.2, kHeight, boxes);
     frame = set_up_frame(list, boxes, kWidth, kHeight, 64);
