@@ -111,7 +111,6 @@ FrameCost draw_frame(const Job& j, Painter& painter, Image& image, int i) {
 
 /// A worker's life: its frames from `first` on, in steps of the number of workers.
 int work(const Job& j, int first) {
-  setenv("LP_NUM_THREADS", "0", 1);
   int at = first;
   try {
     Painter painter(j.job.width, j.job.height, j.job.quality);

@@ -17,7 +17,7 @@ struct Effort {
   int scale = 1;               // pictures are drawn so many times larger a side
   int samples = 2;             // a side to a pixel
   int shadow_map_size = 1024;  // [pixels] a side
-  int shadow_filter = 1;       // SHADOW in the shaders: 1 plain, 2 soft
+  int shadow_filter = 1;       // 1 plain, 2 soft
   double shadow_reach = 0.05;  // [m] radius of the widest penumbra
   int occlusion_size = 128;    // texels a side of the occlusion map
   double pixel_share = 0.2;    // [pixels] that tessellation may be off
@@ -44,7 +44,10 @@ class Renderer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// "Mesa ... llvmpipe ..." for `crashreel version`.
+/// Which OpenGL draws from here on, in this process and in those it starts: "osmesa", as if nothing had been said, or "egl".
+void choose_gl(const std::string& name);
+
+/// What draws: "OSMesa, 3.3 (Core Profile) Mesa ..., llvmpipe ..." for `crashreel version`.
 std::string gl_description();
 
 }  // namespace render

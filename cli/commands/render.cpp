@@ -17,6 +17,7 @@
 #include "cli/resume.h"
 #include "cli/scene_run.h"
 #include "cli/timings.h"
+#include "render/renderer.h"
 
 namespace cli {
 namespace {
@@ -27,6 +28,7 @@ struct RenderWish {
   bool list_cameras = false;
   bool dry_run = false;
   bool timings = false;
+  std::string gl = "osmesa";
   std::string max_memory;
 };
 
@@ -209,6 +211,7 @@ void tell_drawn(const RenderWish& wish, const render::FilmJob& job, const Drawn&
 }
 
 int render_scene(const RenderWish& wish, const Arguments& arguments) {
+  render::choose_gl(wish.gl);
   const double start = clock_seconds();
   const double ceiling = wish.max_memory.empty() ? 0 : parse_bytes("--max-memory", wish.max_memory);
   const scenes::Scene scene = load_scene(wish.scene, ceiling);
@@ -239,6 +242,7 @@ std::function<int()> declare_render(Arguments& arguments) {
   declare_progress(arguments, wish->scene);
   declare_film(arguments, wish->film);
   arguments.flag("--list-cameras", wish->list_cameras, "name the scene's cameras and stop");
+  arguments.choice("--gl", wish->gl, {"osmesa", "egl"}, "which OpenGL draws: OSMesa, or EGL without a surface");
   arguments.flag("--timings", wish->timings, "print where the processor time of a frame goes, by pass");
   arguments.flag("--dry-run", wish->dry_run, "print the frames, steps, bytes and seconds to expect, and stop");
   arguments.option("--max-memory", wish->max_memory, "SIZE",

@@ -23,7 +23,8 @@ const char*& commit() {
   return name;
 }
 
-int version(bool json) {
+int version(bool json, const std::string& gl_wanted) {
+  render::choose_gl(gl_wanted);
   const std::string build = fmt::format("{}, {}", CRASHREEL_BUILD, kCompiler);
   const std::string gl = render::gl_description();
   if (json) {
@@ -48,8 +49,10 @@ void set_commit(const char* name) {
 
 std::function<int()> declare_version(Arguments& arguments) {
   const auto json = std::make_shared<bool>(false);
+  const auto gl = std::make_shared<std::string>("osmesa");
   arguments.flag("--json", *json, "print as JSON");
-  return [json] { return version(*json); };
+  arguments.choice("--gl", *gl, {"osmesa", "egl"}, "which OpenGL to ask");
+  return [json, gl] { return version(*json, *gl); };
 }
 
 }  // namespace cli

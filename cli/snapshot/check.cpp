@@ -66,7 +66,6 @@ Json check_scene(const fs::path& file, const CheckJob& job) {
 }
 
 std::string text_of(const fs::path& scene, const CheckJob& job) {
-  setenv("LP_NUM_THREADS", "0", 1);  // one process a core: threads inside would only wait for each other
   return check_scene(scene, job).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

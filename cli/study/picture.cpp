@@ -103,7 +103,6 @@ const PictureSetting* own_of(const PictureStudy& study) {
 
 PictureStudy study_picture(const scenes::Scene& scene, const engine::Recording& recording, const render::Moment& moment, int width,
                            int height) {
-  setenv("LP_NUM_THREADS", "0", 1);  // times are those of one core
   PictureStudy study{moment, width, height, kReference, 0, settings_of(scene, width, height)};
   const render::DrawList list = render::arrange(scene.stage, recording, moment, static_cast<double>(width) / height);
   render::Image reference;

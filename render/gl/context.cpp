@@ -1,41 +1,93 @@
 #include "render/gl/context.h"
 
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <fmt/format.h>
+
+#include <cstdlib>
+
 #include "render/error.h"
 #include "render/gl/gl.h"
+#include "render/renderer.h"
 
 namespace render {
+namespace {
 
-GlContext::GlContext(int width, int height)
-    : width_(width), height_(height), buffer_(static_cast<std::size_t>(4 * width * height)) {
-  const int attributes[] = {OSMESA_FORMAT,
-                            OSMESA_RGBA,
-                            OSMESA_DEPTH_BITS,
-                            24,
-                            OSMESA_PROFILE,
-                            OSMESA_CORE_PROFILE,
-                            OSMESA_CONTEXT_MAJOR_VERSION,
-                            3,
-                            OSMESA_CONTEXT_MINOR_VERSION,
-                            3,
-                            0};
-  const OSMesaContext context = OSMesaCreateContextAttribs(attributes, nullptr);
-  if (!context) throw RenderError("cannot create an off-screen OpenGL 3.3 context: is libosmesa6 installed?");
-  context_ = context;
+constexpr const char* kChosen = "CRASHREEL_GL";  // handed on to the processes that draw
+constexpr int kSide = 16;                        // [pixels] of OSMesa's own buffer
+
+bool egl_is_chosen() {
+  const char* chosen = std::getenv(kChosen);
+  return chosen && std::string(chosen) == "egl";
+}
+
+}  // namespace
+
+void choose_gl(const std::string& name) {
+  setenv(kChosen, name.c_str(), 1);
+}
+
+GlContext::GlContext(Threads threads) {
+  // one process a core: threads inside would only wait for each other, and none of them would be there after a fork
+  if (threads == Threads::none) setenv("LP_NUM_THREADS", "0", 1);
+  if (egl_is_chosen())
+    open_egl();
+  else
+    open_osmesa();
   make_current();
 }
 
+void GlContext::open_osmesa() {
+  const int wanted[] = {OSMESA_FORMAT,
+                        OSMESA_RGBA,
+                        OSMESA_PROFILE,
+                        OSMESA_CORE_PROFILE,
+                        OSMESA_CONTEXT_MAJOR_VERSION,
+                        3,
+                        OSMESA_CONTEXT_MINOR_VERSION,
+                        3,
+                        0};
+  context_ = OSMesaCreateContextAttribs(wanted, nullptr);
+  if (!context_) throw RenderError("OpenGL 3.3 core was asked of OSMesa; it gave no context: Mesa too old, or not enough memory");
+  buffer_.resize(4 * kSide * kSide);
+}
+
+void GlContext::open_egl() {
+  const auto refuse = [](const char* step) {
+    return RenderError(fmt::format("OpenGL 3.3 core was asked of EGL, without a surface; {} failed with 0x{:x}", step,
+                                   static_cast<unsigned>(eglGetError())));
+  };
+  display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
+  if (!display_ || !eglInitialize(display_, nullptr, nullptr)) throw refuse("opening the display");
+  const EGLint drawable[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+  EGLConfig config = nullptr;
+  EGLint count = 0;
+  if (!eglBindAPI(EGL_OPENGL_API) || !eglChooseConfig(display_, drawable, &config, 1, &count) || count == 0)
+    throw refuse("choosing a configuration");
+  const EGLint wanted[] = {
+      EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+  context_ = eglCreateContext(display_, config, nullptr, wanted);
+  if (!context_) throw refuse("making the context");
+}
+
 void GlContext::make_current() const {
-  if (!OSMesaMakeCurrent(static_cast<OSMesaContext>(context_), buffer_.data(), GL_UNSIGNED_BYTE, width_, height_))
-    throw RenderError("cannot make the off-screen OpenGL context current");
+  const bool done =
+      display_ ? eglMakeCurrent(display_, nullptr, nullptr, context_) != 0
+               : OSMesaMakeCurrent(static_cast<OSMesaContext>(context_), buffer_.data(), GL_UNSIGNED_BYTE, kSide, kSide) != 0;
+  if (!done) throw RenderError(fmt::format("{} made an OpenGL 3.3 context that it cannot use", display_ ? "EGL" : "OSMesa"));
 }
 
 GlContext::~GlContext() {
-  if (context_) OSMesaDestroyContext(static_cast<OSMesaContext>(context_));
+  if (display_)
+    eglDestroyContext(display_, context_);  // other contexts use the display too
+  else
+    OSMesaDestroyContext(static_cast<OSMesaContext>(context_));
 }
 
 std::string GlContext::description() const {
-  return std::string(reinterpret_cast<const char*>(glGetString(GL_VERSION))) + ", " +
-         reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const auto text = [](GLenum name) { return reinterpret_cast<const char*>(glGetString(name)); };
+  return fmt::format("{}, {}, {}", display_ ? "EGL" : "OSMesa", text(GL_VERSION), text(GL_RENDERER));
 }
 
 }  // namespace render

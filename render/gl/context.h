@@ -1,6 +1,5 @@
-// An off-screen OpenGL 3.3 core context. OSMesa today; whoever replaces it changes this pair of files. Pictures are drawn by our
-// own kernels (shade/), faster and with the same bytes whatever Mesa is installed; OpenGL is the second method they
-// are held against (tests/snapshots/second_renderer_test.cpp) and the yardstick of the benchmark.
+// An off-screen OpenGL 3.3 core context, current in the process that made it. Made after a fork, never carried over one. Two back
+// ends: OSMesa, and EGL without a surface (for graphics cards, and for Mesa from 25.1 on, which has no OSMesa).
 #pragma once
 
 #include <string>
@@ -10,7 +9,9 @@ namespace render {
 
 class GlContext {
  public:
-  GlContext(int width, int height);  // throws RenderError
+  enum class Threads { none, own };  // of llvmpipe, beside the caller's
+  /// The back end that choose_gl named. Throws RenderError: no context, or too old a one.
+  explicit GlContext(Threads = Threads::none);
   ~GlContext();
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
@@ -18,8 +19,11 @@ class GlContext {
   std::string description() const;
 
  private:
+  void open_osmesa();
+  void open_egl();
+
   void* context_ = nullptr;
-  int width_, height_;
+  void* display_ = nullptr;                    // of EGL; null: OSMesa
   mutable std::vector<unsigned char> buffer_;  // OSMesa wants one to be current; pictures are read from our own framebuffer
 };
 

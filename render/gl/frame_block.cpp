@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using Eigen::Vector4d;
 
 constexpr double kOcclusionReach = 1.2;  // [m] beyond a caster the occlusion on the ground is under one grey level
-constexpr double kNear = 145;            // [m] where the shader without horizon serves; it begins to fade in at 150
+constexpr double kNear = 145;            // [m] where the kernel without horizon serves; it begins to fade in at 150
 constexpr double kShadowReach = 80;      // [m] from the eye; farther away a shadow is a few pixels
 
 Float4 four(const Vector3d& v, double w) {

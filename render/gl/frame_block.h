@@ -15,7 +15,7 @@ namespace render::gl {
 constexpr std::size_t kRoundOccluders = 24, kBoxOccluders = 8;
 
 struct FrameBlock {
-  // std140 mirror of kFrameBlock, and what sky and bare ground depend on: equal bytes mean an equal background
+  // what sky and bare ground depend on: equal bytes mean an equal background
   Matrix4 world_to_clip{}, clip_to_world{};
   Float4 eye{}, forward{}, sun{}, ground{}, road{}, frame{};
   Float4 near_0{}, near_x{}, near_y{}, far_0{}, far_x{}, far_y{};

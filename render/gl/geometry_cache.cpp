@@ -48,7 +48,7 @@ void set_levels(Geometry& g, const Mesh& mesh) {
   g.levels = std::move(levels);
 }
 
-// area-weighted sums of face normals; the shader turns them to the side that is seen
+// area-weighted sums of face normals; the light turns them to the side that is seen
 std::vector<float> face_sums(const std::vector<float>& p, const std::vector<std::uint32_t>& indices) {
   std::vector<float> n(p.size(), 0.0f);
   for (std::size_t t = 0; t + 2 < indices.size(); t += 3) {

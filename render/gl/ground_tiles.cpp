@@ -53,7 +53,7 @@ Sun sun_of(const Field& f, const FrameSetup& frame, const DepthPyramid& depth) {
   if (!frame.casts) return Sun::bare;
   const FrameBlock& b = frame.block;
   Eigen::Array3d lower = Eigen::Array3d::Constant(1e9), upper = Eigen::Array3d::Constant(-1e9);
-  const double lift = 1.5 * static_cast<double>(std::max(b.shadow[0], b.shadow[1]));  // as in the shader
+  const double lift = 1.5 * static_cast<double>(std::max(b.shadow[0], b.shadow[1]));  // as in shade/shadow.h
   for (int k = 0; k < 4; ++k) {
     const Eigen::Vector4d p(k & 1 ? f.upper[0] : f.lower[0], k & 2 ? f.upper[1] : f.lower[1],
                             static_cast<double>(b.ground[0]) + lift, 1);
@@ -61,7 +61,7 @@ Sun sun_of(const Field& f, const FrameSetup& frame, const DepthPyramid& depth) {
     lower = lower.min(q);
     upper = upper.max(q);
   }
-  constexpr double kRound = 2e-5;  // [-] of single precision in the shader, in map and depth
+  constexpr double kRound = 2e-5;  // [-] of single precision in the kernel, in map and depth
   const DepthPyramid::Range range = depth.over(lower[0] - kRound, lower[1] - kRound, upper[0] + kRound, upper[1] + kRound);
   const auto end = [](double z) { return std::min(z, 1.0); };
   const bool lit = range.least >= 1 || end(upper[2]) + kRound < static_cast<double>(range.least);

@@ -1,4 +1,4 @@
-// The picture in tiles, each with the cheapest shader that is exact for it: sky or ground, which part of the road's pattern it can
+// The picture in tiles, each with the cheapest kernel that is exact for it: sky or ground, which part of the road's pattern it can
 // show, what the sun can do there. No GL.
 #pragma once
 

@@ -1,77 +1,135 @@
 #include "render/gl/mark_pass.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+
+#include "render/gl/noise.h"
+#include "render/gl/shaders.h"
+#include "render/gl/target.h"
+#include "render/matrix.h"
 
 namespace render::gl {
 namespace {
 
-using Corner = CutPoint<4>;  // rest: across, darkness, place on the ground
+constexpr int kRubber = 41;  // of 4 x 255: 0.012 on the tone curve
+constexpr std::size_t kRoom = 7, kRecord = 8, kMark = 4;
 
-Corner corner_of(const StripItem& strip, std::size_t i, bool left, const Eigen::Matrix4d& world_to_clip) {
-  const Float3& at = left ? strip.left[i] : strip.right[i];
-  const Eigen::Vector3d p(at[0], at[1], at[2]);
-  const double darkness = i < strip.darkness.size() ? static_cast<double>(strip.darkness[i]) : 0.7;
-  return {world_to_clip * p.homogeneous(), {left ? -1.0 : 1.0, darkness, p.x(), p.y()}};
-}
-
-void set(const Corner& c, double width, double height, std::size_t k, shade::MarkTriangle& t) {
-  const double per_w = 1 / c.clip[3];
-  t.x[k] = sub_sample(c.clip[0] * per_w, width);
-  t.y[k] = sub_sample(c.clip[1] * per_w, height);
-  t.depth[k] = static_cast<float>(c.clip[2] * per_w * 0.5 + 0.5);
-  t.per_w[k] = static_cast<float>(per_w);
-  t.across[k] = static_cast<float>(c.rest[0]);
-  t.darkness[k] = static_cast<float>(c.rest[1]);
-  t.place_x[k] = static_cast<float>(c.rest[2]);
-  t.place_y[k] = static_cast<float>(c.rest[3]);
+void attribute(GLuint i, int size, std::size_t stride, std::size_t offset) {
+  glEnableVertexAttribArray(i);
+  glVertexAttribPointer(i, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride * sizeof(float)),
+                        reinterpret_cast<const void*>(offset * sizeof(float)));
 }
 
 }  // namespace
 
+MarkPass::MarkPass()
+    : flat_("", glsl::mark_vert, glsl::mark_frag), on_terrain_("#define ON_TERRAIN\n", glsl::mark_vert, glsl::mark_frag) {
+  glBindVertexArray(*array_);
+  glBindBuffer(GL_ARRAY_BUFFER, *records_buffer_);
+  attribute(0, 4, kRecord, 0);
+  attribute(1, 1, kRecord, 4);
+  glBindBuffer(GL_ARRAY_BUFFER, *marks_buffer_);
+  attribute(2, 4, kMark, 0);
+  const std::vector<std::uint8_t> grain = grain_picture();
+  glBindTexture(GL_TEXTURE_2D, *noise_);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, kNoiseSize, kNoiseSize, 0, GL_RED, GL_UNSIGNED_BYTE, grain.data());
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
+}
+
 void MarkPass::begin(const DrawList& list, const FrameSetup& frame, int width, int height) {
-  triangles_.clear();
+  strips_.clear();
+  read_ = {};
+  std::array<std::vector<float>, 3> places;
+  std::vector<float> marks;
   for (const StripItem& strip : list.strips) {
     const std::size_t n = std::min(strip.left.size(), strip.right.size());
-    if (n == 0) continue;
-    const auto corner = [&](std::size_t i, bool left) { return corner_of(strip, i, left, frame.world_to_clip); };
-    Corner left = corner(0, true), right = corner(0, false);
-    for (std::size_t i = 1; i < n; ++i) {
-      const Corner next_left = corner(i, true), next_right = corner(i, false);
-      add({left, right, next_right}, width, height);
-      add({left, next_right, next_left}, width, height);
-      left = next_left;
-      right = next_right;
+    if (n < 2) continue;
+    strips_.push_back({static_cast<GLint>(places[0].size()), static_cast<GLsizei>(2 * n)});
+    for (std::size_t i = 0; i < n; ++i)
+      for (const bool left : {false, true}) {
+        const Float3& p = left ? strip.left[i] : strip.right[i];
+        for (std::size_t k = 0; k < 3; ++k) places[k].push_back(p[k]);
+        marks.insert(marks.end(), {left ? -1.0f : 1.0f, i < strip.darkness.size() ? strip.darkness[i] : 0.7f, p[0], p[1]});
+      }
+  }
+  if (strips_.empty()) return;
+  const std::size_t count = places[0].size();
+  for (std::vector<float>& one : places) one.resize(count + kRoom);
+  std::vector<float> records(kRecord * (count + kRoom));
+  shade::Projection p{};
+  std::copy(frame.block.world_to_clip.begin(), frame.block.world_to_clip.end(), p.model_to_clip);
+  p.half_width = static_cast<float>(width) / 2;
+  p.half_height = static_cast<float>(height) / 2;
+  shade::kernels().project(
+      p, {static_cast<int>(count), places[0].data(), places[1].data(), places[2].data(), nullptr, nullptr, nullptr},
+      {records.data(), nullptr});
+  const auto put = [](const Buffer& buffer, const std::vector<float>& numbers) {
+    glBindBuffer(GL_ARRAY_BUFFER, *buffer);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(numbers.size() * sizeof(float)), numbers.data(), GL_STREAM_DRAW);
+  };
+  put(records_buffer_, records);
+  put(marks_buffer_, marks);
+  glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
+  if (width_ != width || height_ != height) {
+    attach(cover_, GL_COLOR_ATTACHMENT0, {GL_R8, GL_RED, GL_UNSIGNED_BYTE}, width, height);
+    check_target("picture of the marks", width, height);
+  }
+  width_ = width;
+  height_ = height;
+  side_ = viewport_side(width, height);
+}
+
+/// Part of what lies under them: one is nothing, and each mark takes its share of what the others let through.
+void MarkPass::draw_strips(const Program& program) {
+  glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
+  glViewport(0, 0, side_, side_);
+  const float all[4] = {1, 1, 1, 1};
+  glClearBufferfv(GL_COLOR, 0, all);
+  program.use();
+  program.set("per_viewport", 2 / static_cast<float>(side_));
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, *noise_);
+  glBindVertexArray(*array_);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ZERO, GL_ONE_MINUS_SRC_COLOR);
+  for (const Strip& strip : strips_) glDrawArrays(GL_TRIANGLE_STRIP, strip.first, strip.count);
+  glDisable(GL_BLEND);
+}
+
+void MarkPass::read(const Rectangle& r) {
+  read_ = r;
+  through_.resize(static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(r.x, r.y, r.width, r.height, GL_RED, GL_UNSIGNED_BYTE, through_.data());
+}
+
+void MarkPass::draw() {
+  if (strips_.empty()) return;
+  draw_strips(flat_);
+  read({0, 0, width_, height_});
+}
+
+void MarkPass::draw_on(const ObjectPass& objects, const Rectangle& r, int samples) {
+  if (strips_.empty() || r.height == 0) return;
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(r.x, r.y, r.width, r.height);
+  objects.bind_depth(on_terrain_, samples);
+  draw_strips(on_terrain_);
+  glDisable(GL_SCISSOR_TEST);
+  read(r);
+}
+
+void MarkPass::lay(int y0, int y1, const shade::Canvas& canvas) {
+  for (int y = std::max(y0, read_.y); y < std::min(y1, read_.y + read_.height); ++y) {
+    const std::uint8_t* through = through_.data() + static_cast<std::ptrdiff_t>(y - read_.y) * read_.width;
+    std::uint8_t* to = canvas.pixels + 4 * (y * canvas.pitch + read_.x);
+    for (int x = 0; x < read_.width; ++x, to += 4) {
+      if (through[x] == 255) continue;
+      for (int c = 0; c < 3; ++c)
+        to[c] = static_cast<std::uint8_t>((4 * to[c] * through[x] + kRubber * (255 - through[x]) + 510) / 1020);
     }
   }
-}
-
-void MarkPass::add(const std::array<CutPoint<4>, 3>& c, double width, double height) {
-  const auto put = [&](const Corner& p, const Corner& q, const Corner& r) {
-    shade::MarkTriangle t{};
-    set(p, width, height, 0, t);
-    set(q, width, height, 1, t);
-    set(r, width, height, 2, t);
-    const std::int64_t x1 = t.x[1] - t.x[0], y1 = t.y[1] - t.y[0], x2 = t.x[2] - t.x[0], y2 = t.y[2] - t.y[0];
-    if (x1 * y2 < x2 * y1) {  // seen from the other side
-      set(r, width, height, 1, t);
-      set(q, width, height, 2, t);
-    }
-    triangles_.push_back(t);
-  };
-  // within twice the picture nothing needs to be cut
-  const auto within = [](const Corner& p) {
-    const double end = 2 * p.clip[3];
-    return p.clip[3] > 0.01 && p.clip[2] > -p.clip[3] && std::abs(p.clip[0]) < end && std::abs(p.clip[1]) < end;
-  };
-  if (std::all_of(c.begin(), c.end(), within)) return put(c[0], c[1], c[2]);
-  const CutPolygon<4> seen = cut_to_grid(CutPolygon<4>(c.begin(), c.end()), width, height);
-  for (std::size_t i = 2; i < seen.size(); ++i) put(seen[0], seen[i - 1], seen[i]);
-}
-
-void MarkPass::draw(int y0, int y1, const float* depth, const shade::Maps& maps, const shade::Canvas& canvas) const {
-  if (triangles_.empty() || y0 >= y1) return;
-  shade::kernels().marks(maps, {triangles_.data(), static_cast<int>(triangles_.size()), y0, y1, depth}, canvas);
 }
 
 }  // namespace render::gl

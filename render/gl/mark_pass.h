@@ -1,26 +1,45 @@
-// Marks on the ground, such as skid marks.
+// Marks on the ground, such as skid marks: strips that OpenGL draws into a picture of what they let through.
 #pragma once
 
-#include <array>
+#include <cstdint>
 #include <vector>
 
-#include "render/gl/cut.h"
 #include "render/gl/frame_block.h"
+#include "render/gl/object_pass.h"
+#include "render/gl/program.h"
 #include "render/shade/kernels.h"
 
 namespace render::gl {
 
 class MarkPass {
  public:
+  MarkPass();
   /// Where the list's marks lie on a picture of so many pixels.
   void begin(const DrawList&, const FrameSetup&, int width, int height);
-  /// Rows y0 up to y1 of them, over what the canvas shows; held against `depth` (shade::Marks) if there is any.
-  void draw(int y0, int y1, const float* depth, const shade::Maps&, const shade::Canvas&) const;
+  /// On flat ground nothing hides them but what is drawn over them.
+  void draw();
+  /// On a terrain: in the band r that the object pass holds, where nothing is nearer.
+  void draw_on(const ObjectPass&, const Rectangle& r, int samples);
+  /// Rows y0 up to y1, over what the canvas shows.
+  void lay(int y0, int y1, const shade::Canvas&);
 
  private:
-  void add(const std::array<CutPoint<4>, 3>&, double width, double height);
+  void draw_strips(const Program&);
+  void read(const Rectangle&);
 
-  std::vector<shade::MarkTriangle> triangles_;
+  struct Strip {
+    GLint first;
+    GLsizei count;
+  };
+  Program flat_, on_terrain_;
+  Texture noise_, cover_;
+  Framebuffer frame_;
+  VertexArray array_;
+  Buffer records_buffer_, marks_buffer_;
+  int width_ = 0, height_ = 0, side_ = 0;
+  std::vector<Strip> strips_;
+  Rectangle read_;  // what of the picture `through_` holds
+  std::vector<std::uint8_t> through_;
 };
 
 }  // namespace render::gl

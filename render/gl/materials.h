@@ -1,4 +1,4 @@
-// What a material is to the light: a row of numbers, so that one shader without branches lights them all.
+// What a material is to the light: a row of numbers, so that one kernel without branches lights them all.
 #pragma once
 
 #include <array>

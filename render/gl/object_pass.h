@@ -1,4 +1,4 @@
-// What each sample of the things' rectangle sees: which triangle, how near.
+// Visibility buffer: which triangle each sample of the things' rectangle sees, by OpenGL.
 #pragma once
 
 #include <cstdint>
@@ -6,26 +6,33 @@
 
 #include "render/gl/frame_block.h"
 #include "render/gl/pieces.h"
-#include "render/gl/sampler.h"
+#include "render/gl/program.h"
+#include "render/gl/triangles.h"
 
 namespace render::gl {
 
 class ObjectPass {
  public:
+  ObjectPass();
   /// The band r of a picture of `width` by `height` pixels, `samples` a side to each.
   void draw(const DrawList&, const std::vector<Piece>&, const FrameSetup&, int width, int height, int samples, const Rectangle& r);
 
-  /// Of the band, row by row, lowest first; where the depth is 1 nothing is seen and the name means nothing.
-  const float* depth() const { return depth_.data(); }
+  /// Of the band, row by row, lowest first: numbers of triangles, 0 where nothing is seen.
   const std::int32_t* names() const { return names_.data(); }
-  Sampler& sampler() { return sampler_; }
-  /// 255 for the pixels of the band all of whose samples see a thing, 0 for the others of its rows, in a picture `width` wide.
-  void cover(const Rectangle& r, int samples, int width, std::vector<std::uint8_t>& out) const;
+  Triangles& triangles() { return triangles_; }
+  /// For a program that asks how near the things of the band are: its sampler `depth_map` and where the band lies.
+  void bind_depth(const Program&, int samples) const;
 
  private:
-  std::vector<float> depth_;
-  std::vector<std::int32_t> names_;  // of Sampler::triangles
-  Sampler sampler_;
+  void fit(int width, int height);
+
+  Triangles triangles_;
+  Program plain_, glass_, wires_;
+  Texture name_, depth_;
+  Framebuffer frame_;
+  int width_ = 0, height_ = 0;  // [samples] of the textures
+  Rectangle drawn_;             // [samples]
+  std::vector<std::int32_t> names_;
 };
 
 }  // namespace render::gl

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/gl/shaders.h"
+#include "render/gl/target.h"
 #include "render/matrix.h"
 
 namespace render::gl {
@@ -12,26 +14,21 @@ namespace {
 constexpr float kNear = 0.05f;  // clip w below which a point is behind the camera
 const Float4 kOutline{0.05f, 0.05f, 0.06f, 0.85f};
 
-/// Narrows x0 .. x1 to where low <= value + x slope <= high.
-void narrow(float value, float slope, float low, float high, float& x0, float& x1) {
-  if (std::abs(slope) < 1e-6f) {
-    if (value < low || value > high) x1 = x0;
-    return;
-  }
-  const float a = (low - value) / slope, b = (high - value) / slope;
-  x0 = std::max(x0, std::min(a, b));
-  x1 = std::min(x1, std::max(a, b));
-}
+constexpr std::size_t kFloats = 12;  // a vertex: corner 3, tint 4, shape 3, extent 2
 
 }  // namespace
 
-void OverlayPass::begin(const DrawList& list, const shade::Canvas& canvas) {
-  const Mat4 m = from_gl(list.view.eye_to_clip) * from_gl(list.view.world_to_eye);
-  for (std::size_t i = 0; i < 16; ++i) clip_[i] = static_cast<float>(m.data()[i]);
-  canvas_ = canvas;
-  width_ = static_cast<float>(canvas.width);
-  height_ = static_cast<float>(canvas.height);
-  scale_ = height_ / 1080 * list.scale;
+OverlayPass::OverlayPass()
+    : in_front_("", glsl::line_vert, glsl::line_frag), behind_("#define BEHIND_THINGS\n", glsl::line_vert, glsl::line_frag) {
+  glBindVertexArray(*array_);
+  glBindBuffer(GL_ARRAY_BUFFER, *buffer_);
+  std::size_t offset = 0;
+  GLuint i = 0;
+  for (const int size : {3, 4, 3, 2}) {
+    glEnableVertexAttribArray(i);
+    glVertexAttribPointer(i++, size, GL_FLOAT, GL_FALSE, kFloats * sizeof(float), reinterpret_cast<const void*>(offset));
+    offset += static_cast<std::size_t>(size) * sizeof(float);
+  }
 }
 
 bool OverlayPass::project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb) const {
@@ -49,7 +46,8 @@ bool OverlayPass::project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb
   if (ca[3] < kNear) cut(ca, cb);
   if (cb[3] < kNear) cut(cb, ca);
   auto pixel = [&](const Float4& c) {
-    return Pixel{(c[0] / c[3] * 0.5f + 0.5f) * width_, (c[1] / c[3] * 0.5f + 0.5f) * height_, c[2] / c[3] * 0.5f + 0.5f};
+    return Pixel{(c[0] / c[3] * 0.5f + 0.5f) * static_cast<float>(width_),
+                 (c[1] / c[3] * 0.5f + 0.5f) * static_cast<float>(height_), c[2] / c[3] * 0.5f + 0.5f};
   };
   pa = pixel(ca);
   pb = pixel(cb);
@@ -73,45 +71,30 @@ void OverlayPass::lie_on(const Float3& at, const Float3& normal, Pixel& pixel) c
   pixel.slope_y = (qz * px - pz * qx) / area;
 }
 
-/// Distance to a capsule, or to a taper cut square, tells how much of a pixel is covered.
-void OverlayPass::capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour, Ends ends) const {
+/// The rectangle around a piece; the shader finds its distance from it.
+void OverlayPass::capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour, Ends ends) {
   const float length = std::hypot(b.x - a.x, b.y - a.y);
   const bool point = length <= 1e-4f, square = ends == Ends::square;
   const float dx = point ? 1 : (b.x - a.x) / length, dy = point ? 0 : (b.y - a.y) / length;
-  const float pad = 1, wide = std::max(half_a, half_b) + pad, before = square ? pad : wide;
-  const auto row_of = [this](float y) { return static_cast<int>(std::clamp(y, 0.0f, height_)); };
-  const float reach = std::max(wide, before);
-  for (int row = row_of(std::min(a.y, b.y) - reach); row < row_of(std::max(a.y, b.y) + reach + 1); ++row) {
-    const float y = static_cast<float>(row) + 0.5f - a.y;
-    float x0 = 0, x1 = width_;
-    const float along_0 = (0.5f - a.x) * dx + y * dy, across_0 = y * dx - (0.5f - a.x) * dy;
-    narrow(across_0, -dy, -wide, wide, x0, x1);
-    narrow(along_0, dx, -before, length + before, x0, x1);
-    const int last = static_cast<int>(std::min(std::ceil(x1) + 1, width_));
-    for (int x = static_cast<int>(std::max(x0, 0.0f)); x < last; ++x) {
-      const float along = along_0 + static_cast<float>(x) * dx, across = across_0 - static_cast<float>(x) * dy;
-      const float beyond = std::max(-along, along - length), share = point ? 0 : along / length;
-      const float half = half_a + (half_b - half_a) * share;
-      const float d = square ? std::max(std::abs(across) - half, beyond)
-                             : std::sqrt(across * across + std::max(beyond, 0.0f) * std::max(beyond, 0.0f)) - half_a;
-      const float cover = std::clamp(0.5f - d, 0.0f, 1.0f);
-      if (cover <= 0) continue;
-      if (depth_) {
-        const float s = std::clamp(share, 0.0f, 1.0f), off_along = along - s * length;
-        const float off_x = dx * off_along - dy * across, off_y = dy * off_along + dx * across;
-        const float z = a.z + (b.z - a.z) * s + (a.slope_x + (b.slope_x - a.slope_x) * s) * off_x +
-                        (a.slope_y + (b.slope_y - a.slope_y) * s) * off_y;
-        if (std::clamp(z, 0.0f, 1.0f) > depth_[static_cast<std::ptrdiff_t>(row) * canvas_.width + x]) continue;
-      }
-      std::uint8_t* const out = canvas_.pixels + 4 * (row * canvas_.pitch + x);
-      const float alpha = colour[3] * cover;
-      for (std::size_t c = 0; c < 3; ++c)
-        out[c] = static_cast<std::uint8_t>(255 * colour[c] * alpha + static_cast<float>(out[c]) * (1 - alpha) + 0.5f);
-    }
-  }
+  constexpr float kPad = 1;
+  const auto vertex = [&](const Pixel& p, float half, float along_sign, float side) {
+    const float across = side * (std::max(half_a, half_b) + kPad), along = along_sign * (square ? kPad : half + kPad);
+    const float at = along_sign < 0 ? along : length + along;
+    // a taper goes on beyond its ends, so that its width is linear over the piece
+    if (square && !point) half = half_a + (half_b - half_a) * at / length;
+    const float off_x = dx * along - dy * across, off_y = dy * along + dx * across;
+    vertices_.insert(vertices_.end(), {p.x + off_x, p.y + off_y, p.z + p.slope_x * off_x + p.slope_y * off_y, colour[0], colour[1],
+                                       colour[2], colour[3], across, at, half, point ? 0 : length, square ? 1.0f : 0.0f});
+  };
+  vertex(a, half_a, -1, -1);
+  vertex(b, half_b, 1, -1);
+  vertex(b, half_b, 1, 1);
+  vertex(a, half_a, -1, -1);
+  vertex(b, half_b, 1, 1);
+  vertex(a, half_a, -1, 1);
 }
 
-void OverlayPass::polyline(const LineItem& line, float extra, const Float4& colour) const {
+void OverlayPass::polyline(const LineItem& line, float extra, const Float4& colour) {
   const float half = 0.5f * line.width * scale_ + extra * scale_;
   for (std::size_t i = 1; i < line.points.size(); ++i) {
     Pixel a{}, b{};
@@ -124,7 +107,7 @@ void OverlayPass::polyline(const LineItem& line, float extra, const Float4& colo
   }
 }
 
-void OverlayPass::arrow(const ArrowItem& item, float extra, const Float4& colour) const {
+void OverlayPass::arrow(const ArrowItem& item, float extra, const Float4& colour) {
   Pixel a{}, b{};
   if (!project(item.from, item.to, a, b)) return;
   const float half = 0.5f * item.width * scale_, edge = extra * scale_;
@@ -142,14 +125,19 @@ void OverlayPass::arrow(const ArrowItem& item, float extra, const Float4& colour
           Ends::square);
 }
 
-void OverlayPass::draw(const DrawList& list, const shade::Canvas& canvas, const float* depth) {
-  begin(list, canvas);
+void OverlayPass::begin(const DrawList& list, int width, int height) {
+  const Mat4 m = from_gl(list.view.eye_to_clip) * from_gl(list.view.world_to_eye);
+  for (std::size_t i = 0; i < 16; ++i) clip_[i] = static_cast<float>(m.data()[i]);
+  width_ = width;
+  height_ = height;
+  scale_ = static_cast<float>(height) / 1080 * list.scale;
+  vertices_.clear();
   for (const bool behind : {true, false}) {
-    depth_ = behind ? depth : nullptr;
     for (const LineItem& line : list.lines)
       if (line.hidden_behind == behind && line.outline) polyline(line, 1.2f, kOutline);
     for (const LineItem& line : list.lines)
       if (line.hidden_behind == behind) polyline(line, 0, line.colour);
+    if (behind) behind_count_ = vertices_.size() / kFloats;
   }
   for (const ArrowItem& item : list.arrows) {
     arrow(item, 1.4f, kOutline);
@@ -160,6 +148,80 @@ void OverlayPass::draw(const DrawList& list, const shade::Canvas& canvas, const 
     if (!project(marker.at, marker.at, a, b)) continue;
     capsule(a, b, marker.radius * scale_ + 1.4f * scale_, marker.radius * scale_ + 1.4f * scale_, kOutline);
     capsule(a, b, marker.radius * scale_, marker.radius * scale_, marker.colour);
+  }
+  if (vertices_.empty()) return;
+  glBindBuffer(GL_ARRAY_BUFFER, *buffer_);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices_.size() * sizeof(float)), vertices_.data(), GL_STREAM_DRAW);
+  glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
+  if (target_width_ != width || target_height_ != height) {
+    target_width_ = width;
+    target_height_ = height;
+    attach(colour_, GL_COLOR_ATTACHMENT0, {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE}, width, height);
+    check_target("picture of the lines", width, height);
+  }
+  const float nothing[4] = {};
+  glClearBufferfv(GL_COLOR, 0, nothing);
+}
+
+void OverlayPass::draw(const Program& program, const Rectangle& r, std::size_t first, std::size_t count) {
+  if (count == 0 || r.width <= 0 || r.height <= 0) return;
+  glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
+  glViewport(0, 0, width_, height_);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(r.x, r.y, r.width, r.height);
+  program.use();
+  program.set("frame", static_cast<float>(width_), static_cast<float>(height_));
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glBindVertexArray(*array_);
+  glDrawArrays(GL_TRIANGLES, static_cast<GLint>(first), static_cast<GLsizei>(count));
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void OverlayPass::draw_behind(const Rectangle& r) {
+  draw(in_front_, r, 0, behind_count_);
+}
+
+void OverlayPass::draw_behind(const ObjectPass& objects, const Rectangle& r, int samples) {
+  if (behind_count_ == 0) return;
+  objects.bind_depth(behind_, samples);
+  draw(behind_, r, 0, behind_count_);
+}
+
+/// What the vertices reach, on the picture.
+Rectangle OverlayPass::around() const {
+  float x0 = static_cast<float>(width_), y0 = static_cast<float>(height_), x1 = 0, y1 = 0;
+  for (std::size_t i = 0; i < vertices_.size(); i += kFloats) {
+    x0 = std::min(x0, vertices_[i]);
+    x1 = std::max(x1, vertices_[i]);
+    y0 = std::min(y0, vertices_[i + 1]);
+    y1 = std::max(y1, vertices_[i + 1]);
+  }
+  const auto on = [](float v, int end) { return static_cast<int>(std::clamp(v, 0.0f, static_cast<float>(end))); };
+  const int x = on(x0, width_), y = on(y0, height_);
+  return {x, y, on(x1 + 1, width_) - x, on(y1 + 1, height_) - y};
+}
+
+void OverlayPass::finish(const shade::Canvas& canvas) {
+  const Rectangle r = around();
+  if (vertices_.empty() || r.width <= 0 || r.height <= 0) return;
+  draw(in_front_, r, behind_count_, vertices_.size() / kFloats - behind_count_);
+  glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
+  lines_.resize(4 * static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height));
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(r.x, r.y, r.width, r.height, GL_RGBA, GL_UNSIGNED_BYTE, lines_.data());
+  lay(r, canvas);
+}
+
+void OverlayPass::lay(const Rectangle& r, const shade::Canvas& canvas) {
+  const std::uint8_t* from = lines_.data();
+  for (int y = r.y; y < r.y + r.height; ++y) {
+    std::uint8_t* to = canvas.pixels + 4 * (y * canvas.pitch + r.x);
+    for (int x = 0; x < r.width; ++x, from += 4, to += 4) {
+      if (from[3] == 0) continue;
+      for (int c = 0; c < 3; ++c) to[c] = static_cast<std::uint8_t>(from[c] + (to[c] * (255 - from[3]) + 127) / 255);
+    }
   }
 }
 

@@ -1,35 +1,54 @@
-// Lines, arrows and markers over the finished picture, anti-aliased analytically at one sample.
+// Lines, arrows and markers: OpenGL draws them, anti-aliased analytically at one sample, into a picture of their own that is laid
+// over the finished one.
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <vector>
 
-#include "render/draw_list.h"
+#include "render/gl/object_pass.h"
+#include "render/gl/program.h"
 #include "render/shade/kernels.h"
 
 namespace render::gl {
 
 class OverlayPass {
  public:
-  /// Onto the canvas. Lines that pass behind things are held against `depth`, 0..1 of each pixel; without it they are in front.
-  void draw(const DrawList&, const shade::Canvas&, const float* depth);
+  OverlayPass();
+  void begin(const DrawList&, int width, int height);
+  /// Lines that pass behind things, in a part of the picture without things.
+  void draw_behind(const Rectangle&);
+  /// In a band that the object pass holds.
+  void draw_behind(const ObjectPass&, const Rectangle&, int samples);
+  /// What is in front of everything, and all of it onto the canvas.
+  void finish(const shade::Canvas&);
 
  private:
   struct Pixel {
     float x, y, z;
     float slope_x = 0, slope_y = 0;  // of the depth over the picture, where a line lies on a surface
   };
-  void begin(const DrawList&, const shade::Canvas&);
+  enum class Ends { round, square };
   bool project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb) const;
   void lie_on(const Float3& at, const Float3& normal, Pixel&) const;
-  enum class Ends { round, square };
-  void capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour, Ends = Ends::round) const;
-  void polyline(const LineItem&, float extra, const Float4& colour) const;
-  void arrow(const ArrowItem&, float extra, const Float4& colour) const;
+  void capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour, Ends = Ends::round);
+  void polyline(const LineItem&, float extra, const Float4& colour);
+  void arrow(const ArrowItem&, float extra, const Float4& colour);
+  void draw(const Program&, const Rectangle&, std::size_t first, std::size_t count);
+  Rectangle around() const;
+  void lay(const Rectangle&, const shade::Canvas&);
 
-  shade::Canvas canvas_{};
-  const float* depth_ = nullptr;  // what the lines at hand are held against
+  Program in_front_, behind_;
+  Texture colour_;
+  Framebuffer frame_;
+  VertexArray array_;
+  Buffer buffer_;
+  std::vector<float> vertices_;
+  std::size_t behind_count_ = 0;  // of the vertices, at their beginning
   std::array<float, 16> clip_{};
-  float width_ = 0, height_ = 0, scale_ = 1;
+  int width_ = 0, height_ = 0, target_width_ = 0, target_height_ = 0;
+  float scale_ = 1;
+  std::vector<std::uint8_t> lines_;  // premultiplied
 };
 
 }  // namespace render::gl

@@ -56,6 +56,12 @@ GLint Program::at(const char* uniform) const {
   return places_.emplace(uniform, glGetUniformLocation(id_, uniform)).first->second;
 }
 
+void Program::set(const char* uniform, int value) const {
+  glUniform1i(at(uniform), value);
+}
+void Program::set(const char* uniform, int x, int y, int z) const {
+  glUniform3i(at(uniform), x, y, z);
+}
 void Program::set(const char* uniform, float value) const {
   glUniform1f(at(uniform), value);
 }

@@ -23,6 +23,8 @@ class Program {
   Program& operator=(const Program&) = delete;
 
   void use() const { glUseProgram(id_); }
+  void set(const char* uniform, int value) const;
+  void set(const char* uniform, int x, int y, int z) const;
   void set(const char* uniform, float value) const;
   void set(const char* uniform, float x, float y) const;
   void set(const char* uniform, const Float3& value) const;

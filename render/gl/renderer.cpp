@@ -3,6 +3,7 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "render/gl/background_pass.h"
@@ -22,16 +23,23 @@ using namespace gl;
 
 constexpr int kBandSamples = 8'500'000;  // that the object pass holds: 1080p at four samples in one band, 70 MB
 
+/// The four rectangles of a picture beside, below and above a fifth.
+std::array<Rectangle, 4> around(const Rectangle& r, int width, int height) {
+  const int right = r.x + r.width, top = r.y + r.height;
+  return {{{0, 0, width, r.y}, {0, r.y, r.x, r.height}, {right, r.y, width - right, r.height}, {0, top, width, height - top}}};
+}
+
 }  // namespace
 
 struct Renderer::Impl {
-  Impl(int w, int h, const Effort& e) : width(w), height(h), effort(e) {}
+  Impl(int w, int h, const Effort& e) : width(w), height(h), effort(e), context() {}
 
   shade::Canvas canvas_on(Image&);
   void reduce(Image&) const;
 
   int width, height;  // of the picture handed out
   Effort effort;
+  GlContext context;
   GeometryCache geometry;
   MaterialTable materials;
   ShadowPass shadow;
@@ -42,7 +50,6 @@ struct Renderer::Impl {
   gl::OverlayPass overlays;
   std::vector<std::uint8_t> large;    // the canvas, lowest row first, where it is larger than the picture
   std::vector<std::uint8_t> covered;  // of its pixels, by things
-  std::vector<float> depth;           // of its pixels, where a line may pass behind things
   FrameCost cost{};
 };
 
@@ -74,13 +81,16 @@ void Renderer::Impl::reduce(Image& out) const {
 
 Renderer::Renderer(int width, int height, Quality quality) : Renderer(width, height, effort_of(quality, width, height)) {}
 Renderer::Renderer(int width, int height, const Effort& effort) : impl_(std::make_unique<Impl>(width, height, effort)) {}
-Renderer::~Renderer() = default;
+Renderer::~Renderer() {
+  impl_->context.make_current();  // its names die in it
+}
 
 void Renderer::draw(const DrawList& list, Image& out) {
   Impl& r = *impl_;
   const Effort& effort = r.effort;
   const shade::Canvas canvas = r.canvas_on(out);
   const int width = canvas.width, height = canvas.height;
+  r.context.make_current();
   r.cost = {};
   Stopwatch watch(r.cost);
   std::vector<CasterBox> boxes;
@@ -93,36 +103,36 @@ void Renderer::draw(const DrawList& list, Image& out) {
   const shade::Maps maps = r.shadow.maps(effort, list.road);
   r.background.begin(list, frame, r.shadow.bounds(), maps, canvas, effort.ground_step);
   r.marks.begin(list, frame, width, height);
-  const bool terrain = list.road.terrain != nullptr, on_terrain = terrain && !list.strips.empty();
+  const bool terrain = list.road.terrain != nullptr;
+  if (!terrain) r.marks.draw();
+  r.overlays.begin(list, width, height);
   const auto draw_ground = [&](int y0, int y1, const std::uint8_t* covered) {
     r.background.draw(y0, y1, covered, maps, canvas);
-    if (!terrain) r.marks.draw(y0, y1, nullptr, maps, canvas);
+    if (!terrain) r.marks.lay(y0, y1, canvas);
     watch.lap(Pass::background);
   };
   watch.lap(Pass::background);
-  const bool depth =
-      on_terrain || std::any_of(list.lines.begin(), list.lines.end(), [](const LineItem& l) { return l.hidden_behind; });
-  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  if (depth) r.depth.assign(pixels + 7, 1.0f);
-  r.covered.resize(pixels + 7);
+  r.covered.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) + 7);
   const Rectangle objects = terrain ? Rectangle{0, 0, width, height} : frame.objects;
   const int band_height = std::clamp(kBandSamples / (width * effort.samples * effort.samples), 16, height);
   int done = 0;  // rows of the background
   for (int y = objects.y; y < objects.y + objects.height; y += band_height) {
     const Rectangle band{objects.x, y, objects.width, std::min(band_height, objects.y + objects.height - y)};
     r.objects.draw(list, pieces, frame, width, height, effort.samples, band);
-    if (depth) nearest_depths(r.objects, band, effort.samples, width, r.depth);
+    r.overlays.draw_behind(r.objects, band, effort.samples);
+    if (terrain) r.marks.draw_on(r.objects, band, effort.samples);
+    r.light.find(r.objects, band, effort.samples, canvas, r.covered.data());
     watch.lap(Pass::objects);
     draw_ground(done, y, nullptr);
     done = y + band.height;
-    r.objects.cover(band, effort.samples, width, r.covered);
     draw_ground(y, done, r.covered.data());
-    r.light.draw({data, maps, r.materials.rows(), terrain, effort.samples}, r.objects, band, canvas);
+    r.light.draw({data, maps, r.materials.rows(), terrain, effort.samples}, r.objects, canvas);
+    if (terrain) r.marks.lay(y, done, canvas);
     watch.lap(Pass::light);
   }
   draw_ground(done, height, nullptr);
-  if (on_terrain) r.marks.draw(0, height, r.depth.data(), maps, canvas);
-  r.overlays.draw(list, canvas, depth ? r.depth.data() : nullptr);
+  for (const Rectangle& free : around(objects, width, height)) r.overlays.draw_behind(free);
+  r.overlays.finish(canvas);
   watch.lap(Pass::lines);
   if (effort.scale > 1) r.reduce(out);
   watch.lap(Pass::read_back);
@@ -135,7 +145,7 @@ const FrameCost& Renderer::cost() const {
 }
 
 std::string gl_description() {
-  return GlContext(16, 16).description();
+  return GlContext().description();
 }
 
 }  // namespace render

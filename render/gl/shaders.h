@@ -1,8 +1,15 @@
-// GLSL text. One file of text a purpose; `kFrameBlock` stands before each. What they draw is lit by render/shade.
+// The text of the *.glsl files beside this one; CMake makes it part of the program.
 #pragma once
 
-namespace render::gl {
+namespace render::gl::glsl {
 
-extern const char* const kFrameBlock;
+extern const char* const object_vert;
+extern const char* const object_frag;
+extern const char* const shadow_vert;
+extern const char* const shadow_frag;
+extern const char* const mark_vert;
+extern const char* const mark_frag;
+extern const char* const line_vert;
+extern const char* const line_frag;
 
-}  // namespace render::gl
+}  // namespace render::gl::glsl

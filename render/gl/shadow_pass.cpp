@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "render/gl/noise.h"
+#include "render/gl/shaders.h"
+#include "render/gl/target.h"
 
 namespace render::gl {
 namespace {
@@ -44,7 +46,7 @@ int reach(const Effort& cost, float texel) {
 
 }  // namespace
 
-ShadowPass::ShadowPass() : grain_(fourfold(grain_picture())) {}
+ShadowPass::ShadowPass() : program_("", glsl::shadow_vert, glsl::shadow_frag), grain_(fourfold(grain_picture())) {}
 
 void ShadowPass::draw(const Effort& cost, const std::vector<Piece>& pieces, const FrameSetup& frame) {
   bounds_.clear();
@@ -61,12 +63,34 @@ void ShadowPass::draw(const Effort& cost, const std::vector<Piece>& pieces, cons
 }
 
 void ShadowPass::draw_map(int size, const std::vector<Piece>& pieces, const FrameSetup& frame) {
-  const std::size_t pitch = static_cast<std::size_t>(size) + 2;
-  depth_.assign(pitch * pitch, 1.0f);
+  glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
+  if (size_ != size) {
+    size_ = size;
+    attach(map_, GL_DEPTH_ATTACHMENT, {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT}, size, size);
+    glDrawBuffer(GL_NONE);
+    glReadBuffer(GL_NONE);
+    check_target("shadow map", size, size);
+    const std::size_t pitch = static_cast<std::size_t>(size) + 2;
+    depth_.assign(pitch * pitch, 1.0f);
+  }
   const double texel = static_cast<double>(std::max(frame.block.shadow[0], frame.block.shadow[1]));
-  const double side = size;
-  sampler_.draw_depth({frame.world_to_shadow_clip, side, side}, pieces, texel,
-                      {depth_.data() + pitch + 1, nullptr, static_cast<std::int64_t>(pitch), 0, 0, size, size});
+  triangles_.collect_casters({frame.world_to_shadow_clip, size, size, {0, 0, size, size}}, pieces, texel);
+  triangles_.upload();
+  glViewport(0, 0, size, size);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  const float farthest = 1;
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.5f, 4.0f);
+  program_.use();
+  program_.set("per_viewport", 2 / static_cast<float>(size));
+  for (const Triangles::Batch& batch : triangles_.batches()) triangles_.draw(batch);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisable(GL_DEPTH_TEST);
+  glPixelStorei(GL_PACK_ROW_LENGTH, size + 2);
+  glReadPixels(0, 0, size, size, GL_DEPTH_COMPONENT, GL_FLOAT, depth_.data() + size + 3);
+  glPixelStorei(GL_PACK_ROW_LENGTH, 0);
 }
 
 shade::Maps ShadowPass::maps(const Effort& cost, const RoadLook& road) const {

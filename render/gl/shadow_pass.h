@@ -6,7 +6,8 @@
 
 #include "render/gl/depth_pyramid.h"
 #include "render/gl/pieces.h"
-#include "render/gl/sampler.h"
+#include "render/gl/program.h"
+#include "render/gl/triangles.h"
 #include "render/renderer.h"
 #include "render/shade/kernels.h"
 
@@ -24,11 +25,15 @@ class ShadowPass {
  private:
   void draw_map(int size, const std::vector<Piece>&, const FrameSetup&);
 
+  Triangles triangles_;
+  Program program_;
+  Texture map_;
+  Framebuffer frame_;
+  int size_ = 0;  // [texels] of the texture, a side
   std::vector<std::int32_t> grain_;
   std::vector<float> depth_;      // of the map, with a rim of depth 1
   std::vector<float> occlusion_;  // likewise
   DepthPyramid bounds_;
-  Sampler sampler_;
 };
 
 }  // namespace render::gl

@@ -1,5 +1,6 @@
 // The background: rays to ground and sky, their light, rows of pixels. What changes slowly along a row is computed for every eighth
-// pixel of it and blended between.
+// pixel of it and blended between. In GLSL sky, ground and marks took 68 ms of a 1920x1080 frame (8255c0a), the kernel 20.2
+// (937bacc; one worker, follow camera, one run on one machine).
 #pragma once
 
 #include "render/shade/ground.h"

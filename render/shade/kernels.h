@@ -63,45 +63,18 @@ struct Vertices {
   const float *x, *y, *z, *normal_x, *normal_y, *normal_z;
 };
 
-/// From a mesh onto a grid of samples.
+/// From a mesh onto the samples of a picture.
 struct Projection {
   float model_to_clip[16], model_to_world[16];  // by columns
   float half_width, half_height;                // [samples] of the whole picture
   float ground;                                 // [m]
 };
 
-/// Vertices as they lie on the grid; room for seven more in each list. Without normals the rest is left out too.
-struct Projected {
-  std::int32_t *x, *y;   // [1/64 sample]
-  float *depth, *per_w;  // 0..1; one over w, nought where the vertex lies before the near plane or far outside
-  float *normal_x, *normal_y, *normal_z, *height;  // in the world; [m] above the ground
-  float *model_x, *model_y, *model_z;              // as they were
-  float* records;  // eight numbers a vertex: x, y [samples], per_w, normal, and two that mean nothing
-};
-
-/// Samples x .. x + width, y .. y + height of the picture. Room for seven more behind the last row; beyond `width` no sample is
-/// changed.
-struct SampleGrid {
-  float* depth;         // 0..1, the nearest stays
-  std::int32_t* names;  // number of the triangle that is seen; null: depth alone
-  std::int64_t pitch;
-  int x, y, width, height;
-};
-
-/// Triangles of one material on one body.
-struct Run {
-  const std::uint32_t* indices;
-  int triangles;
-  std::int32_t first_vertex;  // where in Projected index 0 lies
-  int facing;                 // 1: only counter-clockwise ones are seen, -1: only clockwise ones, 0: all
-  int closed;                 // which side of a body is outside: 1 counter-clockwise, -1 clockwise, 0 a sheet
-  std::int32_t row;           // of the materials
-  unsigned kept;              // of two by two samples, bit 2 y + x: those glass does not let through
-  bool above_ground;          // what has sunk into the ground is hidden by it
-  bool wires;                 // parallels and meridians of an ellipsoid with these
-  float axes[3];
-  float model_to_world[16];
-  float offset_slope, offset;  // of a depth map, as OpenGL's polygon offset
+/// Vertices on the samples; room for seven more. A vertex that lies before the eye and not too far aside is scaled to w = 1 and
+/// snapped to 1/64 of a sample; others stay as they are in clip space, for OpenGL to cut.
+struct Corners {
+  float* records;  // eight numbers a vertex: x, y [samples], depth 0..1, w, what it was scaled by, normal in the world
+  float* places;   // four: place in the mesh, height above the ground [m]; null: not wanted, nor is the normal
 };
 
 /// A triangle that may be seen.
@@ -112,42 +85,19 @@ struct Triangle {
   float side;           // -1: the normals are to be turned
 };
 
-/// What `raster` adds to.
-struct Drawn {
-  Triangle* triangles;   // room for all of the run
-  int* count;            // also the name of the next
-  std::int32_t* to_cut;  // numbers of the run's triangles that reach before the near plane or far outside: not drawn
-  int* cut_count;
-};
-
 /// What surfaces are seen: one entry a pixel and surface.
 struct Surfaces {
   int count;                     // room for seven more in each list
   const float *x, *y;            // pixels
-  const float* depth;            // 0..1
   const std::int32_t* triangle;  // one of those that show it
   float *red, *green, *blue;     // out: 0..1 as on the screen
 };
 struct Scene {
   const float* materials;     // sixteen numbers a row
   const Triangle* triangles;  // room for one more
-  Projected vertices;
+  Corners corners;
   float samples;  // a side to a pixel
   bool terrain;   // some may be ground
-};
-
-/// Half of a piece of a mark that a tyre left, counter-clockwise on the canvas.
-struct MarkTriangle {
-  std::int32_t x[3], y[3];       // [1/64 pixel]
-  float depth[3], per_w[3];      // 0..1; one over w
-  float across[3], darkness[3];  // -1..1 from edge to edge; 0..1
-  float place_x[3], place_y[3];  // [m]
-};
-struct Marks {
-  const MarkTriangle* triangles;
-  int count;
-  int from, to;        // rows
-  const float* depth;  // 0..1 of the canvas's pixels, lowest row first, room for seven more; null: nothing hides them
 };
 
 struct Occluders {
@@ -158,9 +108,7 @@ struct Occluders {
 struct Kernels {
   void (*background)(const FrameData&, const Maps&, const Tile&, const Canvas&);
   void (*surfaces)(const FrameData&, const Maps&, const Scene&, const Surfaces&);
-  void (*project)(const Projection&, const Vertices&, const Projected&);
-  void (*raster)(const SampleGrid&, const Projected&, const Run&, const Drawn&);
-  void (*marks)(const Maps&, const Marks&, const Canvas&);
+  void (*project)(const Projection&, const Vertices&, const Corners&);
   /// A picture, highest row first, in BT.709 limited range: 4:2:0, three planes one after the other;
   /// an odd row or column at the end has no colours of its own.
   void (*i420)(const std::uint8_t* rgba, int width, int height, std::uint8_t* out);

@@ -38,6 +38,23 @@ LANES bool any(I mask) {
 #endif
 }
 
+LANES I load_int(const std::int32_t* from) {
+  I v;
+  __builtin_memcpy(&v, from, sizeof v);
+  return v;
+}
+LANES F load(const float* from) {
+  F v;
+  __builtin_memcpy(&v, from, sizeof v);
+  return v;
+}
+LANES void store(F v, float* to) {
+  __builtin_memcpy(to, &v, sizeof v);
+}
+LANES void store(I v, std::int32_t* to) {
+  __builtin_memcpy(to, &v, sizeof v);
+}
+
 LANES F to_float(I x) {
   return __builtin_convertvector(x, F);
 }

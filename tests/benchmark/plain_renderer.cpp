@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <string>
 
-#include "render/gl/shaders.h"
 #include "render/matrix.h"
 #include "render/text/labels.h"
 
@@ -15,6 +14,22 @@ using namespace render;
 using namespace render::gl;
 
 constexpr int kSamples = 4, kShadowSize = 2048;
+
+// the beginning of struct FrameBlock in render/gl/frame_block.h, std140
+const char* const kFrameBlock = R"(
+layout(std140) uniform Frame {
+  mat4 world_to_clip;
+  mat4 clip_to_world;
+  vec4 eye;               // xyz; w: 1 orthographic
+  vec4 forward;           // xyz view direction
+  vec4 sun;               // xyz towards the sun; w: haze 0..1
+  vec4 ground;            // x height, y road half width, z road centre, w lanes
+  vec4 road;              // x road, y metre grid, z zebra, w zebra position
+  vec4 frame;             // xy two over the picture's width and height
+  vec4 near_0, near_x, near_y;  // a pixel's ray from here ...
+  vec4 far_0, far_x, far_y;     // ... to here: at the corner, and per pixel right and up
+};
+)";
 
 const char* const kLight = R"(
 uniform sampler2DShadow shadow_map;
@@ -106,7 +121,7 @@ std::unique_ptr<Program> program(const std::string& vertex, const std::string& f
 
 }  // namespace
 
-PlainRenderer::PlainRenderer(int width, int height) : width_(width), height_(height), context_(16, 16) {
+PlainRenderer::PlainRenderer(int width, int height) : width_(width), height_(height), context_(GlContext::Threads::own) {
   glBindFramebuffer(GL_FRAMEBUFFER, *many_);
   store(many_colour_, GL_COLOR_ATTACHMENT0, GL_RGBA8, kSamples, width, height);
   store(many_depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, kSamples, width, height);
@@ -211,7 +226,9 @@ void PlainRenderer::draw(const DrawList& list, Image& out) {
   out.rgba.resize(row * static_cast<std::size_t>(height_));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, out.rgba.data());
-  overlays_.draw(list, {out.rgba.data(), width_, height_, width_}, nullptr);
+  overlays_.begin(list, width_, height_);
+  overlays_.draw_behind({0, 0, width_, height_});
+  overlays_.finish({out.rgba.data(), width_, height_, width_});
   for (int y = 0; y < height_ / 2; ++y) {
     std::uint8_t* a = out.rgba.data() + row * static_cast<std::size_t>(y);
     std::swap_ranges(a, a + row, out.rgba.data() + row * static_cast<std::size_t>(height_ - 1 - y));

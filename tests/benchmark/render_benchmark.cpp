@@ -99,7 +99,6 @@ void heavy_mesh() {
   if (pipe(ends) != 0) return;
   const pid_t child = fork();
   if (child == 0) {
-    setenv("LP_NUM_THREADS", "0", 1);
     constexpr int kCells = 289;  // 12 * 289^2 = 1,002,252 triangles
     auto mesh = std::make_shared<Mesh>();
     Tessellation t = tessellate({{2.2, 0.9, 0.7}, 3.5}, kCells);

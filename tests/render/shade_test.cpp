@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
-#include <numbers>
 #include <random>
 
 #include "gl_scene.h"
@@ -68,129 +66,93 @@ TEST(Shade, BackgroundIsTheSameOnEveryProcessor) {
               << "zone " << zone << ", sun " << sun << ", filter " << filter << (near ? ", near" : "");
 }
 
-TEST(Shade, MarksAreTheSameOnEveryProcessor) {
-  const Street street;
-  std::mt19937 random(11);
-  std::uniform_int_distribution<std::int32_t> place(-64 * 40, 64 * 240);
-  std::uniform_real_distribution<float> any(0, 1);
-  std::vector<MarkTriangle> triangles(60);
-  for (MarkTriangle& t : triangles)
-    for (int k = 0; k < 3; ++k) {
-      t.x[k] = place(random), t.y[k] = place(random);
-      t.depth[k] = any(random), t.per_w[k] = 0.1f + any(random);
-      t.across[k] = 2 * any(random) - 1, t.darkness[k] = any(random);
-      t.place_x[k] = any(random), t.place_y[k] = any(random);
-    }
-  std::vector<float> depth(kWidth * kHeight + 7);
-  for (float& d : depth) d = any(random);
-  for (const float* held_against : {static_cast<const float*>(nullptr), static_cast<const float*>(depth.data())}) {
-    std::vector<std::uint8_t> wide(4 * kWidth * kHeight, 200), plain = wide;
-    const Marks list{triangles.data(), static_cast<int>(triangles.size()), 5, kHeight - 5, held_against};
-    kernels().marks(street.maps(1), list, {wide.data(), kWidth, kHeight, kWidth});
-    plain_kernels().marks(street.maps(1), list, {plain.data(), kWidth, kHeight, kWidth});
-    EXPECT_EQ(wide, plain);
-    EXPECT_NE(wide, std::vector<std::uint8_t>(wide.size(), 200)) << "nothing drawn";
-  }
-}
-
-/// Triangles of all sizes and turns before a street's camera, on a grid of samples.
+/// Triangles of all sizes and turns before a street's camera, some reaching behind it.
 struct Heap {
-  static constexpr int kTriangles = 400, kRoom = 3 * kTriangles + 7, kSamples = 2;
-  explicit Heap(const Street& street, bool wires = false) {
+  static constexpr int kTriangles = 400, kCorners = 3 * kTriangles, kRoom = kCorners + 7, kSamples = 2;
+  explicit Heap(const Street& street) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> any(-1, 1);
     for (int t = 0; t < kTriangles; ++t) {
       const float at[] = {4 * any(random), t % 8 == 1 ? -6.0f : 3 + 4 * any(random), 1.5f + 2 * any(random)};
       const float size = t % 4 == 0 ? 0.02f : t % 4 == 1 ? 1.5f : 0.2f;
-      for (int k = 0; k < 3; ++k) {
-        indices.push_back(static_cast<std::uint32_t>(3 * t + k));
+      for (int k = 0; k < 3; ++k)
         for (std::size_t i = 0; i < 3; ++i) {
           mesh[i].push_back(at[i] + size * any(random));
           mesh[3 + i].push_back(any(random));
         }
-      }
     }
     for (auto& list : mesh) list.resize(kRoom);
     std::copy(street.frame.block.world_to_clip.begin(), street.frame.block.world_to_clip.end(), projection.model_to_clip);
-    for (const int i : {0, 5, 10, 15}) projection.model_to_world[i] = run.model_to_world[i] = 1;
+    for (const int i : {0, 5, 10, 15}) projection.model_to_world[i] = 1;
     projection.half_width = kWidth * kSamples / 2.0f;
     projection.half_height = kHeight * kSamples / 2.0f;
-    run.indices = indices.data();
-    run.triangles = kTriangles;
-    run.closed = 1;
-    run.kept = 13;
-    run.above_ground = true;
-    run.wires = wires;
-    std::fill_n(run.axes, 3, 1.0f);
   }
-
-  struct Seen {
-    std::vector<float> depth = std::vector<float>(kWidth * kSamples * kHeight * kSamples + 7, 1.0f);
-    std::vector<std::int32_t> names = std::vector<std::int32_t>(depth.size()), places = std::vector<std::int32_t>(2 * kRoom);
-    std::vector<float> numbers = std::vector<float>(9 * kRoom), records = std::vector<float>(8 * kRoom);
-    std::vector<Triangle> triangles = std::vector<Triangle>(kTriangles + 1);
-    std::vector<std::int32_t> cut = std::vector<std::int32_t>(kTriangles);
-    int count = 0, cut_count = 0;
-    Projected vertices() {
-      const auto n = [this](int i) { return numbers.data() + i * kRoom; };
-      return {places.data(), places.data() + kRoom, n(0), n(1), n(2), n(3), n(4), n(5), n(6), n(7), n(8), records.data()};
-    }
+  struct Projected {
+    std::vector<float> records = std::vector<float>(8 * kRoom), places = std::vector<float>(4 * kRoom);
+    Corners corners() { return {records.data(), places.data()}; }
   };
-  Seen seen(const Kernels& by) const {
-    Seen out;
+  Projected projected(const Kernels& by) const {
+    Projected out;
     by.project(projection,
-               {3 * kTriangles, mesh[0].data(), mesh[1].data(), mesh[2].data(), mesh[3].data(), mesh[4].data(), mesh[5].data()},
-               out.vertices());
-    by.raster({out.depth.data(), out.names.data(), kWidth * kSamples, 0, 0, kWidth * kSamples, kHeight * kSamples}, out.vertices(),
-              run, {out.triangles.data(), &out.count, out.cut.data(), &out.cut_count});
+               {kCorners, mesh[0].data(), mesh[1].data(), mesh[2].data(), mesh[3].data(), mesh[4].data(), mesh[5].data()},
+               out.corners());
     return out;
   }
-  std::vector<std::uint32_t> indices;
   std::vector<std::vector<float>> mesh = std::vector<std::vector<float>>(6);
   Projection projection{};
-  Run run{};
 };
 
-TEST(Shade, TrianglesAreTheSameOnEveryProcessor) {
+TEST(Shade, CornersAreTheSameOnEveryProcessor) {
   const Street street;
-  for (const bool wires : {false, true}) {
-    const Heap heap(street, wires);
-    const Heap::Seen a = heap.seen(kernels()), b = heap.seen(plain_kernels());
-    EXPECT_EQ(a.depth, b.depth);
-    EXPECT_EQ(a.names, b.names);
-    EXPECT_EQ(a.places, b.places);
-    EXPECT_EQ(a.numbers, b.numbers);
-    EXPECT_EQ(a.records, b.records);
-    EXPECT_EQ(a.cut, b.cut);
-    ASSERT_EQ(a.count, b.count);
-    EXPECT_GT(a.count, Heap::kTriangles / 3);
-    EXPECT_GT(a.cut_count, 0) << "some reach behind the camera";
-    for (int i = 0; i < a.count; ++i)
-      EXPECT_EQ(std::memcmp(&a.triangles[static_cast<std::size_t>(i)], &b.triangles[static_cast<std::size_t>(i)], sizeof(Triangle)),
-                0);
-    const auto covered = std::count_if(a.depth.begin(), a.depth.end(), [](float z) { return z < 1; });
-    EXPECT_GT(covered, kWidth * kHeight / (wires ? 10 : 2));
+  const Heap heap(street);
+  const Heap::Projected a = heap.projected(kernels()), b = heap.projected(plain_kernels());
+  EXPECT_EQ(a.records, b.records);
+  EXPECT_EQ(a.places, b.places);
+  int scaled = 0, left = 0;
+  for (std::size_t i = 0; i < Heap::kCorners; ++i) {
+    const float *r = &a.records[8 * i], *place = &a.places[4 * i];
+    const Eigen::Vector4d clip = street.frame.world_to_clip * Eigen::Vector4d(place[0], place[1], place[2], 1);
+    // a corner is scaled to w = 1 and snapped to 1/64 of a sample, or stays as it is
+    const double x = (clip[0] + clip[3]) * kWidth * Heap::kSamples / 2 * static_cast<double>(r[4]);
+    if (r[3] == 1) {
+      ++scaled;
+      ASSERT_NEAR(static_cast<double>(r[0]), x, 0.5 / 64 + 2e-6 * std::abs(x));
+      ASSERT_EQ(r[0] * 64, std::floor(r[0] * 64));
+    } else {
+      ++left;
+      ASSERT_NEAR(static_cast<double>(r[0]), x, 1e-5 * (1 + std::abs(x)));
+      ASSERT_EQ(r[4], 1);
+    }
   }
+  EXPECT_GT(scaled, Heap::kTriangles);
+  EXPECT_GT(left, 0) << "some reach behind the camera";
 }
 
 TEST(Shade, SurfacesAreTheSameOnEveryProcessor) {
   const Street street;
-  Heap heap(street);
-  Heap::Seen seen = heap.seen(kernels());
-  for (int i = 0; i < seen.count; ++i) seen.triangles[static_cast<std::size_t>(i)].row = i % 8 + (i % 3 == 0 ? 32768 : 0);
-  std::vector<float> x, y, depth;
+  const Heap heap(street);
+  Heap::Projected seen = heap.projected(kernels());
+  std::vector<Triangle> triangles;
+  std::vector<float> x, y;
   std::vector<std::int32_t> triangle;
-  for (std::size_t at = 0; at + 7 < seen.depth.size(); at += 7) {
-    if (seen.depth[at] >= 1) continue;
-    x.push_back((static_cast<float>(at % (kWidth * Heap::kSamples)) + 0.5f) / Heap::kSamples);
-    y.push_back((static_cast<float>(at / (kWidth * Heap::kSamples)) + 0.5f) / Heap::kSamples);
-    depth.push_back(seen.depth[at]);
-    triangle.push_back(seen.names[at]);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> any(0, 1);
+  for (std::int32_t t = 0; t < Heap::kTriangles; ++t) {
+    triangles.push_back({{3 * t, 3 * t + 1, 3 * t + 2}, t % 8 + (t % 3 == 0 ? 32768 : 0), 0, t % 2 ? 1.0f : -1.0f});
+    const float* c[] = {&seen.records[24 * t], &seen.records[24 * t + 8], &seen.records[24 * t + 16]};
+    if (c[0][3] != 1 || c[1][3] != 1 || c[2][3] != 1) continue;
+    for (int i = 0; i < 5; ++i) {
+      const float u = any(random), v = (1 - u) * any(random);
+      x.push_back((c[0][0] + u * (c[1][0] - c[0][0]) + v * (c[2][0] - c[0][0])) / Heap::kSamples);
+      y.push_back((c[0][1] + u * (c[1][1] - c[0][1]) + v * (c[2][1] - c[0][1])) / Heap::kSamples);
+      triangle.push_back(t);
+    }
   }
   const int count = static_cast<int>(x.size());
   ASSERT_GT(count, 1000);
-  for (auto* list : {&x, &y, &depth}) list->resize(x.size() + 7);
+  for (auto* list : {&x, &y}) list->resize(x.size() + 7);
   triangle.resize(triangle.size() + 7);
+  triangles.push_back({});
   std::vector<float> materials;
   for (int kind = 0; kind < 8; ++kind) {
     Material m;
@@ -199,55 +161,13 @@ TEST(Shade, SurfacesAreTheSameOnEveryProcessor) {
   }
   const auto lit = [&](const Kernels& by, bool terrain) {
     std::vector<std::vector<float>> out(3, std::vector<float>(triangle.size()));
-    by.surfaces(street.data, street.maps(1), {materials.data(), seen.triangles.data(), seen.vertices(), Heap::kSamples, terrain},
-                {count, x.data(), y.data(), depth.data(), triangle.data(), out[0].data(), out[1].data(), out[2].data()});
+    by.surfaces(street.data, street.maps(1), {materials.data(), triangles.data(), seen.corners(), Heap::kSamples, terrain},
+                {count, x.data(), y.data(), triangle.data(), out[0].data(), out[1].data(), out[2].data()});
     return out;
   };
   for (const bool terrain : {false, true}) EXPECT_EQ(lit(kernels(), terrain), lit(plain_kernels(), terrain));
   const std::vector<std::vector<float>> colours = lit(kernels(), true);
   for (const float v : colours[1]) EXPECT_TRUE(v >= 0 && v <= 1.01f) << v;
-}
-
-/// A fan around a point in the picture: who shares an edge shares no sample, and none is left out.
-TEST(Shade, TrianglesThatMeetShareNoSampleAndLeaveNoneOut) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<float> any(0, 1);
-  constexpr int kSide = 64, kSpokes = 23;
-  for (int round = 0; round < 40; ++round) {
-    // corners on the 1/64 grid, often in the middle of a sample
-    const auto snapped = [&] {
-      return static_cast<std::int32_t>(any(random) * (round % 2 ? 64 : 4096)) * (round % 2 ? 64 : 1) + 32;
-    };
-    std::vector<std::int32_t> x{snapped()}, y{snapped()};
-    // around a frame beyond the picture
-    for (int i = 0; i < kSpokes; ++i) {
-      const double turn = 2 * std::numbers::pi * i / kSpokes;
-      x.push_back(static_cast<std::int32_t>(2048 + 9000 * std::cos(turn)));
-      y.push_back(static_cast<std::int32_t>(2048 + 9000 * std::sin(turn)));
-    }
-    std::vector<float> depth(x.size() + 7, 0.5f), per_w(x.size() + 7, 1.0f);
-    x.resize(x.size() + 7);
-    y.resize(y.size() + 7);
-    std::vector<int> times(kSide * kSide, 0);
-    for (std::uint32_t i = 0; i < kSpokes; ++i) {
-      std::vector<float> seen(kSide * kSide + 7, 1.0f);
-      const std::uint32_t corners[] = {0, 1 + i, 1 + (i + 1) % kSpokes};
-      shade::Run run{};
-      run.indices = corners;
-      run.triangles = 1;
-      int count = 0, cut_count = 0;
-      std::int32_t cut = 0;
-      Projected p{};
-      p.x = x.data();
-      p.y = y.data();
-      p.depth = depth.data();
-      p.per_w = per_w.data();
-      kernels().raster({seen.data(), nullptr, kSide, 0, 0, kSide, kSide}, p, run, {nullptr, &count, &cut, &cut_count});
-      for (std::size_t at = 0; at < times.size(); ++at) times[at] += seen[at] < 1 ? 1 : 0;
-      for (std::size_t at = times.size(); at < seen.size(); ++at) ASSERT_EQ(seen[at], 1) << "beyond the grid";
-    }
-    for (const int n : times) ASSERT_EQ(n, 1) << "round " << round;
-  }
 }
 
 TEST(Shade, APictureLiesOnTheGroundToScale) {
@@ -294,7 +214,7 @@ TEST(Shade, ATileOfOneKindShowsWhatTheWholePatternWould) {
                            {part.data(), kWidth, kHeight, kWidth});
       for (int y = r.y; y < r.y + r.height; ++y)
         for (int i = 4 * (y * kWidth + std::max(r.x, 8)); i < 4 * (y * kWidth + r.x + r.width); ++i)
-          // rounding, and the noise that the shader with a horizon adds
+          // rounding, and the noise that the kernel with a horizon adds
           ASSERT_LE(std::abs(part[static_cast<std::size_t>(i)] - whole[static_cast<std::size_t>(i)]), 1)
               << "kind " << static_cast<int>(look.zone) << " at row " << y;
     }

@@ -1,0 +1,209 @@
+#include "render/gl/triangles.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "render/matrix.h"
+
+namespace render::gl {
+namespace {
+
+constexpr std::size_t kRoom = 7, kRecord = 8, kPlace = 4;  // [numbers]
+constexpr unsigned kAll = 15;
+
+/// Of four samples so many stay as the opacity says, spread evenly.
+unsigned kept_samples(const Piece& piece) {
+  if (piece.kind != static_cast<int>(MaterialKind::glass)) return kAll;
+  unsigned kept = 0;
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 2; ++x)
+      if (piece.opacity >= (static_cast<float>((x ^ y) * 2 + y) + 0.5f) / 4) kept |= 1u << (2 * y + x);
+  return kept;
+}
+
+/// Octahedral place of a direction, 16 bits each.
+std::int32_t packed(float x, float y, float z) {
+  const float per = 1.0f / std::max(std::abs(x) + std::abs(y) + std::abs(z), 1e-20f);
+  float u = x * per, v = y * per;
+  if (z < 0) {
+    const float folded_u = (1 - std::abs(v)) * (u < 0 ? -1.0f : 1.0f), folded_v = (1 - std::abs(u)) * (v < 0 ? -1.0f : 1.0f);
+    u = folded_u;
+    v = folded_v;
+  }
+  const auto place = [](float w) { return static_cast<std::uint32_t>((0.5f + 0.5f * w) * 65535); };
+  return static_cast<std::int32_t>(place(u) | place(v) << 16);
+}
+
+/// Twice its area on the picture, positive counter-clockwise; corners may lie behind the eye.
+double area_of(const float* a, const float* b, const float* c) {
+  const auto product = [](const float* p, const float* q) {
+    return static_cast<double>(p[0]) * static_cast<double>(q[1]) - static_cast<double>(q[0]) * static_cast<double>(p[1]);
+  };
+  return product(a, b) * static_cast<double>(c[3]) + product(b, c) * static_cast<double>(a[3]) +
+         product(c, a) * static_cast<double>(b[3]);
+}
+
+/// Whether the middle of a sample of the window can lie in the triangle.
+bool may_cover(const float* a, const float* b, const float* c, const Rectangle& window) {
+  if (a[3] != 1 || b[3] != 1 || c[3] != 1) return true;  // OpenGL cuts it
+  for (int i = 0; i < 2; ++i) {
+    const float least = std::min({a[i], b[i], c[i]}), largest = std::max({a[i], b[i], c[i]});
+    const float from = static_cast<float>(i == 0 ? window.x : window.y);
+    const float size = static_cast<float>(i == 0 ? window.width : window.height);
+    if (largest < from || least > from + size) return false;
+    if (std::ceil(least - 0.5f) > std::floor(largest - 0.5f)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+/// Triangles of one material on one body.
+struct Triangles::Run {
+  const std::uint32_t* indices;
+  std::size_t count;
+  int facing;     // 1: only counter-clockwise ones are seen, -1: only clockwise ones, 0: all
+  bool describe;  // for the light
+};
+
+Triangles::Triangles() {
+  glBindVertexArray(*array_);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, *index_buffer_);
+  const auto attribute = [](GLuint i, int size, std::size_t stride, std::size_t offset) {
+    glEnableVertexAttribArray(i);
+    glVertexAttribPointer(i, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride * sizeof(float)),
+                          reinterpret_cast<const void*>(offset * sizeof(float)));
+  };
+  glBindBuffer(GL_ARRAY_BUFFER, *record_buffer_);
+  attribute(0, 4, kRecord, 0);
+  attribute(1, 1, kRecord, 4);
+  glBindBuffer(GL_ARRAY_BUFFER, *place_buffer_);
+  attribute(2, 4, kPlace, 0);
+}
+
+void Triangles::clear() {
+  vertex_count_ = first_vertex_ = 0;
+  last_geometry_ = nullptr;
+  indices_.clear();
+  batches_.clear();
+  triangles_.assign(1, {});
+}
+
+void Triangles::project(const View& view, const Piece& piece, bool describe) {
+  const Geometry& g = *piece.geometry;
+  if (last_geometry_ == &g && last_model_ == piece.model) return;
+  last_geometry_ = &g;
+  last_model_ = piece.model;
+  first_vertex_ = vertex_count_;
+  vertex_count_ += static_cast<std::size_t>(g.count);
+  const auto grow = [this](std::vector<float>& list, std::size_t numbers) {
+    const std::size_t wanted = numbers * (vertex_count_ + kRoom);
+    if (list.size() < wanted) list.resize(std::max(wanted, 3 * list.size() / 2));
+  };
+  grow(records_, kRecord);
+  if (describe) grow(places_, kPlace);
+  shade::Projection p{};
+  const Matrix4 clip = to_gl(view.world_to_clip * from_gl(piece.model));
+  std::copy(clip.begin(), clip.end(), p.model_to_clip);
+  std::copy(piece.model.begin(), piece.model.end(), p.model_to_world);
+  p.half_width = static_cast<float>(view.width) / 2;
+  p.half_height = static_cast<float>(view.height) / 2;
+  p.ground = view.ground;
+  shade::kernels().project(
+      p, g.list(), {records_.data() + kRecord * first_vertex_, describe ? places_.data() + kPlace * first_vertex_ : nullptr});
+}
+
+shade::Triangle Triangles::describe(const Piece& piece, const Run& run, const std::uint32_t* v, double area) const {
+  std::array<float, 3> normal{};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < 3; ++i) normal[i] += records_[kRecord * v[k] + 5 + i];
+  float side = 1;
+  bool inside = false;
+  if (run.facing == 0) {  // whatever the file's winding and normals, the side is lit that is seen
+    const auto corner = [&](std::size_t k) { return Eigen::Vector3f::Map(&places_[kPlace * v[k]]); };
+    const Eigen::Vector3f face = Eigen::Vector3f(corner(1) - corner(0)).cross(Eigen::Vector3f(corner(2) - corner(0)));
+    const float* m = piece.model.data();
+    float outward = 0;
+    for (std::size_t i = 0; i < 3; ++i) outward += (m[i] * face[0] + m[4 + i] * face[1] + m[8 + i] * face[2]) * normal[i];
+    side = (outward < 0) == (area > 0) ? -1.0f : 1.0f;
+    inside = piece.geometry->closed * (area > 0 ? 1 : -1) < 0;
+  }
+  return {{static_cast<std::int32_t>(v[0]), static_cast<std::int32_t>(v[1]), static_cast<std::int32_t>(v[2])},
+          piece.row + (inside ? 32768 : 0),
+          packed(side * normal[0], side * normal[1], side * normal[2]),
+          side};
+}
+
+void Triangles::add(const View& view, const Piece& piece, const Run& run) {
+  const unsigned kept = run.describe ? kept_samples(piece) : kAll;
+  const bool wires = run.describe && piece.kind == kWireKind;
+  const std::size_t before = indices_.size() / 3;
+  indices_.reserve(indices_.size() + run.count);
+  for (std::size_t t = 0; t + 2 < run.count; t += 3) {
+    std::uint32_t v[3];
+    const float* at[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      v[k] = static_cast<std::uint32_t>(first_vertex_) + run.indices[t + k];
+      at[k] = &records_[kRecord * v[k]];
+    }
+    const double area = area_of(at[0], at[1], at[2]);
+    if (area == 0 || run.facing * area < 0 || !may_cover(at[0], at[1], at[2], view.window)) continue;
+    if (run.describe) {
+      if (view.above_ground && places_[kPlace * v[0] + 3] < 0 && places_[kPlace * v[1] + 3] < 0 && places_[kPlace * v[2] + 3] < 0)
+        continue;
+      triangles_.push_back(describe(piece, run, v, area));
+    }
+    indices_.insert(indices_.end(), v, v + 3);
+  }
+  const std::size_t more = indices_.size() / 3 - before;
+  if (more == 0) return;
+  if (!batches_.empty() && batches_.back().kept == kept && !wires && !batches_.back().wires)
+    batches_.back().count += more;
+  else
+    batches_.push_back({before, more, kept, wires, piece.axes});
+}
+
+void Triangles::collect(const View& view, const std::vector<Piece>& pieces) {
+  clear();
+  for (const Piece& piece : pieces) {
+    project(view, piece, true);
+    const Mesh::Part& part = piece.level->runs[piece.run];
+    const int facing = piece.culling == Culling::off ? 0 : piece.geometry->closed > 0 ? 1 : -1;
+    add(view, piece, {piece.geometry->indices.data() + part.first, part.count, facing, true});
+  }
+}
+
+void Triangles::collect_casters(const View& view, const std::vector<Piece>& pieces, double tolerance) {
+  clear();
+  for (const Piece& piece : pieces) {
+    if (!piece.casts) continue;
+    project(view, piece, false);
+    const Geometry& g = *piece.geometry;
+    const Mesh::Part& part = level_within(g, tolerance).runs[piece.run];
+    add(view, piece, {g.indices.data() + part.first, part.count, g.shell ? (g.closed > 0 ? 1 : -1) : 0, false});
+  }
+}
+
+void Triangles::upload() {
+  const auto put = [](GLenum kind, const Buffer& buffer, const auto& list, std::size_t count) {
+    glBindBuffer(kind, *buffer);
+    glBufferData(kind, static_cast<GLsizeiptr>(count * sizeof list[0]), list.data(), GL_STREAM_DRAW);
+  };
+  glBindVertexArray(*array_);
+  put(GL_ARRAY_BUFFER, record_buffer_, records_, std::min(records_.size(), kRecord * vertex_count_));
+  put(GL_ARRAY_BUFFER, place_buffer_, places_, std::min(places_.size(), kPlace * vertex_count_));
+  put(GL_ELEMENT_ARRAY_BUFFER, index_buffer_, indices_, indices_.size());
+}
+
+void Triangles::draw(const Batch& batch) const {
+  glBindVertexArray(*array_);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * batch.count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(3 * batch.first * sizeof(std::uint32_t)));
+}
+
+int viewport_side(int width, int height) {
+  return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(width, height))));
+}
+
+}  // namespace render::gl

@@ -1,0 +1,67 @@
+// A view's triangles on their way to OpenGL. Their corners are brought to the view here, in a given order of operations and onto
+// 1/64 of a sample, so that which samples they cover does not depend on the processor; what OpenGL still multiplies them by are
+// powers of two. What cannot be seen (back faces, triangles between samples) is left out.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "render/gl/names.h"
+#include "render/gl/pieces.h"
+#include "render/shade/kernels.h"
+
+namespace render::gl {
+
+class Triangles {
+ public:
+  struct View {
+    Eigen::Matrix4d world_to_clip;
+    int width, height;  // [samples] of the whole picture
+    Rectangle window;   // [samples] of it that is drawn
+    float ground = 0;
+    bool above_ground = false;  // what has sunk into the ground is hidden by it
+  };
+  /// One draw call.
+  struct Batch {
+    std::size_t first, count;  // triangles
+    unsigned kept;             // of two by two samples, bit 2 y + x: those glass does not let through
+    bool wires;                // parallels and meridians of an ellipsoid with these
+    Float3 axes;
+  };
+
+  Triangles();
+  /// Levels of detail and culling as the pieces have them.
+  void collect(const View&, const std::vector<Piece>&);
+  /// What throws shadows, at the levels within `tolerance` [m]; not described.
+  void collect_casters(const View&, const std::vector<Piece>&, double tolerance);
+  void upload();
+  const std::vector<Batch>& batches() const { return batches_; }
+  void draw(const Batch&) const;
+
+  /// By number; 0 is nothing.
+  const std::vector<shade::Triangle>& described() const { return triangles_; }
+  shade::Corners corners() { return {records_.data(), places_.data()}; }
+
+ private:
+  struct Run;
+  void clear();
+  void project(const View&, const Piece&, bool describe);
+  void add(const View&, const Piece&, const Run&);
+  shade::Triangle describe(const Piece&, const Run&, const std::uint32_t* v, double area) const;
+
+  std::vector<float> records_, places_;  // as shade::Corners names them
+  std::vector<std::uint32_t> indices_;
+  std::vector<shade::Triangle> triangles_;
+  std::vector<Batch> batches_;
+  std::size_t vertex_count_ = 0, first_vertex_ = 0;
+  const Geometry* last_geometry_ = nullptr;  // whose vertices are the last that were projected
+  Matrix4 last_model_{};
+  VertexArray array_;
+  Buffer record_buffer_, place_buffer_, index_buffer_;
+};
+
+/// Side of the square viewport of a picture of so many samples: a power of two.
+int viewport_side(int width, int height);
+
+}  // namespace render::gl
