@@ -54,7 +54,7 @@ void LightPass::find(ObjectPass& objects, const Rectangle& r, int samples, const
       if ((seen[0] | seen[1] | seen[2] | seen[3]) == 0) continue;
       of_row[r.x + x] = seen[0] != 0 && seen[1] != 0 && seen[2] != 0 && seen[3] != 0 ? 255 : 0;
       const float px = static_cast<float>(r.x + x), py = static_cast<float>(y);
-      if (same(seen[0], seen[1]) && same(seen[0], seen[2]) && same(seen[0], seen[3]))  // mostly
+      if (seen[0] == seen[1] && seen[0] == seen[2] && seen[0] == seen[3])  // mostly
         add(1, px + 0.5f, py + 0.5f, first + x, seen[0]);
       else
         add_edge(seen, first + x, px, py);
@@ -74,7 +74,9 @@ bool LightPass::same(std::int32_t one, std::int32_t other) const {
          std::abs((a.facing >> 16 & 0xffff) - (b.facing >> 16 & 0xffff)) < kAlike;
 }
 
-/// The samples of a pixel show one surface, or two: nearly no pixel shows three, and the third then looks like the second.
+/// The samples of a pixel show one surface, or two: nearly no pixel shows three, and the third then looks like the second. A
+/// surface is looked at in the middle of those samples that show one and the same of its triangles, so the place lies within that
+/// triangle: beside it, where a surface is seen from its edge, the depth would be far off and the surface would shade itself.
 void LightPass::add_edge(const Seen& seen, int pixel, float x, float y) {
   unsigned left = 0;
   for (std::size_t k = 0; k < 4; ++k) left |= seen[k] != 0 ? 1u << k : 0u;
@@ -82,16 +84,17 @@ void LightPass::add_edge(const Seen& seen, int pixel, float x, float y) {
     const int first = std::countr_zero(left);
     const std::int32_t name = seen[static_cast<std::size_t>(first)];
     unsigned mine = 0;
-    int right = 0, up = 0, n = 0;
+    int right = 0, up = 0, n = 0;  // n: samples of this very triangle
     for (int k = first; k < 4; ++k) {
       if (!(left >> k & 1) || !same(name, seen[static_cast<std::size_t>(k)])) continue;
       mine |= 1u << k;
+      if (seen[static_cast<std::size_t>(k)] != name) continue;
       ++n;
       right += k & 1;
       up += k >> 1;
     }
     const float per = 0.5f / static_cast<float>(n);
-    const int covered = surface == 0 ? n : std::popcount(left);
+    const int covered = std::popcount(surface == 0 ? mine : left);
     add(static_cast<float>(covered) / 4, x + 0.25f + static_cast<float>(right) * per, y + 0.25f + static_cast<float>(up) * per,
         pixel, name);
     left &= ~mine;
