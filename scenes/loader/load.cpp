@@ -63,9 +63,11 @@ bool is_scene(const Value& root) {
 void refuse_crowds(const Value& value, const std::string& key) {
   constexpr std::size_t kMost = 10'000;
   const bool tables = value.kind == Value::Kind::array && !value.items.empty() && value.items[0].kind == Value::Kind::table;
-  if (tables && value.items.size() > kMost)
-    throw SceneErrors{{fmt::format("{}: {} is there {} times; a scene has at most {}", value.items[kMost].place.text(), key,
-                                   value.items.size(), kMost)}};
+  if (tables && value.items.size() > kMost) {
+    const Place& place = value.items[kMost].place;
+    throw SceneErrors({Finding{place.file, place.line, place.column, "range",
+                               fmt::format("{} is there {} times; a scene has at most {}", key, value.items.size(), kMost)}});
+  }
   for (const Entry& entry : value.entries) refuse_crowds(entry.value, entry.key);
   if (tables)
     for (const Value& item : value.items) refuse_crowds(item, key);

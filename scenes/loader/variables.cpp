@@ -143,7 +143,7 @@ void resolve_variables(Value& root, Errors& errors) {
   }
   Variables fresh(table);
   Resolver{fresh, errors}.walk(root, scene_section(), "");
-  if (!errors.empty()) throw SceneErrors(errors.lines());  // what follows from a wrong value would be told as well
+  if (!errors.empty()) throw SceneErrors(errors.findings());  // what follows from a wrong value would be told as well
   for (const Entry& entry : table.entries) {
     bool used = fresh.used().contains(entry.key);
     for (const Entry& other : table.entries)
