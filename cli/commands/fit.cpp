@@ -40,7 +40,7 @@ void refuse_empty(const scenes::Scene& scene) {
 inference::ButFor but_for(const inference::Prior& prior, const inference::Fit& fit, inference::Ensemble& ensemble,
                           const std::string& change) {
   if (change.find('=') == std::string::npos)
-    throw UsageError(fmt::format("--but-for is \"{}\", must be KEY=VALUE, like vehicle.sedan.speed=\"30 km/h\"", change));
+    throw UsageError(fmt::format("--but-for is \"{}\": must be KEY=VALUE, like vehicle.sedan.speed=\"30 km/h\"", change));
   std::vector<std::vector<std::string>> changed;
   std::vector<inference::Answer> before;
   for (const std::size_t r : inference::drawn(fit.posterior, kButForRuns)) {

@@ -36,7 +36,7 @@ std::string main_output(const std::vector<Output>& outputs) {
 GridAxis parse_grid(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-    throw UsageError(fmt::format("--grid is \"{}\", must be KEY=VALUES, like vehicle.sedan.speed=\"30,40,50 km/h\"", text));
+    throw UsageError(fmt::format("--grid is \"{}\": must be KEY=VALUES, like vehicle.sedan.speed=\"30,40,50 km/h\"", text));
   GridAxis out{text.substr(0, equals), {}};
   std::string rest = text.substr(equals + 1);
   for (std::size_t comma; (comma = rest.find(',')) != std::string::npos; rest.erase(0, comma + 1))

@@ -39,7 +39,9 @@ constexpr MaterialLine kMaterials[] = {
 
 render::Material material_of(const RawPart& part) {
   // colours in mesh files are meant for the screen (sRGB); the stage wants light
-  const auto linear = [](float c) { return static_cast<float>(c <= 0.04045 ? c / 12.92 : engine::math::pow((c + 0.055) / 1.055, 2.4)); };
+  const auto linear = [](float c) {
+    return static_cast<float>(c <= 0.04045 ? c / 12.92 : engine::math::pow((c + 0.055) / 1.055, 2.4));
+  };
   render::Material out{part.material,
                        render::MaterialKind::matte,
                        {linear(part.colour[0]), linear(part.colour[1]), linear(part.colour[2])},

@@ -78,7 +78,7 @@ TEST(Uncertain, SaysWhatIsWrong) {
   EXPECT_THAT(
       errors("key = \"body.puck.mass\"\nuniform = \"-10 80 kg\"\n"),
       ElementsAre(
-          "case.toml:3:11: uncertain.0.uniform is \"-10 80 kg\", reaches -10 kg, but body.puck.mass must be greater than 0 kg"));
+          "case.toml:3:11: uncertain.0.uniform is \"-10 80 kg\": reaches -10 kg, but body.puck.mass must be greater than 0 kg"));
   EXPECT_THAT(errors("key = \"body.puck.mass\"\nnormal = \"10 3 kg\"\n"),
               ElementsAre(HasSubstr("say what is possible with `within`")));
   EXPECT_THAT(errors("key = \"body.puk.mass\"\nuniform = \"1 2 kg\"\n"), ElementsAre(HasSubstr("it has puck")));
