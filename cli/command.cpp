@@ -29,6 +29,7 @@ std::function<int()> declare_snapshot(Arguments&);
 std::function<int()> declare_library(Arguments&);
 std::function<int()> declare_schema(Arguments&);
 std::function<int()> declare_version(Arguments&);
+std::function<int()> declare_explain(Arguments&);
 std::function<int()> declare_man(Arguments&);
 std::function<int()> declare_completion(Arguments&);
 
@@ -42,7 +43,7 @@ constexpr Example kRenderExamples[] = {
     {"render case.toml --size 320x180 --quality draft", "a quick look"},
 };
 constexpr Example kSimulateExamples[] = {
-    {"simulate case.toml -o out", "trajectory.csv, contacts.csv and summary.json in the folder out"},
+    {"simulate case.toml -o out", "trajectory.csv, contacts.csv, impacts.csv and summary.json in the folder out"},
     {"simulate case.toml -o out --json", "the summary as JSON on standard output as well"},
     {"simulate case.toml -o out --dry-run", "how long it will take"},
 };
@@ -79,6 +80,8 @@ constexpr Example kSnapshotExamples[] = {
     {"snapshot scenes --update my_case.toml", "accept the new pictures of one scene"},
 };
 constexpr Example kLibraryExamples[] = {{"library", "persons, poses and vehicles by name"}};
+constexpr Example kExplainExamples[] = {{"explain delta_v", "what is printed as delta_v_mps"},
+                                        {"explain all", "every measure, as a table"}};
 constexpr Example kSchemaExamples[] = {{"schema > scene.schema.json", "for an editor that completes and checks scenes"}};
 constexpr Example kVersionExamples[] = {{"version", "what a report must name to be repeatable"}};
 constexpr Example kManExamples[] = {{"man render | man -l -", "read the page of a command"}};
@@ -87,7 +90,7 @@ constexpr Example kCompletionExamples[] = {{"completion bash > ~/.local/share/ba
 constexpr Command kCommands[] = {
     {"render", "simulate a scene, then draw it: an MP4, a folder of PNGs, or single PNGs with --at", declare_render,
      kRenderExamples},
-    {"simulate", "write trajectory.csv, contacts.csv and summary.json", declare_simulate, kSimulateExamples},
+    {"simulate", "write trajectory.csv, contacts.csv, impacts.csv and summary.json", declare_simulate, kSimulateExamples},
     {"plan", "which physical effects a scene calls for, and why", declare_plan, kPlanExamples},
     {"study", "what accuracy costs in time: errors, bands and sensitivity against computing time", declare_study, kStudyExamples},
     {"sample", "many runs over what the scene does not know: percentiles, sensitivity, a table of runs", declare_sample,
@@ -101,6 +104,8 @@ constexpr Command kCommands[] = {
     {"snapshot", "test the pictures and measures of a folder of scenes against their baselines", declare_snapshot,
      kSnapshotExamples},
     {"library", "list the persons, poses, vehicles and other entries a scene can name", declare_library, kLibraryExamples},
+    {"explain", "what a measure means: unit, definition with source, when it is absent, how sure it is", declare_explain,
+     kExplainExamples},
     {"schema", "print the JSON Schema of the scene format, for editors", declare_schema, kSchemaExamples},
     {"version", "print the version, the build, the libraries and the GL renderer", declare_version, kVersionExamples},
     {"man", "print the manual page of a command", declare_man, kManExamples},

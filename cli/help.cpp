@@ -201,7 +201,7 @@ std::string overview_of(const std::vector<CommandHelp>& all) {
   std::string out =
       "crashreel reconstructs traffic accidents: a scene file becomes a simulation, and the simulation a film.\n\nExamples\n"
       "  crashreel check case.toml                 every error of a scene, with its remedy\n"
-      "  crashreel simulate case.toml -o out       measures, trajectory.csv, contacts.csv, summary.json\n"
+      "  crashreel simulate case.toml -o out       measures, trajectory.csv, contacts.csv, impacts.csv, summary.json\n"
       "  crashreel render case.toml -o case.mp4    the film\n\nCommands\n";
   for (const CommandHelp& help : all) out += wrapped(help.command->name, help.command->summary);
   return out + "\ncrashreel COMMAND --help shows examples and options of a command; crashreel --version the version.\n";

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "engine/math/functions.h"
+#include "engine/measure/parties.h"
 
 namespace engine {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 constexpr double kStillSpeed = 0.05;  // [m/s]
 constexpr double kStillTurn = 0.3;    // [rad/s]
 constexpr double kStillTime = 0.25;   // [s] that long below both: at rest
-constexpr double kAirborne = 0.05;    // [s] off the ground that long: the next touch is a ground contact, even by a foot
+constexpr double kAirborne = 0.05;    // [s] who lay there is off the ground after that long
 
 // What a run says by itself: less than this is asked of every hard case.
 constexpr double kDegree = std::numbers::pi / 180;  // [rad]
@@ -41,37 +42,60 @@ Recorder::Recorder(const World& world, const State& state)
       hit_vehicle_(world.model.persons.size(), 0),
       hit_head_(world.model.persons.size(), 0),
       hit_ground_(world.model.persons.size(), 0),
-      support_(world.model.bodies.size(), 0),
+      trunk_(world.model.bodies.size(), 0),
+      lying_(world.model.persons.size(), 0),
+      tyre_impulse_(world.model.vehicles.size(), Vec3::Zero()),
       last_ground_(world.model.persons.size(), 0) {
   tallies_.reserve(kRoom);
   events_.reserve(kRoom);
   last_energy_ =
       kinetic_energy(world.model, state) + potential_energy(world.model, state) + state.energy.springs - state.energy.added;
-  // what stands within 2 cm of the ground at the start carries its person
-  for (std::size_t b = 0; b < world.model.bodies.size(); ++b) {
-    const auto* shape = std::get_if<HyperEllipsoid>(&world.model.bodies[b].shape);
-    if (!shape || world.model.bodies[b].person < 0) continue;
-    const double lowest = state.X_WB[b].p.z() - aabb_half_widths(*shape, state.X_WB[b].q).z();
-    support_[b] = lowest - world.model.ground.height < 0.02;
+  keep(state);
+  for (std::size_t p = 0; p < world.model.persons.size(); ++p)
+    for (const int b : trunk_of(world.model, static_cast<int>(p))) {
+      trunk_[b] = 1;
+      const auto* shape = std::get_if<HyperEllipsoid>(&world.model.bodies[b].shape);
+      if (!shape) continue;
+      const double lowest = state.X_WB[b].p.z() - aabb_half_widths(*shape, state.X_WB[b].q).z();
+      lying_[p] = lying_[p] || lowest - world.model.ground.height < 0.02;
+    }
+}
+
+void Recorder::keep(const State& state) {
+  before_.resize(state.X_WB.size());
+  for (std::size_t b = 0; b < before_.size(); ++b) before_[b] = {state.X_WB[b], state.V_WB[b]};
+}
+
+/// The first touch of a head with a vehicle: how fast its centre came upon the surface there.
+void Recorder::note_head(const Constraint& c, double time) {
+  const BodyState& head = before_[c.record_a];
+  Vec3 velocity = head.V_WB.v;
+  if (c.record_b >= 0) {
+    const BodyState& struck = before_[c.record_b];
+    velocity -= struck.V_WB.v + struck.V_WB.w.cross(c.point - struck.X_WB.p);
   }
+  events_.push_back({time, "head_impact", c.record_a, c.record_b, c.point, velocity.norm(), c.frame.col(0), velocity});
 }
 
 void Recorder::watch_events(const World& world, const Constraint& c, double time) {
   const int person = c.record_a >= 0 ? world.model.bodies[c.record_a].person : -1;
   if (person < 0 || world.model.bodies[c.record_a].vehicle >= 0 || c.impulse[0] <= 0) return;
   const double closing = std::max(0.0, -c.u_before[0]);
-  auto note = [&](const char* kind) { events_.push_back({time, kind, c.record_a, c.record_b, c.point, closing}); };
+  auto note = [&](const char* kind) {
+    events_.push_back({time, kind, c.record_a, c.record_b, c.point, closing, c.frame.col(0), Vec3::Zero()});
+  };
   if (c.contact_kind == ContactKind::vehicle) {
     if (!hit_vehicle_[person]) note("first_contact");
     hit_vehicle_[person] = 1;
     if (c.record_a == world.model.persons[person].head && !hit_head_[person]) {
-      note("head_impact");
+      note_head(c, time);
       hit_head_[person] = 1;
     }
   }
   if (c.contact_kind == ContactKind::ground || c.contact_kind == ContactKind::terrain) {
-    const bool airborne = time - last_ground_[person] > kAirborne;
-    if (!hit_ground_[person] && (!support_[c.record_a] || airborne)) {
+    // feet and hands come and go while a person is being struck, carried or walks: who falls comes down on the trunk
+    if (time - last_ground_[person] > kAirborne) lying_[person] = 0;
+    if (!hit_ground_[person] && trunk_[c.record_a] && !lying_[person]) {
       note("ground_contact");
       hit_ground_[person] = 1;
     }
@@ -102,6 +126,7 @@ void Recorder::watch_bounds(const World& world, const Constraint& c, double time
 void Recorder::tally(const World& world, const std::vector<Constraint>& conditions, double time, double duration) {
   for (const Constraint& c : conditions) {
     watch_bounds(world, c, time);
+    if (c.kind == ConstraintKind::wheel) tyre_impulse_[world.model.bodies[c.record_a].vehicle] += c.frame * c.impulse;
     if (c.kind != ConstraintKind::contact) continue;
     watch_events(world, c, time);
     if (c.impulse[0] <= 0 && c.gap > 0) continue;
@@ -109,6 +134,8 @@ void Recorder::tally(const World& world, const std::vector<Constraint>& conditio
     auto at = std::lower_bound(tallies_.begin(), tallies_.end(), c.key, [](const Tally& t, std::uint64_t k) { return t.key < k; });
     if (at == tallies_.end() || at->key != c.key) at = tallies_.insert(at, Tally{c.key, {}, 0, Vec3::Zero()});
     ContactRecord& r = at->record;
+    if (r.normal_impulse == 0) r.begun = time - duration;
+    r.energy_lost -= 0.5 * c.impulse.dot(c.u_before + c.u_after);
     r.kind = c.contact_kind;
     r.body_a = c.record_a;
     r.body_b = c.record_b;
@@ -126,7 +153,8 @@ void Recorder::tally(const World& world, const std::vector<Constraint>& conditio
 }
 
 void Recorder::sample(const World& world, const State& state, Recording& recording) {
-  if (world.model.settings.contact_law != ContactLaw::compliant || world.model.persons.empty()) return;
+  keep(state);
+  if (!yields(world.model.settings.contact_law, true) || world.model.persons.empty()) return;
   if (recording.heads.empty()) {
     for (int p = 0; p < static_cast<int>(world.model.persons.size()); ++p) recording.heads.push_back({p, {}, {}});
     recording.peak_acceleration.assign(world.model.bodies.size(), 0);
@@ -204,6 +232,8 @@ void Recorder::snapshot(const World& world, const State& state, Recording& recor
     s.wheels.push_back({w.vehicle, w.wheel, w.hub, w.contact, w.steer, state.wheel_spin[i], w.impulse[0] / h, w.impulse[1] / h,
                         w.impulse[2] / h, w.slip});
   }
+  s.tyre_impulse = tyre_impulse_;
+  std::fill(tyre_impulse_.begin(), tyre_impulse_.end(), Vec3::Zero());
   s.energies.kinetic = kinetic_energy(world.model, state);
   s.energies.potential = potential_energy(world.model, state) + state.energy.springs;
   s.energies.dissipated = state.energy.dissipated;
@@ -243,6 +273,25 @@ void Recorder::warn_of_shortfalls(const World& world, std::vector<std::string>& 
                        " deg beyond its range against " + name(overturned_.body_b) + at(overturned_) + kCompare);
 }
 
+namespace {
+
+/// An [[impact]] settles the exchange of one pair: one that never came about is a question the run did not answer.
+void warn_of_idle_impacts(const World& world, std::vector<std::string>& warnings) {
+  const Model& model = world.model;
+  for (const ImpactSettings& s : model.impacts) {
+    const bool acted = std::any_of(world.log.exchanges.begin(), world.log.exchanges.end(), [&](const ContactRecord& c) {
+      return std::minmax(c.body_a, c.body_b) == std::minmax(s.body_a, s.body_b);
+    });
+    if (acted) continue;
+    const Body &A = model.bodies[s.body_a], &B = model.bodies[s.body_b];
+    const bool asked = model_between(A.collision_model, B.collision_model) == CollisionModel::kudlich_slibar;
+    warnings.push_back("[[impact]] of " + A.name + " with " + B.name + " never acted: " +
+                       (asked ? "they exchanged no impulse" : "they do not both have collision = \"kudlich_slibar\""));
+  }
+}
+
+}  // namespace
+
 void Recorder::finish(const World& world, const State& state, Recording& recording) {
   for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
     if (still_since_[t] < 0 || state.time - still_since_[t] < 0.9 * kStillTime) continue;
@@ -259,10 +308,12 @@ void Recorder::finish(const World& world, const State& state, Recording& recordi
   recording.diagnostics.max_energy_rise = energy_rise_;
   recording.diagnostics.max_compression = compression_;
   warn_of_shortfalls(world, recording.diagnostics.warnings);
+  warn_of_idle_impacts(world, recording.diagnostics.warnings);
   // the depth of a compliant contact is a deformation, not an error
-  if (world.model.settings.contact_law == ContactLaw::compliant) return;
+  const auto part = [&](int b) { return b >= 0 && world.model.bodies[b].person >= 0 && world.model.bodies[b].vehicle < 0; };
   for (const ContactRecord& c : recording.snapshots.back().contacts)
-    recording.diagnostics.rest_penetration = std::max(recording.diagnostics.rest_penetration, c.depth);
+    if (!yields(world.model.settings.contact_law, part(c.body_a) || part(c.body_b)))
+      recording.diagnostics.rest_penetration = std::max(recording.diagnostics.rest_penetration, c.depth);
 }
 
 }  // namespace engine

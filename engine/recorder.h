@@ -35,6 +35,8 @@ class Recorder {
     Vec3 impulse = Vec3::Zero();
   };
   void warn_of_shortfalls(const World&, std::vector<std::string>& warnings) const;
+  void keep(const State&);
+  void note_head(const Constraint&, double time);
   void watch_rest(const World&, const State&, double since);
   void watch_events(const World&, const Constraint&, double time);
   void watch_bounds(const World&, const Constraint&, double time);
@@ -46,7 +48,10 @@ class Recorder {
   std::vector<double> motion_;       // [-] per tree at the last snapshot: fastest body by what counts as still
   std::vector<Event> events_;
   std::vector<char> hit_vehicle_, hit_head_, hit_ground_;  // per person
-  std::vector<char> support_;                              // per body: carried its person when that was released
+  std::vector<char> trunk_;                                // per body: of hips, head and what joins them
+  std::vector<char> lying_;                                // per person: lay on its trunk at the start
+  std::vector<BodyState> before_;                          // per body, at the last sample
+  std::vector<Vec3> tyre_impulse_;                         // [N s] world, per vehicle, since the last snapshot
   std::vector<double> last_ground_;                        // [s] per person: last time on the ground
   std::size_t exchanges_told_ = 0;
   std::vector<Vec3> velocity_;  // [m/s] per body, at the last sample

@@ -37,8 +37,9 @@ struct ContactRecord {
   double normal_impulse = 0;      // [N s] since the snapshot before
   double tangential_impulse = 0;  // [N s] sum of magnitudes
   Vec3 impulse = Vec3::Zero();    // [N s] on a, world, since the snapshot before: the sum of vectors, which may turn meanwhile
-  double energy_lost = 0;         // [J] by deformation; only Kudlich-Slibar impacts know it
+  double energy_lost = 0;         // [J] since the snapshot before: minus the work of the impulse on both, deformation and friction
   double slip = 0;                // [m/s]
+  double begun = 0;               // [s] when the first of those impulses began to act
   ContactState state = ContactState::approach;
 };
 
@@ -69,6 +70,7 @@ struct Snapshot {
   std::vector<BodyState> bodies;
   std::vector<ContactRecord> contacts;
   std::vector<WheelRecord> wheels;
+  std::vector<Vec3> tyre_impulse;  // [N s] world, per vehicle: of all its tyres since the snapshot before
   Energies energies;
 };
 
@@ -80,7 +82,9 @@ struct Event {
   int body_a = -1;
   int body_b = -1;  // -1: the ground or nothing
   Vec3 point = Vec3::Zero();
-  double value = 0;  // what the kind says: closing speed [m/s] of contacts
+  double value = 0;  // what the kind says: closing speed [m/s] of contacts, speed [m/s] of the head's centre of a head impact
+  Vec3 normal = Vec3::Zero();    // unit, from b to a, of what touches
+  Vec3 velocity = Vec3::Zero();  // [m/s] head impact: of the head's centre seen from the struck surface, just before
 };
 
 struct PlanLine {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <tuple>
 
 #include "cli/apart.h"
@@ -12,7 +13,9 @@
 #include "cli/output/whole_file.h"
 #include "cli/parse.h"
 #include "cli/scene_run.h"
+#include "engine/measure/definitions.h"
 #include "engine/measure/metrics.h"
+#include "engine/measure/phases.h"
 #include "render/figures/figures.h"
 
 namespace cli {
@@ -44,19 +47,6 @@ bool is_a_figure(const std::string& name) {
   return false;
 }
 
-/// Last time a vehicle pushed the person before it landed, as the measures take it.
-std::optional<double> released(const engine::Model& model, const engine::Recording& recording, int person, double landed) {
-  std::optional<double> last;
-  for (const engine::Snapshot& s : recording.snapshots) {
-    if (s.time > landed) break;
-    for (const engine::ContactRecord& c : s.contacts)
-      if (c.kind == engine::ContactKind::vehicle && c.normal_impulse > 0 &&
-          model.bodies[static_cast<std::size_t>(c.body_a)].person == person)
-        last = s.time;
-  }
-  return last;
-}
-
 render::PersonFacts facts_of(const engine::Model& model, const engine::Recording& recording, int index,
                              const std::vector<engine::Metric>& metrics) {
   const engine::Person& person = model.persons[static_cast<std::size_t>(index)];
@@ -64,23 +54,22 @@ render::PersonFacts facts_of(const engine::Model& model, const engine::Recording
   facts.name = person.name;
   facts.bodies = person.bodies;
   for (const int b : person.bodies) facts.masses.push_back(model.bodies[static_cast<std::size_t>(b)].mass);
-  for (const engine::Event& e : recording.events) {
-    if (e.body_a < 0 || model.bodies[static_cast<std::size_t>(e.body_a)].person != index) continue;
-    if (e.kind == "first_contact" && !facts.hit) {
-      facts.hit = e.time;
-      facts.vehicle_body = e.body_b;
-    }
-    if (e.kind == "ground_contact" && !facts.landed) facts.landed = e.time;
-    if (e.kind == "rest" && !facts.rest) facts.rest = e.time;
+  if (const auto thrown = engine::throw_of_person(model, recording, index)) {
+    facts.hit = thrown->hit;
+    facts.vehicle_body = thrown->vehicle;
+    facts.landed = thrown->landed;
+    if (thrown->flew) facts.released = thrown->separated;
+    facts.rest = thrown->rest;
+    for (const engine::ThrowPhase& phase : thrown->phases)
+      facts.phases.push_back({phase.name, phase.from, phase.to, phase.distance});
+  } else {
+    facts.rest = engine::rest_of(model, recording, {index, -1, person.bodies});
   }
-  if (facts.landed) facts.released = released(model, recording, index, *facts.landed);
-  constexpr std::pair<const char*, const char*> kShown[] = {{"throw_distance_m", "throw distance"},
-                                                            {"airborne_m", "airborne"},
-                                                            {"slide_m", "slide"},
-                                                            {"wrap_around_distance_m", "wrap-around"}};
-  for (const auto& [key, name] : kShown)
+  constexpr const char* kShown[] = {"throw_distance_m",      "contact_m", "carried_m", "airborne_m", "landing_m", "slide_m",
+                                    "wrap_around_distance_m"};
+  for (const char* key : kShown)
     for (const engine::Metric& m : metrics)
-      if (m.key == key && m.object == person.name) facts.dimensions.emplace_back(name, m.value);
+      if (m.key == key && m.object == person.name) facts.dimensions.emplace_back(engine::definition_of(key)->title, m.value);
   return facts;
 }
 
@@ -104,6 +93,9 @@ int draw_figures(const FigureWish& wish) {
   const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
   if (recording.failure) scene.stage.warnings.push_back(fmt::format("the model diverged at {:.3f} s", recording.failure->time));
   const std::vector<engine::Metric> metrics = engine::measure(scene.model, recording);
+  for (const engine::Impact& i : engine::impacts_of(scene.model, recording))
+    job.impacts.push_back(fmt::format("{} / {}  {:.3f} s: closing {:.2f} m/s, delta-v {:.2f} / {:.2f} m/s", i.a.name, i.b.name,
+                                      i.time, i.closing_speed, i.a.delta_v.norm(), i.b.delta_v.norm()));
   for (int p = 0; p < static_cast<int>(scene.model.persons.size()); ++p)
     job.persons.push_back(facts_of(scene.model, recording, p, metrics));
 

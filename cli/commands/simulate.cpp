@@ -1,4 +1,4 @@
-// crashreel simulate SCENE -o DIR: trajectory.csv, contacts.csv, summary.json.
+// crashreel simulate SCENE -o DIR: trajectory.csv, contacts.csv, impacts.csv, summary.json.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct SimulateWish {
   std::string max_memory;
 };
 
-constexpr const char* kFiles[] = {"trajectory.csv", "contacts.csv", "summary.json"};
+constexpr const char* kFiles[] = {"trajectory.csv", "contacts.csv", "impacts.csv", "summary.json"};
 
 /// The summary of the whole result of this run, where the folder holds it: the summary gets its name last.
 std::optional<nlohmann::ordered_json> finished(const std::filesystem::path& folder, const std::string& mark) {
@@ -66,7 +66,7 @@ int simulate(const SimulateWish& wish, const Arguments& arguments) {
   if (wish.dry_run) return tell_estimate(scene, wish);
   make_writable_folder(folder);
   if (wish.resume && wish.overwrite) throw UsageError("--resume keeps what --overwrite replaces; give one of them");
-  const OutputLock lock(folder / kFiles[2], [](const std::string& name) {
+  const OutputLock lock(folder / kFiles[3], [](const std::string& name) {
     return std::find(std::begin(kFiles), std::end(kFiles), name) != std::end(kFiles);
   });
   for (const char* name : kFiles) refuse_existing(folder / name, wish.overwrite || wish.resume);
@@ -91,21 +91,23 @@ int simulate(const SimulateWish& wish, const Arguments& arguments) {
 
   WholeFile trajectory(folder / "trajectory.csv");
   WholeFile contacts(folder / "contacts.csv");
+  WholeFile impacts(folder / "impacts.csv");
   WholeFile summary_file(folder / "summary.json");
   write_trajectory(recording, trajectory);
   write_contacts(recording, contacts);
+  write_impacts(engine::impacts_of(scene.model, recording), impacts);
   summary_file.write(summary.dump(2) + "\n");
-  for (WholeFile* file : {&trajectory, &contacts, &summary_file}) file->close();
+  for (WholeFile* file : {&trajectory, &contacts, &impacts, &summary_file}) file->close();
   // an old summary must not stand beside a new trajectory, whenever the power fails
   std::error_code none;
-  std::filesystem::remove(folder / kFiles[2], none);
-  for (WholeFile* file : {&trajectory, &contacts, &summary_file}) file->publish();
+  std::filesystem::remove(folder / kFiles[3], none);
+  for (WholeFile* file : {&trajectory, &contacts, &impacts, &summary_file}) file->publish();
 
   if (wish.scene.json) {
     fmt::print("{}\n", summary.dump(2));
   } else {
     fmt::print("{}", summary_text(scene, recording, metrics));
-    fmt::print("{}: trajectory.csv, contacts.csv, summary.json\n", folder.string());
+    fmt::print("{}: trajectory.csv, contacts.csv, impacts.csv, summary.json\n", folder.string());
   }
   return exit_code_of(recording);
 }
@@ -116,7 +118,7 @@ std::function<int()> declare_simulate(Arguments& arguments) {
   const auto wish = std::make_shared<SimulateWish>();
   declare_scene(arguments, wish->scene);
   declare_progress(arguments, wish->scene);
-  arguments.required_option("-o,--output", wish->folder, "DIR", "folder for the three files; made if missing");
+  arguments.required_option("-o,--output", wish->folder, "DIR", "folder for the four files; made if missing");
   arguments.flag("--overwrite", wish->overwrite, "replace files that exist");
   arguments.flag("--resume", wish->resume, "begin, or go on where the same command was stopped; keeps a finished result");
   arguments.flag("--dry-run", wish->dry_run, "print the steps, bytes and seconds to expect, and stop");

@@ -51,7 +51,7 @@ Vec3 centre(const Model& model, const std::vector<int>& bodies, const Snapshot& 
 Prediction metric(const Evidence& e, const Model& model, const Recording& recording) {
   std::vector<double> found;
   for (const engine::Metric& m : engine::measure(model, recording))
-    if (m.key == e.metric && (e.of.empty() || m.object == e.of)) found.push_back(m.value);
+    if (m.key == e.metric && m.text.empty() && (e.of.empty() || m.object == e.of)) found.push_back(m.value);
   if (found.size() != 1) return std::nullopt;
   return found;
 }

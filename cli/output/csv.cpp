@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 
 namespace cli {
@@ -66,17 +67,68 @@ void write_trajectory(const engine::Recording& recording, WholeFile& file) {
 void write_contacts(const engine::Recording& recording, WholeFile& file) {
   file.write(
       "time_s,kind,body_a,body_b,x_m,y_m,z_m,nx,ny,nz,depth_m,normal_force_N,tangential_force_N,normal_impulse_Ns,"
-      "tangential_impulse_Ns,slip_mps,state\n");
+      "tangential_impulse_Ns,slip_mps,state,tangential_x_Ns,tangential_y_Ns,tangential_z_Ns\n");
   fmt::memory_buffer rows;
   for (const engine::Snapshot& snapshot : recording.snapshots) {
     rows.clear();
     for (const engine::ContactRecord& c : snapshot.contacts) {
-      fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", snapshot.time,
+      const engine::Vec3 along = c.impulse - c.impulse.dot(c.normal) * c.normal;
+      fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", snapshot.time,
                      engine::name_of(c.kind), field(body_name(recording, c.body_a)), field(body_name(recording, c.body_b)),
                      c.point.x(), c.point.y(), c.point.z(), c.normal.x(), c.normal.y(), c.normal.z(), c.depth, c.normal_force,
-                     c.tangential_force, c.normal_impulse, c.tangential_impulse, c.slip, engine::name_of(c.state));
+                     c.tangential_force, c.normal_impulse, c.tangential_impulse, c.slip, engine::name_of(c.state), along.x(),
+                     along.y(), along.z());
     }
     file.write({rows.data(), rows.size()});
+  }
+}
+
+namespace {
+
+/// Empty where it is unknown.
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : std::string();
+}
+
+}  // namespace
+
+void write_impacts(const std::vector<engine::Impact>& impacts, WholeFile& file) {
+  file.write(
+      "phase,time_s,duration_s,body_a,body_b,law,x_m,y_m,z_m,nx,ny,nz,closing_speed_mps,impulse_x_Ns,impulse_y_Ns,impulse_z_Ns,"
+      "friction_used,friction_limit,delta_v_a_mps,delta_v_b_mps,pdof_a_deg,pdof_b_deg,ees_a_mps,ees_b_mps,speed_a_before_mps,"
+      "speed_a_after_mps,speed_b_before_mps,speed_b_after_mps,yaw_rate_a_before_radps,yaw_rate_a_after_radps,"
+      "yaw_rate_b_before_radps,yaw_rate_b_after_radps,energy_lost_J,ees_rule\n");
+  for (const engine::Impact& i : impacts) {
+    std::string row = fmt::format("{},{},{},{},{},{}", i.phase, i.time, i.duration, field(i.a.name), field(i.b.name), i.law);
+    for (const double value : {i.point.x(),
+                               i.point.y(),
+                               i.point.z(),
+                               i.normal.x(),
+                               i.normal.y(),
+                               i.normal.z(),
+                               i.closing_speed,
+                               i.impulse.x(),
+                               i.impulse.y(),
+                               i.impulse.z(),
+                               i.friction_used,
+                               i.friction_limit,
+                               i.a.delta_v.norm(),
+                               i.b.delta_v.norm(),
+                               i.a.pdof,
+                               i.b.pdof,
+                               i.a.ees,
+                               i.b.ees,
+                               i.a.speed_before,
+                               i.a.speed_after,
+                               i.b.speed_before,
+                               i.b.speed_after,
+                               i.a.yaw_rate_before,
+                               i.a.yaw_rate_after,
+                               i.b.yaw_rate_before,
+                               i.b.yaw_rate_after,
+                               i.energy_lost})
+      row += "," + number(value);
+    file.write(row + "," + i.ees_rule + "\n");
   }
 }
 

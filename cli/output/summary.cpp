@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/output/csv.h"
+#include "engine/measure/definitions.h"
+#include "engine/measure/impacts.h"
+#include "engine/measure/phases.h"
 
 namespace cli {
 namespace {
@@ -25,7 +29,8 @@ const char* name_of(engine::Scheme scheme) {
 }
 
 const char* name_of(engine::ContactLaw law) {
-  return law == engine::ContactLaw::compliant ? "compliant" : "default_auto";
+  constexpr const char* kWords[] = {"default_auto", "compliant", "persons_yield"};
+  return kWords[static_cast<int>(law)];
 }
 
 Json vector_json(const engine::Vec3& v) {
@@ -65,18 +70,79 @@ Json metrics_json(const std::vector<engine::Metric>& metrics) {
   Json out = Json::object();
   for (const engine::Metric& metric : metrics) {
     const auto same_key = [&metric](const engine::Metric& other) { return other.key == metric.key; };
+    const Json value = metric.text.empty() ? Json(metric.value) : Json(metric.text);
     if (std::count_if(metrics.begin(), metrics.end(), same_key) == 1) {
-      out[metric.key] = metric.value;
+      out[metric.key] = value;
     } else {
-      out[metric.key][metric.object] = metric.value;
+      out[metric.key][metric.object] = value;
     }
   }
   return out;
 }
 
-Json absent_json(const std::vector<engine::AbsentMetric>& absent) {
+/// The reason by name; where several objects lack the measure, or another has it, by name and object.
+Json absent_json(const std::vector<engine::AbsentMetric>& absent, const std::vector<engine::Metric>& metrics) {
+  Json out = Json::object();
+  for (const engine::AbsentMetric& a : absent) {
+    const auto alone = std::count_if(absent.begin(), absent.end(), [&](const auto& other) { return other.key == a.key; }) == 1 &&
+                       std::none_of(metrics.begin(), metrics.end(), [&](const auto& there) { return there.key == a.key; });
+    if (alone)
+      out[a.key] = a.reason;
+    else
+      out[a.key][a.object] = a.reason;
+  }
+  return out;
+}
+
+Json number_json(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json impacts_json(const std::vector<engine::Impact>& impacts) {
   Json out = Json::array();
-  for (const engine::AbsentMetric& a : absent) out.push_back({{"metric", a.key}, {"object", a.object}, {"reason", a.reason}});
+  for (const engine::Impact& i : impacts) {
+    Json row = {{"phase", i.phase},
+                {"time_s", i.time},
+                {"duration_s", i.duration},
+                {"body_a", i.a.name},
+                {"body_b", i.b.name},
+                {"law", i.law},
+                {"point_m", vector_json(i.point)},
+                {"normal", vector_json(i.normal)},
+                {"closing_speed_mps", number_json(i.closing_speed)},
+                {"impulse_Ns", vector_json(i.impulse)},
+                {"friction_used", number_json(i.friction_used)},
+                {"friction_limit", number_json(i.friction_limit)}};
+    for (const auto& [side, s] : {std::pair("a", &i.a), std::pair("b", &i.b)}) {
+      const auto key = [&](const char* before, const char* after) { return fmt::format("{}_{}_{}", before, side, after); };
+      row[key("delta_v", "mps")] = s->delta_v.norm();
+      row[key("delta_v", "vector_mps")] = vector_json(s->delta_v);
+      row[key("pdof", "deg")] = number_json(s->pdof);
+      row[key("ees", "mps")] = number_json(s->ees);
+      row[key("speed", "before_mps")] = number_json(s->speed_before);
+      row[key("speed", "after_mps")] = number_json(s->speed_after);
+      row[key("yaw_rate", "before_radps")] = number_json(s->yaw_rate_before);
+      row[key("yaw_rate", "after_radps")] = number_json(s->yaw_rate_after);
+    }
+    row["energy_lost_J"] = i.energy_lost;
+    if (*i.ees_rule) row["ees_rule"] = i.ees_rule;
+    out.push_back(row);
+  }
+  return out;
+}
+
+/// Throw of each person by phases.
+Json phases_json(const engine::Model& model, const engine::Recording& recording) {
+  Json out = Json::array();
+  for (std::size_t p = 0; p < model.persons.size(); ++p)
+    if (const auto thrown = engine::throw_of_person(model, recording, static_cast<int>(p)))
+      for (const engine::ThrowPhase& phase : thrown->phases)
+        out.push_back({{"person", model.persons[p].name},
+                       {"phase", phase.name},
+                       {"from_s", phase.from},
+                       {"to_s", phase.to},
+                       {"from_m", vector_json(phase.place)},
+                       {"distance_m", phase.distance}});
   return out;
 }
 
@@ -148,8 +214,10 @@ Json summary_json(const scenes::Scene& scene, const engine::Recording& recording
   out["plan"] = plan_json(recording.plan);
   out["events"] = events_json(recording);
   out["metrics"] = metrics_json(metrics);
-  const auto absent = engine::absent_metrics(scene.model, recording);
-  if (!absent.empty()) out["absent"] = absent_json(absent);
+  const auto absent = engine::absent_metrics(scene.model, recording, metrics);
+  if (!absent.empty()) out["absent"] = absent_json(absent, metrics);
+  out["impacts"] = impacts_json(engine::impacts_of(scene.model, recording));
+  if (Json phases = phases_json(scene.model, recording); !phases.empty()) out["phases"] = phases;
   out["energy"] = energy_json(recording);
   out["diagnostics"] = diagnostics_json(recording.diagnostics);
   out["cost"] = cost_json(recording);
@@ -171,12 +239,17 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
   const double initial = first.kinetic + first.potential;
   std::string out = fmt::format("{}\n", scene.title.empty() ? scene.path.string() : scene.title);
   const auto line = [&out](const std::string& name, const std::string& value) { out += fmt::format("  {:<28} {}\n", name, value); };
+  // what a screen has room for; the rest stands in summary.json
   for (const engine::Metric& metric : metrics) {
-    line(metric.object.empty() ? metric.key : metric.key + " " + metric.object, fmt::format("{:.6g}", metric.value));
+    const engine::Definition* known = engine::definition_of(metric.key);
+    if (known && !known->main) continue;
+    line(metric.object.empty() ? metric.key : metric.key + " " + metric.object,
+         metric.text.empty() ? fmt::format("{:.6g}", metric.value) : metric.text);
   }
-  for (const engine::AbsentMetric& a : engine::absent_metrics(scene.model, recording)) {
-    line(a.key + " " + a.object, "absent: " + a.reason);
-  }
+  std::string missing;
+  for (const engine::AbsentMetric& a : engine::absent_metrics(scene.model, recording, metrics))
+    if (missing.find(a.key) == std::string::npos) missing += (missing.empty() ? "" : ", ") + a.key;
+  if (!missing.empty()) line("absent", missing + " (summary.json has the reasons)");
   line("energy", fmt::format("{:.6g} J at first, {:.6g} J at last, unexplained {:.3g} J", initial, last.kinetic + last.potential,
                              last.residual));
   line("largest joint gap", fmt::format("{:.3g} m", d.max_joint_gap));

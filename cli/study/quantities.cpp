@@ -32,6 +32,7 @@ std::vector<Quantity> quantities_of(const engine::Model& model, const engine::Re
   std::vector<Quantity> out;
   const auto owners = model.persons.size() + model.vehicles.size() + model.bodies.size();
   for (const engine::Metric& metric : metrics) {
+    if (!metric.text.empty()) continue;  // a word has no error
     const auto same = [&metric](const engine::Metric& other) { return other.key == metric.key; };
     const bool alone = std::count_if(metrics.begin(), metrics.end(), same) == 1 || owners == 1;
     out.push_back({alone ? metric.key : metric.key + " " + metric.object, metric.value});

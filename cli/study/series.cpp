@@ -40,7 +40,8 @@ const char* word(engine::Scheme scheme) {
 }
 
 const char* word(engine::ContactLaw law) {
-  return law == engine::ContactLaw::compliant ? "compliant" : "default_auto";
+  constexpr const char* kWords[] = {"default_auto", "compliant", "persons_yield"};
+  return kWords[static_cast<int>(law)];
 }
 
 using Make = Series (*)(const scenes::Scene&, const StudyOptions&);
@@ -185,8 +186,11 @@ Series recorded_instants(const scenes::Scene& scene, const StudyOptions&) {
 
 Series other_contact_law(const scenes::Scene& scene, const StudyOptions&) {
   if (!has_contacts(scene)) return {};
-  const auto other = scene.model.settings.contact_law == engine::ContactLaw::compliant ? engine::ContactLaw::default_auto
-                                                                                       : engine::ContactLaw::compliant;
+  using engine::ContactLaw;
+  const ContactLaw own = scene.model.settings.contact_law;
+  const ContactLaw other = own == ContactLaw::default_auto && scene.model.persons.empty() ? ContactLaw::compliant
+                           : own == ContactLaw::default_auto                              ? ContactLaw::persons_yield
+                                                                                          : ContactLaw::default_auto;
   Series series{fmt::format("{} law", word(other)),
                 "step",
                 "another law of contact: its difference is modelling, not numerics",

@@ -1,6 +1,8 @@
 #include "engine/contact/contact.h"
 
 #include <algorithm>
+#include <utility>
+#include <variant>
 
 #include "engine/laws/compliant_contact.h"
 #include "engine/world.h"
@@ -33,11 +35,33 @@ Eigen::Matrix<double, 3, 6> contact_rows(const Constraint& c, const Pose& X_WB, 
   return J;
 }
 
+bool is_part(const Model& model, int body) {
+  return body >= 0 && model.bodies[body].person >= 0 && model.bodies[body].vehicle < 0;
+}
+
+/// S of both surfaces [N/m]. A head is harder than the rest of a person, and a vehicle is to it what the panel it meets is, unless
+/// the scene gives a stiffness of its own.
+std::pair<double, double> stiffnesses(const Model& model, const Motion& at, const SurfaceContact& touch, int a, int b) {
+  const auto surface = [&](int body) -> const SurfaceProperties& {
+    return body >= 0 ? model.bodies[body].surface : model.ground.surface;
+  };
+  const auto head = [&](int body) { return is_part(model, body) && model.persons[model.bodies[body].person].head == body; };
+  const auto own = [&](int body) {
+    return head(body) && !surface(body).stiffness_given ? kHeadStiffness : surface(body).stiffness.at(at.time);
+  };
+  double S_b = own(b);
+  const auto* mesh = head(a) && b >= 0 ? std::get_if<MeshShape>(&model.bodies[b].shape) : nullptr;
+  if (mesh && mesh->panels && !surface(b).stiffness_given) {
+    const Pose X_MW = (at.X_WB[b] * mesh->X_BM).inverse();
+    S_b = head_stiffness_of(panel_at(*mesh->mesh, *mesh->panels, X_MW * touch.p_b, X_MW.q * touch.normal));
+  }
+  return {own(a), S_b};
+}
+
 /// Both surfaces of a compliant contact as springs in series; returns the share of the depth that surface a gives way by, from
 /// depth_a S_a = depth_b S_b, eq. (81).
-double set_stiffness(Constraint& c, const Model& model, double time) {
-  auto stiffness = [&](int body) { return (body >= 0 ? model.bodies[body].surface : model.ground.surface).stiffness.at(time); };
-  const double S_a = stiffness(c.record_a), S_b = stiffness(c.record_b);
+double set_stiffness(Constraint& c, const Model& model, const Motion& at, const SurfaceContact& touch) {
+  const auto [S_a, S_b] = stiffnesses(model, at, touch, c.record_a, c.record_b);
   c.stiffness = stiffness_in_series(S_a, S_b);
   c.hysteresis = c.restitution;
   c.restitution = 0;
@@ -77,8 +101,9 @@ void add_contact(ContactSearch& search, const SurfaceContact& touch, int a, int 
   c.record_b = b;
   c.friction = surfaces.friction;
   c.restitution = surfaces.restitution;
-  const bool compliant = world.model.settings.contact_law == ContactLaw::compliant;
-  const double share_a = compliant ? set_stiffness(c, world.model, search.at.time) : 0.5;
+  const bool person = is_part(world.model, a) || is_part(world.model, b);
+  const bool compliant = yields(world.model.settings.contact_law, person);
+  const double share_a = compliant ? set_stiffness(c, world.model, search.at, touch) : 0.5;
   const Vec3 way = touch.p_b - touch.p_a, along = way.dot(touch.normal) * touch.normal;
   c.point = touch.p_a + share_a * along + touch.share_across * (way - along);
   const Vec3 t1 = touch.normal.unitOrthogonal();
@@ -96,7 +121,7 @@ void add_contact(ContactSearch& search, const SurfaceContact& touch, int a, int 
 void share_stiffness(ContactSearch& search, std::size_t first) {
   constexpr double kLeast = 1e-6;  // [m] what hardly touches has hardly a share
   std::vector<Constraint>& all = search.found;
-  if (search.world.model.settings.contact_law != ContactLaw::compliant || all.size() < first + 2) return;
+  if (all.size() < first + 2 || !is_compliant(all[first])) return;
   for (std::size_t i = first; i < all.size(); ++i) {
     double sum = 0;
     for (std::size_t j = first; j < all.size(); ++j)

@@ -33,13 +33,21 @@ bool can_meet(const Model& model, int a, int b) {
   return !jointed(model, a, b);
 }
 
+/// A pair that meets by Default-Auto, and why: which of the two does not ask for Kudlich-Slibar.
+std::string with_law(const Body& a, const Body& b) {
+  const bool from_a = a.collision_model == CollisionModel::kudlich_slibar,
+             from_b = b.collision_model == CollisionModel::kudlich_slibar;
+  const std::string who = from_a ? b.name + " does" : from_b ? a.name + " does" : "both do";
+  return a.name + " with " + b.name + " (default_auto: " + who + " not ask for kudlich_slibar)";
+}
+
 Finding look_at(const Model& model) {
   std::vector<std::string> moving, pairs;
   const int n = static_cast<int>(model.bodies.size());
   for (int a = 0; a < n; ++a) {
     if (is_mesh(model.bodies[a]) && !model.bodies[a].fixed) moving.push_back(model.bodies[a].name);
     for (int b = a + 1; b < n; ++b)
-      if (can_meet(model, a, b)) pairs.push_back(model.bodies[a].name + " with " + model.bodies[b].name);
+      if (can_meet(model, a, b)) pairs.push_back(with_law(model.bodies[a], model.bodies[b]));
   }
   const bool ground = model.ground.plane || model.ground.terrain;
   if (moving.empty()) return {false, "no vehicle and no other mesh that moves", ""};
@@ -47,7 +55,15 @@ Finding look_at(const Model& model) {
   std::string reason = ground ? listed(moving) + " can touch the ground with its body (kerb, slope, rollover)" : "";
   if (moving.size() > 1 && ground) reason = listed(moving) + " can touch the ground with their bodies (kerb, slope, rollover)";
   if (!pairs.empty()) reason += (ground ? ", and " : "") + listed(pairs) + (ground ? "" : " can touch");
-  return {true, reason, "meshes whose boxes a step cannot bring together: exact"};
+  std::vector<std::string> coupled;
+  for (int a = 0; a < n; ++a)
+    for (int b = a + 1; b < n; ++b)
+      if (is_mesh(model.bodies[a]) && is_mesh(model.bodies[b]) && model.bodies[a].person < 0 && jointed(model, a, b))
+        coupled.push_back(model.bodies[a].name + " with " + model.bodies[b].name);
+  std::string left_out = "meshes whose boxes a step cannot bring together: exact";
+  if (!coupled.empty())
+    left_out += "; " + listed(coupled) + ", which are coupled: beyond some 70 degrees they pass through each other";
+  return {true, reason, left_out};
 }
 
 /// Points that stand for a body's mesh and, of a vehicle, for its wheels, of which `first_wheel` is the number of the first.

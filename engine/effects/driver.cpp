@@ -42,7 +42,8 @@ Finding look_at(const Model& model) {
     if (const std::string act = acts_of(vehicle); !act.empty()) acts += (acts.empty() ? "" : "; ") + vehicle.name + " " + act;
   if (model.vehicles.empty()) return {false, "no vehicle", ""};
   if (acts.empty()) return {false, "no vehicle is braked, driven or steered", ""};
-  return {true, acts, ""};
+  const bool ridden = std::any_of(model.persons.begin(), model.persons.end(), [](const Person& p) { return p.mount >= 0; });
+  return {true, acts, ridden ? "lean of ridden two-wheelers: until something touches them rider and mount are one, upright" : ""};
 }
 
 /// Pure pursuit: the circle through the middle of the unsteered wheels, along the vehicle's axis, that meets the path a preview

@@ -48,7 +48,8 @@ void add_limit(ContactSearch& search, const Joint& joint, int joint_index, int a
   c.J_a.row(0).tail<3>() = sign * gradient_W.transpose();
   c.J_b.row(0).tail<3>() = -sign * gradient_W.transpose();
   c.gap = gap;
-  if (world.model.settings.contact_law == ContactLaw::compliant && joint.stop_stiffness > 0) {
+  const bool persons = world.model.bodies[joint.child].person >= 0;
+  if (yields(world.model.settings.contact_law, persons) && joint.stop_stiffness > 0) {
     c.stiffness = joint.stop_stiffness;
     for (const int b : {c.body_a, c.body_b}) {
       if (b < 0) continue;

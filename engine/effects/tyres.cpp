@@ -31,7 +31,9 @@ Finding look_at(const Model& model) {
   if (count == 0) return {false, "no vehicle with wheels", ""};
   if (!model.ground.plane && !model.ground.terrain) return {false, counted(count, "wheel") + ", but no ground to roll on", ""};
   const std::string friction = low == high ? number(low) : number(low) + " to " + number(high);
-  return {true, counted(count, "wheel") + " of " + listed(names) + ", tyre friction " + friction, ""};
+  const bool round = std::any_of(model.bodies.begin(), model.bodies.end(), is_round);
+  return {true, counted(count, "wheel") + " of " + listed(names) + ", tyre friction " + friction,
+          round ? "wheels against persons and free bodies: a wheel rolls through them; only bodywork meets them" : ""};
 }
 
 /// Where a wheel stands: on a level or a triangle's plane under its hub.
@@ -112,7 +114,20 @@ Grip grip_of(const Wheel& spec, const WheelState& wheel, double load, double mu,
     case TyreModel::linear:
       break;
   }
-  return linear_grip(load, mu, spec.saturation_angle, v_x, v_y);
+  return linear_grip(load, mu, spec.friction, spec.saturation_angle, v_x, v_y);
+}
+
+/// How much further the wheel is pressed in than the one on the other side of its axle [m]; 0 for one that has no bar or no mate.
+double leaning(const Model& model, const WheelState& wheel) {
+  const std::vector<Wheel>& all = model.vehicles[wheel.vehicle].wheels;
+  const Wheel& spec = all[wheel.wheel];
+  if (spec.anti_roll <= 0) return 0;
+  constexpr double kSameAxle = 0.05;               // [m]
+  const WheelState* first = &wheel - wheel.wheel;  // a vehicle's wheels stand one after the other
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (std::abs(all[i].hub_B.x() - spec.hub_B.x()) < kSameAxle && all[i].hub_B.y() * spec.hub_B.y() < 0)
+      return wheel.compression - first[i].compression;
+  return 0;
 }
 
 void add_wheel(StepContext& step, const WheelState& wheel, const Footing& footing, int index, int self) {
@@ -123,7 +138,7 @@ void add_wheel(StepContext& step, const WheelState& wheel, const Footing& footin
   const Pose& X = state.X_WB[vehicle.body];
   const double h = step.length;
   const double stiffness = spec.spring * (std::abs(wheel.compression) > spec.travel ? 1 + kStopStiffness : 1);
-  const double force = spring_force(spec, wheel.static_load, wheel.compression);
+  const double force = spring_force(spec, wheel.static_load, wheel.compression) + spec.anti_roll * leaning(world.model, wheel);
 
   Constraint c;
   c.kind = ConstraintKind::wheel;
@@ -145,7 +160,7 @@ void add_wheel(StepContext& step, const WheelState& wheel, const Footing& footin
   const Grip grip = grip_of(spec, wheel, std::max(0.0, force), mu, t1.dot(v), c.frame.col(2).dot(v));
   c.friction = grip.friction;
   c.grip_softness = grip.damping > 0 ? 1 / (h * grip.damping) : 0;
-  c.rolling_bound = h * wheel.brake;
+  c.rolling_bound = h * (wheel.brake + spec.rolling_resistance * std::max(0.0, force));
   c.rolling_drive = h * wheel.drive;
   c.gap = -wheel.compression;
   c.key = (static_cast<std::uint64_t>(self) << 56) | static_cast<std::uint64_t>(index);
@@ -185,6 +200,7 @@ class Tyres final : public Effect {
   void find(StepContext& step) override {
     World& world = step.world;
     State& state = step.state;
+    footings_.clear();
     double energy = 0;
     for (int i = 0; i < static_cast<int>(state.wheels.size()); ++i) {
       WheelState& wheel = state.wheels[i];
@@ -201,7 +217,14 @@ class Tyres final : public Effect {
       wheel.contact = footing.found ? footing.point : Vec3(wheel.hub - spec.radius * up);
       wheel.impulse.setZero();
       energy += spring_energy(spec, wheel.static_load, wheel.compression);
-      if (footing.found && world.awake[vehicle.body]) add_wheel(step, wheel, footing, i, self_);
+      footings_.push_back(footing);
+    }
+    for (std::size_t i = 0; i < footings_.size(); ++i) {
+      const WheelState& wheel = state.wheels[i];
+      const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
+      const double twist = leaning(world.model, wheel);
+      energy += 0.25 * vehicle.wheels[wheel.wheel].anti_roll * twist * twist;  // each of the two has half of the bar's
+      if (footings_[i].found && world.awake[vehicle.body]) add_wheel(step, wheel, footings_[i], static_cast<int>(i), self_);
     }
     // what the springs took or gave since the last look is not lost: it leaves the dampers' account
     state.energy.dissipated[self_] -= energy - state.energy.springs;
@@ -226,6 +249,9 @@ class Tyres final : public Effect {
       state.energy.dissipated[c.effect] += work;
     }
   }
+
+ private:
+  std::vector<Footing> footings_;  // of the step at hand; room is kept from step to step
 };
 template struct Registered<Tyres>;
 

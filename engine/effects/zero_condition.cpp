@@ -5,6 +5,7 @@
 #include "engine/effects/body_pairs.h"
 #include "engine/effects/bodywork_contact.h"
 #include "engine/effects/registration.h"
+#include "engine/effects/riding.h"
 #include "engine/effects/words.h"
 #include "engine/geometry/hyper_ellipsoid_pair.h"
 
@@ -66,7 +67,8 @@ void watch_meshes(const Outlook& outlook, bool warn) {
   ContactPoints found;
   for (std::size_t i = 0; i < world.pairs.mesh.size(); ++i) {
     const MeshPair& pair = world.pairs.mesh[i];
-    if (pair.mesh_body < 0 || !waits(world, state, pair.body)) continue;
+    // a mount that runs into somebody: both are set free, and its rider
+    if (pair.mesh_body < 0 || (!waits(world, state, pair.body) && !waits(world, state, pair.mesh_body))) continue;
     if (world.model.bodies[pair.mesh_body].person == world.model.bodies[pair.body].person) continue;  // what it rides
     const auto& mesh = std::get<MeshShape>(world.model.bodies[pair.mesh_body].shape);
     const Pose X_WM = state.X_WB[pair.mesh_body] * mesh.X_BM;
@@ -77,8 +79,11 @@ void watch_meshes(const Outlook& outlook, bool warn) {
     contacts_with_mesh(std::get<HyperEllipsoid>(world.model.bodies[pair.body].shape), state.X_WB[pair.body], *pair.mesh, X_WM,
                        margin, clearance.by_now(X_MA, reach), world.pairs.mesh_scratch, found);
     clearance.note(world.pairs.mesh_scratch.apart, X_MA, reach);
-    for (const SurfaceContact& touch : found)
-      if (touches(outlook, touch, pair.body, pair.mesh_body)) release(world, state, pair.body, pair.mesh_body, touch.p_a);
+    for (const SurfaceContact& touch : found) {
+      if (!touches(outlook, touch, pair.body, pair.mesh_body)) continue;
+      if (waits(world, state, pair.body)) release(world, state, pair.body, pair.mesh_body, touch.p_a);
+      if (waits(world, state, pair.mesh_body)) release(world, state, pair.mesh_body, pair.body, touch.p_b);
+    }
     if (warn && waits(world, state, pair.body))
       for (const SurfaceContact& touch : found) warn_of_overlap(world, pair.body, pair.mesh_body, touch.gap);
   }
@@ -114,7 +119,7 @@ class ZeroCondition final : public Effect {
 
   void before_step(World& world, State& state, double step) override {
     if (std::all_of(state.released.begin(), state.released.end(), [](char r) { return r != 0; })) return;
-    const bool warn = state.time == 0 && world.model.settings.contact_law != ContactLaw::compliant;
+    const bool warn = state.time == 0 && !yields(world.model.settings.contact_law, true);
     const Outlook outlook{world, state, state, step};
     watch_mounts(outlook);
     watch_meshes(outlook, warn);
@@ -129,18 +134,21 @@ class ZeroCondition final : public Effect {
     }
   }
 
-  /// Walks on as one.
+  /// Walks, or rides, on as one.
   void after_step(StepContext& step) override {
     const World& world = step.world;
     State& state = step.state;
     for (std::size_t p = 0; p < world.model.persons.size(); ++p) {
       if (state.released[p]) continue;
+      const int mount = world.model.persons[p].mount;
+      if (mount >= 0 && !world.awake[mount]) {
+        ride(step, static_cast<int>(p), self_);
+        continue;
+      }
       for (const int b : world.model.persons[p].bodies) {
         if (world.awake[b]) continue;
         state.X_WB[b].p += step.length * state.V_WB[b].v;
       }
-      if (const int mount = world.model.persons[p].mount; mount >= 0 && !world.awake[mount])
-        state.X_WB[mount].p += step.length * state.V_WB[mount].v;
     }
   }
 };

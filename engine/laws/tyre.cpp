@@ -64,10 +64,10 @@ Combined combine(const TmEasyTyre& tyre, double load, double mu, double s_x, dou
 
 }  // namespace
 
-Grip linear_grip(double load, double mu, double saturation_angle, double v_x, double) {
+Grip linear_grip(double load, double mu, double own, double saturation_angle, double v_x, double) {
   const double speed = std::abs(v_x);
   if (speed < kSlowest) return {std::numeric_limits<double>::infinity(), mu};
-  return {mu * load / (math::tan(saturation_angle) * speed), mu};
+  return {own * load / (math::tan(saturation_angle) * speed), mu};
 }
 
 double force_of(const SlipCurve& c, double slip) {

@@ -1,7 +1,8 @@
 // Tyre forces in the ground plane. Forces oppose slip; a law knows no wheel and no clock.
 //
-// linear    F_y = mu F_z tan(alpha)/tan(alpha_s) up to the friction circle mu F_z: the slip angle alpha_s at which it saturates is
-//           all there is to choose. Longitudinally what brake or engine ask for, up to the same circle.
+// linear    F_y = mu_0 F_z tan(alpha)/tan(alpha_s) up to the friction circle mu F_z: alpha_s is the slip angle at which the tyre
+//           saturates on a road that gives it its own friction mu_0. On a slippery road it keeps its stiffness and saturates at a
+//           slip angle that is smaller by mu/mu_0. Longitudinally what brake or engine ask for, up to the same circle.
 // TM-Easy   G. Rill, Road Vehicle Dynamics, CRC 2011, chapter 3; W. Hirschberg, G. Rill, H. Weinfurter, Tire model TMeasy, Vehicle
 //           System Dynamics 45 (2007): initial slope, maximum and sliding force of either direction at the nominal load and at
 //           twice that, joined through the generalised slip s = sqrt(s_x^2 + s_y^2) of slips divided by their scales.
@@ -21,7 +22,8 @@ struct Grip {
 };
 
 /// `v_x`, `v_y` [m/s] of the contact point along and across the wheel; at standstill the damping is infinite: the tyre holds.
-Grip linear_grip(double load, double mu, double saturation_angle, double v_x, double v_y);
+/// `mu` [-] of tyre and road, `own` [-] of the tyre, for which the saturation angle holds.
+Grip linear_grip(double load, double mu, double own, double saturation_angle, double v_x, double v_y);
 
 /// One direction at one load.
 struct SlipCurve {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/math/functions.h"
+#include "engine/measure/impacts.h"
 #include "engine/measure/metrics.h"
 
 namespace engine {
@@ -56,56 +57,33 @@ void measure_body(const Model& model, const Recording& recording, int b, std::ve
     if (const auto height = rebound_height(model, recording, b, *shape)) out.push_back({"rebound_height_m", name, *height});
 }
 
-namespace {
-
-/// What contacts with others gave the body over the whole run, and its attitude at the last instant before the first of them.
-struct Exchange {
-  Vec3 impulse = Vec3::Zero();  // [N s] world
-  Quat q_WB = Quat::Identity();
-};
-
-Exchange exchange_of(const Recording& recording, int body) {
-  Exchange out;
-  bool begun = false;
-  for (std::size_t i = 0; i < recording.snapshots.size(); ++i)
-    for (const ContactRecord& c : recording.snapshots[i].contacts) {
-      if (c.kind != ContactKind::vehicle && c.kind != ContactKind::vehicle_pair) continue;
-      const double sign = c.body_a == body ? 1 : (c.body_b == body ? -1 : 0);
-      if (sign == 0 || c.impulse.isZero(0)) continue;
-      // the impulses of a snapshot were exchanged since the one before: that one still has the attitude of the approach
-      if (!begun) out.q_WB = recording.snapshots[i > 0 ? i - 1 : 0].bodies[body].X_WB.q;
-      begun = true;
-      out.impulse += sign * c.impulse;
-    }
-  return out;
-}
-
-/// Share of the deformation energy of its Kudlich-Slibar impacts: two vehicles are pressed together by the same force, taken over
-/// the same depth, so each has half; a barrier that is part of the world is rigid and leaves all to the vehicle.
-double deformation_energy(const Model& model, const Recording& recording, int body) {
-  double sum = 0;
-  for (const Snapshot& s : recording.snapshots)
-    for (const ContactRecord& c : s.contacts) {
-      if (c.energy_lost == 0 || (c.body_a != body && c.body_b != body)) continue;
-      const int other = c.body_a == body ? c.body_b : c.body_a;
-      sum += model.bodies[other].fixed ? c.energy_lost : 0.5 * c.energy_lost;
-    }
-  return sum;
-}
-
-}  // namespace
-
-void measure_vehicle(const Model& model, const Recording& recording, int v, std::vector<Metric>& out) {
+void measure_vehicle(const Model& model, const Recording& recording, const std::vector<Impact>& impacts, int v,
+                     std::vector<Metric>& out) {
   const Vehicle& vehicle = model.vehicles[v];
-  const Exchange exchange = exchange_of(recording, vehicle.body);
-  const double delta_v = exchange.impulse.norm() / model.bodies[vehicle.body].mass;
-  if (delta_v <= 0) return;
-  out.push_back({"delta_v_mps", vehicle.name, delta_v});
-  Vec3 push = exchange.q_WB.conjugate() * exchange.impulse;
-  if (std::abs(push.y()) < 1e-6 * push.norm()) push.y() = 0;  // square from behind is 180 deg, not now and then -180
-  if (const double energy = deformation_energy(model, recording, vehicle.body); energy > 0)
-    out.push_back({"ees_mps", vehicle.name, std::sqrt(2 * energy / model.bodies[vehicle.body].mass)});
-  out.push_back({"pdof_deg", vehicle.name, math::atan2(push.y(), -push.x()) * 180 / std::numbers::pi});
+  const auto& all = recording.snapshots;
+  double path = 0;
+  for (std::size_t i = 1; i < all.size(); ++i)
+    path += (all[i].bodies[vehicle.body].X_WB.p - all[i - 1].bodies[vehicle.body].X_WB.p).head<2>().norm();
+  out.push_back({"path_m", vehicle.name, path});
+  if (const auto rest = rest_of(model, recording, party_of(model, vehicle.body))) {
+    const Pose X = recording.at(*rest).bodies[vehicle.body].X_WB;
+    const Vec3 ahead = X.q * Vec3::UnitX();
+    // a rider's own rest stands under its own name: this is the mount's
+    const bool told =
+        std::any_of(out.begin(), out.end(), [&](const Metric& m) { return m.key == "rest_s" && m.object == vehicle.name; });
+    if (!told) out.push_back({"rest_s", vehicle.name, *rest});
+    out.push_back({"rest_x_m", vehicle.name, X.p.x()});
+    out.push_back({"rest_y_m", vehicle.name, X.p.y()});
+    out.push_back({"rest_heading_deg", vehicle.name, math::atan2(ahead.y(), ahead.x()) * 180 / std::numbers::pi});
+  }
+  const ImpactSide* worst = nullptr;
+  for (const Impact& impact : impacts)
+    for (const ImpactSide* side : {&impact.a, &impact.b})
+      if (side->party.vehicle == v && (!worst || side->delta_v.norm() > worst->delta_v.norm())) worst = side;
+  if (!worst || model.bodies[vehicle.body].fixed) return;
+  out.push_back({"delta_v_mps", vehicle.name, worst->delta_v.norm()});
+  if (std::isfinite(worst->ees)) out.push_back({"ees_mps", vehicle.name, worst->ees});
+  if (std::isfinite(worst->pdof)) out.push_back({"pdof_deg", vehicle.name, worst->pdof});
 }
 
 }  // namespace engine

@@ -49,6 +49,19 @@ double turn(const Point& a, const Point& b, const Point& c) {
   return (b.x - a.x) * (c.z - b.z) - (b.z - a.z) * (c.x - b.x);
 }
 
+constexpr double kSkin = 0.05;  // [m] a contact lies so far inside or outside the mesh at most
+
+/// How far behind the outermost surface the point lies, seen along `from` (unit, body axes) in its own longitudinal plane; below
+/// zero: in front of it.
+double behind(const MeshShape& shape, const Vec3& point_B, const Vec3& from) {
+  constexpr double kFar = 50;  // [m]
+  const Pose X_MB = shape.X_BM.inverse();
+  double way = 0;
+  int triangle = 0;
+  if (!shape.mesh->raycast(X_MB * (point_B + kFar * from), X_MB.q * -from, 2 * kFar, way, triangle)) return -kFar;
+  return kFar - way;
+}
+
 }  // namespace
 
 std::optional<double> wrap_around_distance(const Model& model, int b, const Vec3& point_B) {
@@ -56,12 +69,17 @@ std::optional<double> wrap_around_distance(const Model& model, int b, const Vec3
   const auto* shape = std::get_if<MeshShape>(&body.shape);
   if (body.vehicle < 0 || !shape) return std::nullopt;
   std::vector<Point> points = strip(*shape, point_B.y());
-  if (points.empty()) return std::nullopt;
   const double ground = ground_level(model, body);
+  // a tape from the front reaches what is open to the front without going over anything higher; what is open only upwards it
+  // reaches over all that lies before it; what is neither (the underside, a flank) not at all
+  const bool open_ahead = behind(*shape, point_B, Vec3::UnitX()) < kSkin;
+  if (!open_ahead && behind(*shape, point_B, Vec3::UnitZ()) > kSkin) return std::nullopt;
+  std::erase_if(points, [&](const Point& p) { return p.z <= ground || (open_ahead && p.z > point_B.z()); });
+  if (points.empty()) return std::nullopt;
   double front = point_B.x();
   for (const Point& p : points) front = std::max(front, p.x);
-  // what lies behind the impact or below the ground is not under the tape
-  std::erase_if(points, [&](const Point& p) { return p.x <= point_B.x() || p.z <= ground; });
+  // what lies behind the impact is not under the tape
+  std::erase_if(points, [&](const Point& p) { return p.x <= point_B.x(); });
   std::sort(points.begin(), points.end(), [](const Point& p, const Point& q) { return p.x != q.x ? p.x > q.x : p.z < q.z; });
   points.push_back({point_B.x(), point_B.z()});
   // a monotone chain from the ground upwards and backwards: only left turns hold a taut tape

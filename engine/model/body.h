@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "engine/geometry/hyper_ellipsoid.h"
+#include "engine/geometry/panels.h"
 #include "engine/geometry/triangle_mesh.h"
 #include "engine/math/types.h"
 #include "engine/model/schedule.h"
@@ -31,13 +32,15 @@ struct SurfaceProperties {
   // [N/m] S of eq. (68), compliant law only. Person and bodywork in series then yield 200 kN/m: a leg struck at 40 km/h goes in by
   // 4 cm, less than half its thickness, a head of 4.6 kg that meets the bonnet at 40 km/h by 5 cm.
   Schedule stiffness = 400e3;
+  bool stiffness_given = false;  // by the scene: it stands for all panels, and for a head too
 };
 
 /// A triangle mesh carried by a body; X_BM places the mesh frame in the body frame (origin: centre of mass).
 struct MeshShape {
   std::shared_ptr<const TriangleMesh> mesh;
   Pose X_BM;
-  double tolerance = 0;  // [m] it may be this far from the surface it stands for
+  double tolerance = 0;                            // [m] it may be this far from the surface it stands for
+  std::shared_ptr<const Panels> panels = nullptr;  // null: not told apart
 };
 
 /// A hyper-ellipsoid sits with its centre at the centre of mass, axes along the body's.

@@ -38,7 +38,13 @@ struct Ground {
 };
 
 enum class Scheme { stepping, rk4, adaptive };
-enum class ContactLaw { default_auto, compliant };
+/// default_auto: nothing gives way. compliant: everything does. persons_yield: persons do, at whatever they touch and at the ends
+/// of their joints' ranges; vehicles, free bodies and road among themselves do not.
+enum class ContactLaw { default_auto, compliant, persons_yield };
+/// Whether a contact gives way: `person` tells whether one of the two is a person's part.
+inline bool yields(ContactLaw law, bool person) {
+  return law == ContactLaw::compliant || (law == ContactLaw::persons_yield && person);
+}
 enum class Force { automatic, on, off };  // a scene's author may force an effect
 
 struct Settings {

@@ -30,6 +30,8 @@ struct Wheel {
   TyreModel tyre = TyreModel::linear;
   double saturation_angle = 0.1745;  // [rad] linear tyre: slip angle at which the friction circle is reached
   double brake_share = 0.25;         // [-] of the vehicle's brake force, with BrakeBalance::shares; they sum to 1
+  double anti_roll = 0;              // [N/m] of the axle's bar, against the wheel on the other side: force per difference of travel
+  double rolling_resistance = 0;     // [-] of the load
   bool steered = false;
   bool driven = false;
 };

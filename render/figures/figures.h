@@ -15,13 +15,21 @@
 
 namespace render {
 
+/// A phase of a throw as measured.
+struct PhaseFacts {
+  std::string name;
+  double from = 0, to = 0;  // [s]
+  double distance = 0;      // [m] along the line of the throw
+};
+
 /// What a recording alone does not tell of a person: masses, and the times between which its throw is measured.
 struct PersonFacts {
   std::string name;
   std::vector<int> bodies;                                 // root first
   std::vector<double> masses;                              // [kg] of each
   std::optional<double> hit, landed, rest;                 // [s]
-  std::optional<double> released;                          // [s] last touch of the vehicle before landing
+  std::optional<double> released;                          // [s] when the flight began
+  std::vector<PhaseFacts> phases;                          // of the throw, in order
   int vehicle_body = -1;                                   // that struck
   std::vector<std::pair<std::string, double>> dimensions;  // [m] "throw distance", "airborne", ... as measured
 };
@@ -31,6 +39,7 @@ struct FigureJob {
   int width = 1920, height = 1080;  // of stills
   Quality quality = Quality::standard;
   std::vector<PersonFacts> persons;
+  std::vector<std::string> impacts;  // a line each, as measured
   std::map<std::string, std::string> metadata;
 };
 

@@ -144,10 +144,10 @@ void draw_path(cairo_t* c, const Site& site, const PersonFacts& facts) {
   set_dashes(c, 0);
 }
 
-/// A dimension line beside its two points, `offset` [mm] below them on the paper.
-void draw_dimension(cairo_t* c, const Site& site, const Vec3& from, const Vec3& to, const std::string& label, double offset) {
+/// A dimension line beside its two points, `offset` [mm] below them on the paper, with the length [m] that was measured.
+void draw_dimension(cairo_t* c, const Site& site, const Vec3& from, const Vec3& to, double length, const std::string& label,
+                    double offset) {
   const Point2 a = site.plan.at(from), b = site.plan.at(to);
-  const double length = (to - from).head<2>().norm();
   if ((b - a).norm() < 0.5) return;
   const Point2 along = (b - a).normalized();
   Point2 down(-along.y(), along.x());
@@ -184,16 +184,19 @@ void draw_dimensions(cairo_t* c, const Site& site, const PersonFacts& facts) {
   if (!facts.hit) return;
   auto com = [&](double t) { return centre_of_mass(facts, site.recording, t); };
   const double end = facts.rest.value_or(site.recording.end_time());
-  // the parts above, the whole below them
+  // the parts above, the whole below them; side by side where each number has room over its own line, else one below the other
   double row = 16;  // [mm] below the path
-  if (facts.landed && facts.released) {
-    // side by side where each number has room over its own line, else one below the other
-    const double airborne = (site.plan.at(com(*facts.landed)) - site.plan.at(com(*facts.released))).norm();
-    draw_dimension(c, site, com(*facts.released), com(*facts.landed), "airborne", row);
-    if (airborne < kLeastLine) row += 8;
+  bool crowded = false;
+  for (const PhaseFacts& phase : facts.phases) {
+    if (phase.name != "flight" && phase.name != "landing" && phase.name != "slide") continue;
+    const double line = (site.plan.at(com(phase.to)) - site.plan.at(com(phase.from))).norm();
+    if (line < 3) continue;
+    if (crowded || line < kLeastLine) row += 8;
+    crowded = line < kLeastLine;
+    draw_dimension(c, site, com(phase.from), com(phase.to), phase.distance, phase.name == "flight" ? "airborne" : phase.name, row);
   }
-  if (facts.landed) draw_dimension(c, site, com(*facts.landed), com(end), "slide", row);
-  draw_dimension(c, site, com(*facts.hit), com(end), facts.rest ? "throw distance" : "so far", row + 12);
+  for (const auto& [name, value] : facts.dimensions)
+    if (name == "throw distance") draw_dimension(c, site, com(*facts.hit), com(end), value, facts.rest ? name : "so far", row + 12);
 }
 
 /// A number in a circle beside each place of the person, explained in the key.
@@ -228,6 +231,10 @@ void draw_key(cairo_t* c, const Site& site) {
     text.clear();
     for (const auto& [name, value] : facts.dimensions) text += fmt::format("{}{} {:.2f} m", text.empty() ? "" : ", ", name, value);
     draw_text(c, x, y, text, 2.9, Align::right);
+    y += 4.4;
+  }
+  for (const std::string& impact : site.job.impacts) {
+    draw_text(c, x, y, impact, 2.9, Align::right);
     y += 4.4;
   }
 }

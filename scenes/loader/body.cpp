@@ -110,7 +110,7 @@ engine::SurfaceProperties read_surface(Reader& r, engine::SurfaceProperties out)
   if (r.has("restitution")) out.restitution_body = out.restitution_ground = r.schedule("restitution");
   if (r.has("restitution_body")) out.restitution_body = r.schedule("restitution_body");
   if (r.has("restitution_ground")) out.restitution_ground = r.schedule("restitution_ground");
-  if (r.has("stiffness")) out.stiffness = r.schedule("stiffness");
+  if (r.has("stiffness")) out.stiffness = r.schedule("stiffness"), out.stiffness_given = true;
   return out;
 }
 

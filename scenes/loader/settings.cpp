@@ -36,9 +36,10 @@ const Key kKeys[] = {
      "Error of one step's smooth motion, and a tenth of the penetration it may leave; scheme adaptive.", kPositive},
     {"contact_law", Type::choice, Dimension::none, "'default_auto'",
      "default_auto: surfaces do not give way; impulses at first touch, at all touching points at once, restitution is a ratio of "
-     "speeds. compliant: force = stiffness x depth while closing, restitution x stiffness x depth while parting, so that "
+     "speeds. persons_yield: a person's contacts and the ends of its joints' ranges by the compliant law, all else by "
+     "default_auto. compliant: force = stiffness x depth while closing, restitution x stiffness x depth while parting, so that "
      "restitution is the share of energy that comes back.",
-     kAny, "default_auto|compliant"},
+     kAny, "default_auto|compliant|persons_yield"},
     {"gravity", Type::number, Dimension::acceleration, "'9.81 m/s^2'", "Acceleration of gravity; 0 for none.", kNotNegative},
     {"slope", Type::number, Dimension::angle, "'0 deg'",
      "Tilts the whole world: the ground stays z = height and gravity turns, so that +x runs downhill at this angle.",

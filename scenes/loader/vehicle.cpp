@@ -9,6 +9,7 @@
 #include "scenes/loader/decimate.h"
 #include "scenes/loader/mesh.h"
 #include "scenes/loader/mesh_frame.h"
+#include "scenes/loader/panels.h"
 
 namespace scenes {
 namespace {
@@ -19,6 +20,10 @@ const Key kWheelKeys[] = {
     {"radius", Type::number, Dimension::length, "'0.31 m'", "Radius of the loaded tyre.", kPositive},
     {"width", Type::number, Dimension::length, "'0.2 m'", "Width of the tyre.", kPositive},
     {"spring", Type::number, Dimension::stiffness, "'25 kN/m'", "Suspension, at the wheel.", kPositive},
+    {"anti_roll", Type::number, Dimension::stiffness, "'0 N/m'",
+     "Anti-roll bar to the wheel on the other side: force at the wheel per difference of their travels.", kNotNegative},
+    {"rolling_resistance", Type::number, Dimension::none, "0",
+     "Share of the load that resists rolling: 0.01 to 0.015 for car tyres.", kNotNegative},
     {"damper", Type::number, Dimension::damping, "'2.5 kN s/m'", "Suspension, at the wheel.", kNotNegative},
     {"travel", Type::number, Dimension::length, "'0.1 m'", "Each way to the stop.", kPositive},
     {"friction", Type::number, Dimension::none, "0.8", "Tyre on the road; the ground's own friction limits it too.", kNotNegative},
@@ -145,6 +150,8 @@ void read_wheels(Reader& r, const engine::Vec3& cg, engine::Vehicle& vehicle) {
     wheel.spring = w.number("spring");
     wheel.damper = w.number("damper");
     wheel.travel = w.number("travel");
+    wheel.anti_roll = w.number("anti_roll");
+    wheel.rolling_resistance = w.number("rolling_resistance");
     wheel.friction = w.number("friction");
     wheel.tyre = static_cast<engine::TyreModel>(w.choice("tyre"));
     wheel.saturation_angle = w.number("saturation_angle");
@@ -374,7 +381,7 @@ void read_vehicle(Builder& builder, Reader scene) {
   const double tolerance = r.number("mesh_tolerance");
   auto& coarse = builder.coarse[{meshes.collision->solid, tolerance}];
   if (!coarse) coarse = decimate(meshes.collision->solid, tolerance);
-  body.shape = engine::MeshShape{coarse, X_BM, tolerance};
+  body.shape = engine::MeshShape{coarse, X_BM, tolerance, panels_of(*coarse, *meshes.bodywork->look)};
   body.X_WB = {X_WM * cg, X_WM.q.normalized()};
   if (r.has("velocity") && r.has("speed")) r.fail("velocity", "must not be given together with speed");
   body.V_WB.v =

@@ -186,7 +186,7 @@ TEST_F(Planted, WhatAKilledRunLeftIsTakenAway) {
   EXPECT_EQ(run(folder, {"simulate", "ball.toml", "-o", "out"}).code, 0);
   EXPECT_EQ(run(folder, film({"-o", "a.mp4"})).code, 0);
   EXPECT_EQ(names_in(folder / "out"),
-            (std::vector<std::string>{"contacts.csv", "notes.4711.part", "summary.json", "trajectory.csv"}));
+            (std::vector<std::string>{"contacts.csv", "impacts.csv", "notes.4711.part", "summary.json", "trajectory.csv"}));
   EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{".stderr", ".stdout", "a.mp4", "ball.toml", "out"}));
 }
 

@@ -67,9 +67,65 @@ std::string gallery(const std::string& name) {
   return std::string(CRASHREEL_SOURCE_DIR) + "/scenes/gallery/" + name;
 }
 
+TEST(Explain, EveryMeasureOfTheReadmeIsAsTheProgramDefinesIt) {
+  const Folder folder;
+  const Result all = run(folder, {"explain", "all"});
+  ASSERT_EQ(all.code, 0) << all.err;
+  EXPECT_NE(contents(std::string(CRASHREEL_SOURCE_DIR) + "/cli/README.md").find(all.out), std::string::npos)
+      << "put the output of `crashreel explain all` into cli/README.md";
+  const Result one = run(folder, {"explain", "delta_v_mps", "--json"});
+  ASSERT_EQ(one.code, 0) << one.err;
+  EXPECT_EQ(Json::parse(one.out).at("unit"), "m/s");
+  EXPECT_EQ(run(folder, {"explain", "delta_v"}).out, run(folder, {"explain", "delta_v_mps"}).out) << "the unit may be left out";
+  const Result none = run(folder, {"explain", "delta_w_mps"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.err, HasSubstr("delta_v_mps")) << "the nearest is named";
+}
+
+TEST(Simulate, ImpactsAreTheSameInTableAndSummary) {
+  const Folder folder;
+  const std::string scene = std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/intersection_ks.toml";
+  const Result result = run(folder, {"simulate", scene, "-q", "-o", "out", "--set", "simulation.duration=0.6 s"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json summary = Json::parse(contents(folder / "out/summary.json"));
+  const std::vector<Row> rows = rows_of(contents(folder / "out/impacts.csv"));
+  ASSERT_FALSE(rows.empty());
+  ASSERT_EQ(rows.size(), summary.at("impacts").size());
+  const Json& first = summary.at("impacts").at(0);
+  EXPECT_EQ(rows[0].at("law"), "kudlich_slibar");
+  for (const char* key :
+       {"time_s", "closing_speed_mps", "delta_v_a_mps", "delta_v_b_mps", "pdof_a_deg", "ees_a_mps", "energy_lost_J"})
+    EXPECT_EQ(number(rows[0].at(key)), first.at(key).get<double>()) << key;
+  // what the table says of the hardest impact is what the measures say
+  for (const char* side : {"a", "b"}) {
+    const std::string name = rows[0].at(std::string("body_") + side);
+    EXPECT_EQ(summary.at("metrics").at("delta_v_mps").at(name).get<double>(),
+              number(rows[0].at(std::string("delta_v_") + side + "_mps")));
+  }
+  // momentum: what one loses the other gets, but for the ground
+  const double red = first.at("impulse_Ns").at(0).get<double>();
+  EXPECT_NE(red, 0);
+}
+
+TEST(Simulate, ContactRowsHaveTheirTangentialVector) {
+  const Folder folder;
+  const Result result = run(folder, {"simulate", gallery("puck_slide.toml"), "-o", "out"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  for (const Row& row : rows_of(contents(folder / "out/contacts.csv"))) {
+    const double x = number(row.at("tangential_x_Ns")), y = number(row.at("tangential_y_Ns")),
+                 z = number(row.at("tangential_z_Ns"));
+    // a sum of vectors is no longer than the sum of their lengths; on a level road it is level
+    EXPECT_LE(std::hypot(x, y, z), number(row.at("tangential_impulse_Ns")) + 1e-9);
+    EXPECT_NEAR(z, 0, 1e-9);
+    if (row.at("state") == "slide") {
+      EXPECT_LT(x, 0) << "friction brakes";
+    }
+  }
+}
+
 }  // namespace
 
-TEST(Simulate, WritesTheThreeFilesWithTheColumnsOfTheContract) {
+TEST(Simulate, WritesItsFilesWithTheColumnsOfTheContract) {
   const Folder folder;
   folder.write("ball.toml", kBall);
   const Result result = run(folder, {"simulate", "ball.toml", "-o", "out"});
@@ -79,10 +135,16 @@ TEST(Simulate, WritesTheThreeFilesWithTheColumnsOfTheContract) {
             "acceleration_mps2");
   EXPECT_EQ(first_line(contents(folder / "out/contacts.csv")),
             "time_s,kind,body_a,body_b,x_m,y_m,z_m,nx,ny,nz,depth_m,normal_force_N,tangential_force_N,normal_impulse_Ns,"
-            "tangential_impulse_Ns,slip_mps,state");
+            "tangential_impulse_Ns,slip_mps,state,tangential_x_Ns,tangential_y_Ns,tangential_z_Ns");
+  EXPECT_THAT(first_line(contents(folder / "out/impacts.csv")),
+              testing::StartsWith("phase,time_s,duration_s,body_a,body_b,law,x_m,y_m,z_m,nx,ny,nz,closing_speed_mps,impulse_x_Ns,"
+                                  "impulse_y_Ns,impulse_z_Ns,friction_used,friction_limit,delta_v_a_mps,delta_v_b_mps,pdof_a_deg,"
+                                  "pdof_b_deg,ees_a_mps,ees_b_mps,speed_a_before_mps,speed_a_after_mps,speed_b_before_mps,"
+                                  "speed_b_after_mps,yaw_rate_a_before_radps,yaw_rate_a_after_radps,yaw_rate_b_before_radps,"
+                                  "yaw_rate_b_after_radps,energy_lost_J"));
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) files.push_back(entry.path().filename().string());
-  EXPECT_THAT(files, testing::UnorderedElementsAre("trajectory.csv", "contacts.csv", "summary.json"));
+  EXPECT_THAT(files, testing::UnorderedElementsAre("trajectory.csv", "contacts.csv", "impacts.csv", "summary.json"));
   EXPECT_THAT(result.err, IsEmpty()) << "nothing to warn of, too short for progress";
 }
 
@@ -310,13 +372,14 @@ TEST(Simulate, HeadImpactWithoutCriterionGivesTheReason) {
   const Json summary = Json::parse(contents(folder / "out/summary.json"));
   ASSERT_TRUE(summary.at("metrics").contains("head_impact_s")) << "40 km/h carry the head onto the car";
   std::vector<std::string> absent;
-  for (const Json& line : summary.at("absent")) {
-    absent.push_back(line.at("metric").get<std::string>());
-    EXPECT_FALSE(line.at("reason").get<std::string>().empty());
-    EXPECT_FALSE(summary.at("metrics").contains(absent.back())) << "either a figure or a reason";
+  for (const auto& [name, reason] : summary.at("absent").items()) {
+    absent.push_back(name);
+    EXPECT_FALSE(reason.empty()) << name;
+    EXPECT_FALSE(reason.is_string() && summary.at("metrics").contains(name)) << "either a figure or a reason: " << name;
   }
-  EXPECT_THAT(absent, ElementsAre("hic15", "hic36", "three_ms_g", "peak_acceleration_mps2"));
-  EXPECT_THAT(result.out, HasSubstr("absent: "));
+  EXPECT_THAT(absent, testing::IsSupersetOf({"hic15", "hic36", "three_ms_g", "peak_acceleration_mps2"}));
+  EXPECT_THAT(result.out, HasSubstr("absent "));
+  EXPECT_LE(std::count(result.out.begin(), result.out.end(), '\n'), 40) << "fits a screen";
 
   folder.write("ball.toml", kBall);
   ASSERT_EQ(run(folder, {"simulate", "ball.toml", "-o", "ball"}).code, 0);

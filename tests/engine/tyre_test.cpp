@@ -55,8 +55,17 @@ TEST(TmEasy, BrakingTakesFromTheLateralForce) {
 
 TEST(LinearTyre, SaturatesAtItsAngle) {
   const double v = 20, angle = 10 * kDegree;
-  const Grip grip = linear_grip(4000, 0.8, angle, v, v * std::tan(angle));
+  const Grip grip = linear_grip(4000, 0.8, 0.8, angle, v, v * std::tan(angle));
   EXPECT_NEAR(grip.damping * v * std::tan(angle), 0.8 * 4000, 1e-9 * 3200);
+}
+
+TEST(LinearTyre, KeepsItsStiffnessOnIceAndSaturatesAtASmallerAngle) {
+  const double v = 20, angle = 10 * kDegree;
+  const Grip dry = linear_grip(4000, 0.8, 0.8, angle, v, 0), ice = linear_grip(4000, 0.1, 0.8, angle, v, 0);
+  EXPECT_EQ(ice.damping, dry.damping) << "the same force at the same small slip";
+  EXPECT_EQ(ice.friction, 0.1);
+  // the circle is reached at an eighth of the tangent
+  EXPECT_NEAR(ice.damping * v * std::tan(angle) / 8, 0.1 * 4000, 1e-9 * 400);
 }
 
 // ---- vehicles ----

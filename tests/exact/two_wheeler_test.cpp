@@ -6,6 +6,7 @@
 
 #include "engine/simulate.h"
 #include "scenes/scene.h"
+#include "tests/scenes/scene_file.h"
 
 namespace {
 
@@ -84,6 +85,72 @@ TEST_P(Rider, KeepsItsPoseUntilTheTouchThenLetsGoAndTheMountFallsOver) {
   const double initial = first.energies.kinetic + first.energies.potential;
   EXPECT_LT(run.diagnostics.max_energy_rise, 5e-3 * initial);
   EXPECT_LT(run.diagnostics.rest_penetration, 5e-3);
+}
+
+/// The shipped motorcycle alone on its road, with what the scene adds.
+engine::Recording ridden(const std::vector<std::string>& overrides) {
+  std::vector<std::string> set = {"simulation.duration=2 s", "vehicle.motorcycle.speed=60 km/h",
+                                  "vehicle.motorcycle.position=-100 -20 m"};
+  set.insert(set.end(), overrides.begin(), overrides.end());
+  return engine::simulate(scenes::load(std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/motorcycle.toml", set).model);
+}
+
+int body_of(const engine::Recording& run, const std::string& name) {
+  return static_cast<int>(std::find(run.body_names.begin(), run.body_names.end(), name) - run.body_names.begin());
+}
+
+TEST(RiddenMount, BrakesBeforeTheFirstTouchWithItsRider) {
+  const engine::Recording run = ridden({"vehicle.motorcycle.brake.from=0 s", "vehicle.motorcycle.brake.build_up=0 s",
+                                        "vehicle.motorcycle.brake.deceleration=4 m/s^2"});
+  const auto& end = run.snapshots.back();
+  const int mount = body_of(run, "motorcycle"), head = body_of(run, "rider/head");
+  const double a = 4, v = 60 / 3.6;
+  EXPECT_NEAR(end.bodies[mount].V_WB.v.norm(), v - 2 * a, 0.02 * 2 * a);
+  EXPECT_NEAR((end.bodies[head].V_WB.v - end.bodies[mount].V_WB.v).norm(), 0, 1e-9) << "one pair";
+  const double way = (end.bodies[mount].X_WB.p - run.snapshots.front().bodies[mount].X_WB.p).norm();
+  EXPECT_NEAR(way, v * 2 - 0.5 * a * 4, 0.05 * 0.5 * a * 4);
+  // what the brake took stands in the books
+  EXPECT_LT(std::abs(end.energies.residual), 1e-3 * end.energies.kinetic);
+}
+
+TEST(RiddenMount, GoesRoundTheCircleOfItsWheelAngle) {
+  const engine::Recording run = ridden({"vehicle.motorcycle.steer=[[\"0 s\", \"2 deg\"]]"});
+  const auto& end = run.snapshots.back().bodies[static_cast<std::size_t>(body_of(run, "motorcycle"))];
+  const double v = 60 / 3.6, rate = v * std::tan(2 * M_PI / 180) / 1.44;
+  EXPECT_NEAR(end.V_WB.w.z(), rate, 0.02 * rate);
+  EXPECT_NEAR(end.V_WB.v.norm(), v, 0.01 * v);
+  // upright in its plane
+  EXPECT_NEAR((end.X_WB.q * engine::Vec3::UnitZ()).z(), 1, 1e-9);
+}
+
+TEST(RiddenMount, ThatStrikesAPersonReleasesAllThree) {
+  const scenes::testing::SceneFolder folder;
+  const scenes::Scene scene = folder.load(R"(title = "bicycle at 20 km/h into a standing pedestrian"
+[simulation]
+duration = "1 s"
+[[vehicle]]
+name = "bike"
+model = "bicycle"
+front = "-1 0 m"
+speed = "20 km/h"
+[[person]]
+name = "rider"
+pose = "cyclist"
+rides = "bike"
+[[person]]
+name = "ped"
+position = "0.1 0 m"
+heading = "90 deg"
+)");
+  const engine::Recording run = engine::simulate(scene.model);
+  ASSERT_FALSE(run.failure);
+  double first = 10, last = 0;
+  int released = 0;
+  for (const engine::Event& e : run.events)
+    if (e.kind == "release") first = std::min(first, e.time), last = std::max(last, e.time), ++released;
+  EXPECT_EQ(released, 2) << "rider with mount, and pedestrian";
+  EXPECT_LT(last - first, 1e-9) << "at the same instant";
+  EXPECT_LT(run.diagnostics.max_penetration, 0.02);
 }
 
 }  // namespace

@@ -1,0 +1,15 @@
+// A rider and what it rides, before anything touches either: one rigid pair, upright in its plane, that the driver brakes, drives
+// and steers.
+#pragma once
+
+#include "engine/step_context.h"
+
+namespace engine {
+
+/// Moves the pair of a person that waits on its mount through the step. Along: brake and drive of each wheel, up to friction times
+/// what the wheel carries with the pair at rest; a brake stops and does not push back. Across: the circle of the wheel angle,
+/// r = v tan(steer) / wheelbase, no narrower than friction allows. Lean is left out: it moves no wheel of a two-wheeler's track.
+/// Wheels that lock are marked as such. Energy taken goes to the account of effect `self`, energy given to the sources.
+void ride(StepContext&, int person, int self);
+
+}  // namespace engine

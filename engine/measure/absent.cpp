@@ -1,0 +1,74 @@
+// Which measures a run does not define, and why.
+#include <algorithm>
+
+#include "engine/measure/metrics.h"
+#include "engine/measure/phases.h"
+
+namespace engine {
+namespace {
+
+class Absences {
+ public:
+  explicit Absences(const std::vector<Metric>& there) : there_(there) {}
+  /// Notes the reason, unless the measure is there.
+  void note(const char* key, const std::string& object, const std::string& reason) {
+    const bool found =
+        std::any_of(there_.begin(), there_.end(), [&](const Metric& m) { return m.key == key && m.object == object; });
+    if (!found) out.push_back({key, object, reason});
+  }
+  std::vector<AbsentMetric> out;
+
+ private:
+  const std::vector<Metric>& there_;
+};
+
+void absent_throw(const Model& model, const Recording& recording, int p, Absences& absent) {
+  const std::string& name = model.persons[p].name;
+  const auto t = throw_of_person(model, recording, p);
+  absent.note("rest_s", name, "still moving when the run ends");
+  if (!t) {
+    absent.note("throw_distance_m", name, "no vehicle touched it");
+    return;
+  }
+  absent.note("landing_s", name, "the trunk did not come down on the ground after the first touch");
+  absent.note("first_ground_contact_s", name, "the trunk did not come down on the ground after the first touch");
+  absent.note("carried_m", name, "never as fast as the vehicle while it pushed");
+  const char* reason = t->landed ? "never off vehicle and ground for 50 ms before it landed" : "it did not land";
+  absent.note("airborne_m", name, reason);
+  absent.note("landing_m", name, "it did not land");
+  absent.note("slide_m", name, "it did not land");
+}
+
+void absent_head(const Model& model, const Recording& recording, int p, Absences& absent) {
+  const Person& person = model.persons[p];
+  const bool struck = std::any_of(recording.events.begin(), recording.events.end(),
+                                  [&](const Event& e) { return e.kind == "head_impact" && e.body_a == person.head; });
+  if (!struck) {
+    absent.note("head_impact_s", person.name, "no vehicle touched the head");
+  } else {
+    absent.note("wrap_around_distance_m", person.name, "the head met no front, or a place no tape from the front reaches");
+  }
+  const std::string law = why_no_head_injury(model);
+  const std::string none = "the head touched neither vehicle nor ground";
+  for (const char* key : {"hic15", "hic36", "three_ms_g"}) absent.note(key, person.name, law.empty() ? none : law);
+  absent.note("hic15_vehicle", person.name, law.empty() ? "no vehicle touched the head" : law);
+  absent.note("hic15_ground", person.name, law.empty() ? "the head did not touch the ground" : law);
+  if (!law.empty()) absent.note("peak_acceleration_mps2", person.name, law);
+}
+
+}  // namespace
+
+std::vector<AbsentMetric> absent_metrics(const Model& model, const Recording& recording, const std::vector<Metric>& there) {
+  Absences absent(there);
+  for (int p = 0; p < static_cast<int>(model.persons.size()); ++p) {
+    absent_throw(model, recording, p, absent);
+    absent_head(model, recording, p, absent);
+  }
+  for (const Vehicle& v : model.vehicles) {
+    absent.note("rest_x_m", v.name, "still moving when the run ends");
+    absent.note("delta_v_mps", v.name, "no impact");
+  }
+  return absent.out;
+}
+
+}  // namespace engine

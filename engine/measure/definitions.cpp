@@ -1,0 +1,154 @@
+#include "engine/measure/definitions.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace engine {
+namespace {
+
+constexpr const char* kUnstruck = "no vehicle touched the person, or what it rides";
+constexpr const char* kNotLanded = "the trunk did not come down on the ground after the first touch";
+constexpr const char* kPath =
+    "chaotic beyond the landing: see the band of `crashreel study`; the centre of mass is exact to the step";
+constexpr const char* kNoHead = "no vehicle touched the head";
+constexpr const char* kNoForce = "the contact law is default_auto, which has no force histories; or the head touched nothing";
+constexpr const char* kHic = "as good as the stiffness of head and panel (engine/geometry/panels.h); grows as speed to the 2.5";
+constexpr const char* kPhase =
+    "measured along the line from first touch to rest, so that the distances of all phases sum to throw_distance_m";
+constexpr const char* kNoImpact = "the vehicle touched no person, vehicle or object";
+constexpr const char* kMoving = "still moving when the run ends";
+
+constexpr Definition kDefinitions[] = {
+    {"throw_distance_m", "m", "throw distance",
+     "Level distance of the centre of mass from where it was at the first touch with a vehicle to where it rests, or is when the "
+     "run "
+     "ends. Of a rider from the first touch of the rider or of what it rides; of what is ridden by itself (Simms and Wood, "
+     "Pedestrian "
+     "and Cyclist Impact, 2009: total throw).",
+     kUnstruck, kPath, true},
+    {"throw_along_m", "m", "throw along",
+     "Part of the throw along the heading of the vehicle at the first touch; of a rider along the heading of the faster of the "
+     "two.",
+     kUnstruck, kPath},
+    {"throw_across_m", "m", "throw across", "Part of the throw across that heading, positive to the left.", kUnstruck, kPath},
+    {"contact_m", "m", "contact",
+     "Distance of the phase contact: from the first touch until the person goes as fast as the vehicle, or the vehicle last pushes "
+     "it.",
+     kUnstruck, kPhase},
+    {"carried_m", "m", "carried",
+     "Distance of the phase carried: from there until the vehicle last pushes the person before it lands.",
+     "the person never goes as fast as the vehicle while that pushes", kPhase},
+    {"airborne_m", "m", "airborne",
+     "Distance of the phase flight: from the last push of a vehicle to landing, if for 50 ms or more neither touched.",
+     "the person did not land, or was never off vehicle and ground for 50 ms before", kPhase, true},
+    {"landing_m", "m", "landing",
+     "Distance of the phase landing: from the trunk's touch of the ground until the bounces are over, that is until some part "
+     "touches "
+     "the ground without a break of 50 ms.",
+     kNotLanded, kPhase},
+    {"slide_m", "m", "slide", "Distance of the phase slide: from the end of the bounces to rest, or the end of the run.",
+     kNotLanded, kPhase, true},
+    {"landing_s", "s", "landing",
+     "Time at which hips, head or what joins them first touch the ground after the first touch with a vehicle; of who lay there, "
+     "after "
+     "having been off it for 50 ms. Feet and hands do not count.",
+     kNotLanded, "exact to the step; which part lands first is chaotic", true},
+    {"first_ground_contact_s", "s", "on the ground", "The same as landing_s under its older name.", kNotLanded,
+     "exact to the step; which part lands first is chaotic"},
+    {"rest_s", "s", "rest",
+     "Time from which no part moves faster than 0.05 m/s or 0.3 rad/s for 0.25 s or more until the run ends. Of rider and mount "
+     "each "
+     "its own.",
+     kMoving, "to the recorded interval", true},
+    {"travel_m", "m", "way", "Level distance from start to end of who or what no vehicle touched.", "a person that was struck",
+     kPath, true},
+    {"turned_deg", "deg", "turned", "Angle between the attitudes of a free body at start and end, 0 to 180.", "not a free body",
+     "exact to the step", true},
+    {"rebound_height_m", "m", "rebound", "Height over the ground of a free body's lowest point at the top of its first rebound.",
+     "it does not rebound within the run", "exact to the step", true},
+    {"head_impact_s", "s", "head impact", "Time of the first touch of the head with a vehicle.", kNoHead,
+     "10 to 20 ms between stances; exact to the step", true},
+    {"head_impact_speed_mps", "m/s", "head impact speed",
+     "Speed of the centre of the head relative to the vehicle's surface at the place of that touch, one step before it.", kNoHead,
+     "varies with gait and offset by a fifth", true},
+    {"head_impact_normal_mps", "m/s", "normal", "Part of that velocity along the surface's normal, positive: into it.", kNoHead,
+     "as the speed"},
+    {"head_impact_tangential_mps", "m/s", "tangential", "Part of that velocity along the surface.", kNoHead, "as the speed"},
+    {"head_impact_panel", "", "panel",
+     "What of the vehicle the head touches first: bonnet, windscreen, a_pillar, roof_edge, roof, front, side, side_window, rear, "
+     "rear_window, underside; from the material drawn nearest and the place (scenes/loader/panels.h).",
+     "no vehicle touched the head, or the mesh tells no panels", "on an edge either of two", true},
+    {"head_impact_vehicle_x_m", "m", "x on the vehicle", "Place of that touch in the axes of the vehicle's mesh, forward.", kNoHead,
+     "as wrap-around distance"},
+    {"head_impact_vehicle_y_m", "m", "y on the vehicle", "The same to the left.", kNoHead, "as wrap-around distance"},
+    {"head_impact_vehicle_z_m", "m", "z on the vehicle", "The same upwards from the ground at static ride.", kNoHead,
+     "as wrap-around distance"},
+    {"wrap_around_distance_m", "m", "wrap-around distance",
+     "Length of a taut tape in the vertical fore and aft plane through the head's place of touch: from the ground vertically below "
+     "the "
+     "foremost part over front and bonnet to that place (Euro NCAP, Pedestrian Testing Protocol, wrap around distance).",
+     "the head met no vehicle that came with its front, or a place no tape from the front reaches (flank, underside)",
+     "multibody persons wrap farther than finite-element ones (Fahlstedt et al. 2016)", true},
+    {"hic15", "", "HIC15",
+     "Head injury criterion of the resultant acceleration of the head's centre over windows of 15 ms at most, from the head's "
+     "first "
+     "touch of vehicle or ground on, whatever it touches (49 CFR 571.208 S6.2).",
+     kNoForce, kHic, true},
+    {"hic36", "", "HIC36", "The same over windows of 36 ms at most.", kNoForce, kHic},
+    {"three_ms_g", "g", "3 ms clip", "Largest acceleration of the head that is held for 3 ms without a break, same course.",
+     kNoForce, kHic},
+    {"hic15_vehicle", "", "HIC15 vehicle",
+     "HIC15 of the head's touches of vehicles alone, each from 5 ms before to 5 ms after by itself; the worst of them.", kNoForce,
+     kHic, true},
+    {"three_ms_vehicle_g", "g", "3 ms clip, vehicle", "3 ms clip of the same.", kNoForce, kHic},
+    {"hic15_ground", "", "HIC15 ground", "The same of its touches of the ground alone.", kNoForce,
+     "head against ground is highly variable (Simms and Wood 2005): a cloud, no number", true},
+    {"three_ms_ground_g", "g", "3 ms clip, ground", "3 ms clip of the same.", kNoForce, "as hic15_ground"},
+    {"peak_acceleration_mps2", "m/s^2", "peak acceleration",
+     "Largest acceleration of a part's centre, mean over a step; free fall counts one g.", kNoForce, "grows with stiffness"},
+    {"delta_v_mps", "m/s", "delta-v",
+     "Change of the velocity of the centre of mass in the plane of the road over the collision phase, less what tyres and gravity "
+     "did meanwhile; of "
+     "several phases the largest. Begin and end of the phase as 49 CFR 563.5 says: exchange of more than 0.8 km/h of the lighter "
+     "mass "
+     "within 20 ms, 250 ms at most.",
+     kNoImpact, "published limits of a single delta-v are 9 to 25 % (Smith and Noga)", true},
+    {"pdof_deg", "deg", "PDOF",
+     "Direction that delta-v's force came from in the vehicle's axes just before the phase: 0 from the front, 90 from the right, "
+     "180 "
+     "from behind.",
+     kNoImpact, "with delta-v", true},
+    {"ees_mps", "m/s", "EES",
+     "Energy equivalent speed: speed at which the vehicle has as much kinetic energy as its share of the energy lost in that "
+     "phase. Two "
+     "under the same force share it in inverse proportion to stiffness where the scene tells the stiffnesses apart, else to mass; "
+     "what is fixed has none. impacts.csv names the rule.",
+     "no collision with another vehicle or object", "the energy contains what friction between the two took", true},
+    {"rest_x_m", "m", "rest x", "Place of the vehicle's centre of mass at rest, world x.", kMoving, "to the recorded interval",
+     true},
+    {"rest_y_m", "m", "rest y", "The same, world y.", kMoving, "to the recorded interval", true},
+    {"rest_heading_deg", "deg", "rest heading",
+     "Direction of the vehicle's x axis at rest, counter-clockwise from world x, -180 to 180.", kMoving, "to the recorded interval",
+     true},
+    {"path_m", "m", "path", "Length of the level path of the vehicle's centre of mass over the run.", "never",
+     "to the recorded interval"},
+    {"nearest_approach_m", "m", "nearest approach",
+     "In a run in which no vehicle touches anybody: least distance of a part of a person and a vehicle's surface; without persons, "
+     "of "
+     "two vehicles' convex outlines seen from above.",
+     "a vehicle touched a person or vehicle, or there are no two", "to the recorded interval", true},
+    {"nearest_approach_s", "s", "nearest approach", "Time of that.", "as nearest_approach_m", "to the recorded interval", true},
+};
+
+}  // namespace
+
+std::span<const Definition> definitions() {
+  return kDefinitions;
+}
+
+const Definition* definition_of(const std::string& key) {
+  const auto at = std::find_if(std::begin(kDefinitions), std::end(kDefinitions), [&](const Definition& d) { return d.key == key; });
+  return at == std::end(kDefinitions) ? nullptr : &*at;
+}
+
+}  // namespace engine

@@ -1,0 +1,221 @@
+#include "engine/measure/impacts.h"
+#include "engine/math/functions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace engine {
+namespace {
+
+constexpr double kWindow = 0.02;       // [s] 49 CFR 563.5, end of event time
+constexpr double kChange = 0.8 / 3.6;  // [m/s] in that window: 0.8 km/h
+constexpr double kLongest = 0.25;      // [s] 49 CFR 563.7, delta-v is recorded from 0 to 250 ms
+constexpr double kShareOfMost = 0.1;   // [-] of a pair's strongest window, where none reaches the bound
+
+/// Two parties that touch, named by the first body of each.
+struct Pair {
+  Party a, b;
+};
+
+bool counts(const Model& model, const ContactRecord& c) {
+  if (c.kind != ContactKind::vehicle && c.kind != ContactKind::vehicle_pair) return false;
+  return c.body_b >= 0 && (model.bodies[c.body_a].vehicle >= 0 || model.bodies[c.body_b].vehicle >= 0);
+}
+
+bool between(const Pair& pair, const ContactRecord& c) {
+  return (holds(pair.a, c.body_a) && holds(pair.b, c.body_b)) || (holds(pair.a, c.body_b) && holds(pair.b, c.body_a));
+}
+
+std::vector<Pair> pairs_of(const Model& model, const Recording& recording) {
+  std::map<std::pair<int, int>, Pair> pairs;
+  for (const Snapshot& s : recording.snapshots)
+    for (const ContactRecord& c : s.contacts) {
+      if (!counts(model, c) || c.impulse.isZero(0)) continue;
+      Party a = party_of(model, c.body_a), b = party_of(model, c.body_b);
+      // the vehicle of lower number first; a vehicle before what it strikes
+      if (b.vehicle >= 0 && (a.vehicle < 0 || b.bodies.front() < a.bodies.front())) std::swap(a, b);
+      pairs.try_emplace({a.bodies.front(), b.bodies.front()}, Pair{a, b});
+    }
+  std::vector<Pair> out;
+  for (auto& [key, pair] : pairs) out.push_back(std::move(pair));
+  return out;
+}
+
+/// First and last snapshot whose contacts belong to a phase.
+struct Stretch {
+  std::size_t first = 0, last = 0;
+};
+
+/// Impulse [N s] on a since the snapshot before, per snapshot.
+std::vector<Vec3> pushes(const Recording& recording, const Pair& pair) {
+  std::vector<Vec3> out;
+  for (const Snapshot& s : recording.snapshots) {
+    Vec3 sum = Vec3::Zero();
+    for (const ContactRecord& c : s.contacts)
+      if (between(pair, c)) sum += push_on(pair.a, c);
+    out.push_back(sum);
+  }
+  return out;
+}
+
+std::vector<Stretch> stretches(const Recording& recording, const std::vector<Vec3>& push, double bound) {
+  const std::size_t n = push.size();
+  // what is exchanged from each snapshot on within the window
+  std::vector<double> within(n, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    Vec3 sum = push[i];
+    for (std::size_t k = i + 1; k < n && recording.snapshots[k].time - recording.snapshots[i].time < kWindow - 1e-9; ++k)
+      sum += push[k];
+    within[i] = sum.norm();
+  }
+  const double most = n == 0 ? 0 : *std::max_element(within.begin(), within.end());
+  if (most < bound) bound = kShareOfMost * most;
+  std::vector<Stretch> out;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!(within[i] > bound) || push[i].isZero(0)) continue;
+    Stretch s{i, i};
+    const double begin = recording.snapshots[i].time;
+    const auto time = [&](std::size_t k) { return recording.snapshots[k].time; };
+    // on to the last instant from which enough is exchanged, over lulls no longer than the window
+    for (std::size_t k = i + 1; k < n && time(k) - time(i) <= kWindow + 1e-9 && time(k) - begin <= kLongest; ++k)
+      if (within[k] > bound) i = k;
+    // the last window of the phase is part of it
+    const double last = std::min(time(i) + kWindow, begin + kLongest);
+    for (s.last = i; s.last + 1 < n && time(s.last + 1) < last - 1e-9;) ++s.last;
+    while (s.last > s.first && push[s.last].isZero(0)) --s.last;
+    // what goes on pressing, dragging or carrying beyond that is no further collision
+    while (i + 1 < n && within[i + 1] > bound) ++i;
+    i = std::max(i, s.last);
+    out.push_back(s);
+  }
+  return out;
+}
+
+/// Velocity [m/s] of the party's point at `p`, or of its centre of mass where it has many parts.
+Vec3 velocity_at(const Model& model, const Party& party, const Snapshot& s, const Vec3& p) {
+  if (party.bodies.size() > 1) return velocity_of(model, party, s);
+  const BodyState& body = s.bodies[party.bodies.front()];
+  return body.V_WB.v + body.V_WB.w.cross(p - body.X_WB.p);
+}
+
+ImpactSide side_of(const Model& model, const Recording& recording, const Party& party, const Stretch& span) {
+  const auto& all = recording.snapshots;
+  const Snapshot &before = all[span.first > 0 ? span.first - 1 : 0], &after = all[span.last];
+  ImpactSide side;
+  side.party = party;
+  side.name = party.person >= 0 ? model.persons[party.person].name : model.bodies[party.bodies.front()].name;
+  const Vec3 v0 = velocity_of(model, party, before), v1 = velocity_of(model, party, after);
+  side.speed_before = v0.norm();
+  side.speed_after = v1.norm();
+  const int root = party.bodies.front();
+  side.yaw_rate_before = before.bodies[root].V_WB.w.z();
+  side.yaw_rate_after = after.bodies[root].V_WB.w.z();
+  if (model.bodies[root].fixed) return side;
+  side.delta_v = v1 - v0 - model.settings.gravity * (after.time - before.time);
+  if (party.vehicle < 0) return side;
+  for (std::size_t i = span.first; i <= span.last; ++i)
+    if (party.vehicle < static_cast<int>(all[i].tyre_impulse.size()))
+      side.delta_v -= all[i].tyre_impulse[party.vehicle] / model.bodies[root].mass;
+  side.delta_v.z() = 0;  // as the field counts it: in the plane of the road
+  Vec3 push = before.bodies[root].X_WB.q.conjugate() * side.delta_v;
+  if (push.norm() < 1e-9) return side;
+  if (std::abs(push.y()) < 1e-6 * push.norm()) push.y() = 0;  // square from behind is 180 deg, not now and then -180
+  side.pdof = math::atan2(push.y(), -push.x()) * 180 / std::numbers::pi;
+  return side;
+}
+
+/// The two are pressed together by the same force: each takes up energy as it gives way, in inverse proportion to stiffness. Where
+/// nobody has told their stiffnesses apart they go with the masses, as crash tests of cars of all classes show on the whole.
+void share_energy(const Model& model, double time, Impact& impact) {
+  const int a = impact.a.party.bodies.front(), b = impact.b.party.bodies.front();
+  const Body &A = model.bodies[a], &B = model.bodies[b];
+  if (impact.a.party.person >= 0 || impact.b.party.person >= 0 || !(impact.energy_lost > 0)) return;
+  const double S_a = A.surface.stiffness.at(time), S_b = B.surface.stiffness.at(time);
+  double of_a = B.mass / (A.mass + B.mass);
+  impact.ees_rule = "by mass";
+  if (S_a != S_b) of_a = S_b / (S_a + S_b), impact.ees_rule = "by stiffness";
+  if (A.fixed || B.fixed) of_a = A.fixed ? 0 : 1, impact.ees_rule = "all to the one that moves";
+  const auto speed = [&](double share, double mass) { return std::sqrt(2 * share * impact.energy_lost / mass); };
+  if (impact.a.party.vehicle >= 0 && !A.fixed) impact.a.ees = speed(of_a, A.mass);
+  if (impact.b.party.vehicle >= 0 && !B.fixed) impact.b.ees = speed(1 - of_a, B.mass);
+}
+
+/// Point, plane, impulse and energy from the contacts of the phase; returns when the first of them began.
+double sum_contacts(const Recording& recording, const Pair& pair, const Stretch& span, Impact& out) {
+  Vec3 place = Vec3::Zero(), normal = Vec3::Zero();
+  double weight = 0, first = recording.snapshots[span.first].time;
+  for (std::size_t i = span.first; i <= span.last; ++i)
+    for (const ContactRecord& c : recording.snapshots[i].contacts) {
+      if (!between(pair, c) || c.impulse.isZero(0)) continue;
+      const double amount = c.impulse.norm();
+      place += amount * c.point;
+      weight += amount;
+      normal += (holds(pair.a, c.body_a) ? 1 : -1) * c.normal_impulse * c.normal;
+      out.impulse += push_on(pair.a, c);
+      out.energy_lost += c.energy_lost;
+      first = std::min(first, c.begun);
+    }
+  if (weight > 0) out.point = place / weight;
+  if (normal.norm() > 0) out.normal = normal.normalized();
+  return std::max(first, span.first > 0 ? recording.snapshots[span.first - 1].time : 0.0);
+}
+
+double friction_of(const Model& model, const Pair& pair, const ContactRecord& c, double time, bool by_kudlich_slibar) {
+  if (by_kudlich_slibar)
+    for (const ImpactSettings& s : model.impacts)
+      if (s.friction && between(pair, {.body_a = s.body_a, .body_b = s.body_b})) return *s.friction;
+  const auto mu = [&](int body) { return model.bodies[body].surface.friction_body.at(time); };
+  return std::min(mu(c.body_a), mu(c.body_b));
+}
+
+const char* law_of(const Model& model, const Pair& pair, const ContactRecord& c) {
+  const Body &A = model.bodies[c.body_a], &B = model.bodies[c.body_b];
+  const bool meshes = c.kind == ContactKind::vehicle_pair;
+  if (meshes && model_between(A.collision_model, B.collision_model) == CollisionModel::kudlich_slibar) return "kudlich_slibar";
+  const bool person = pair.a.person >= 0 || pair.b.person >= 0;
+  return yields(model.settings.contact_law, person) ? "compliant" : "default_auto";
+}
+
+Impact impact_of(const Model& model, const Recording& recording, const Pair& pair, const Stretch& span) {
+  Impact out;
+  out.time = sum_contacts(recording, pair, span, out);
+  const Snapshot &before = recording.snapshots[span.first > 0 ? span.first - 1 : 0], &after = recording.snapshots[span.last];
+  out.duration = after.time - out.time;
+  out.a = side_of(model, recording, pair.a, span);
+  out.b = side_of(model, recording, pair.b, span);
+  const Vec3 u = velocity_at(model, pair.a, before, out.point) - velocity_at(model, pair.b, before, out.point);
+  out.closing_speed = -u.dot(out.normal);
+  const double pressed = out.impulse.dot(out.normal);
+  if (pressed > 0) out.friction_used = (out.impulse - pressed * out.normal).norm() / pressed;
+  for (const ContactRecord& c : recording.snapshots[span.first].contacts) {
+    if (!between(pair, c) || c.impulse.isZero(0)) continue;
+    out.law = law_of(model, pair, c);
+    out.friction_limit = friction_of(model, pair, c, out.time, out.law == std::string("kudlich_slibar"));
+    break;
+  }
+  share_energy(model, out.time, out);
+  return out;
+}
+
+}  // namespace
+
+std::vector<Impact> impacts_of(const Model& model, const Recording& recording) {
+  std::vector<Impact> out;
+  for (const Pair& pair : pairs_of(model, recording)) {
+    double lighter = 1e300;
+    for (const Party* party : {&pair.a, &pair.b})
+      if (!model.bodies[party->bodies.front()].fixed) lighter = std::min(lighter, mass_of(model, *party));
+    int phase = 0;
+    for (const Stretch& span : stretches(recording, pushes(recording, pair), kChange * lighter)) {
+      out.push_back(impact_of(model, recording, pair, span));
+      out.back().phase = ++phase;
+    }
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Impact& a, const Impact& b) { return a.time < b.time; });
+  return out;
+}
+
+}  // namespace engine

@@ -1,0 +1,47 @@
+// The table of impacts: one row a collision phase of a vehicle with a vehicle, a person or an object.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "engine/measure/parties.h"
+
+namespace engine {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  // what a row cannot say
+
+/// What one of the two did.
+struct ImpactSide {
+  Party party;
+  std::string name;
+  double speed_before = kUnknown, speed_after = kUnknown;        // [m/s] of the centre of mass
+  double yaw_rate_before = kUnknown, yaw_rate_after = kUnknown;  // [rad/s] about the vertical
+  Vec3 delta_v = Vec3::Zero();  // [m/s] world: change of velocity in the phase less what tyres and gravity did meanwhile
+  double pdof = kUnknown;       // [deg] vehicles only
+  double ees = kUnknown;        // [m/s] vehicles only
+};
+
+/// One collision phase. It begins with the first touch of a stretch in which the two exchange more than 0.8 km/h times the lighter
+/// mass within 20 ms, and ends when they no longer do, after 250 ms at most (49 CFR 563.5 and 563.7, which define the event and the
+/// delta-v of event data recorders so). Two that never exchange as much have one phase of a tenth of the most they do.
+struct Impact {
+  int phase = 1;        // of this pair, from 1
+  double time = 0;      // [s] first touch
+  double duration = 0;  // [s]
+  ImpactSide a, b;
+  const char* law = "";              // "kudlich_slibar", "default_auto", "compliant"
+  Vec3 point = Vec3::Zero();         // [m] world, mean by impulse
+  Vec3 normal = Vec3::UnitZ();       // unit, from b to a: of the contact plane, mean by impulse
+  double closing_speed = kUnknown;   // [m/s] along the normal at the point, before
+  Vec3 impulse = Vec3::Zero();       // [N s] on a, world
+  double friction_used = kUnknown;   // [-] tangential over normal impulse
+  double friction_limit = kUnknown;  // [-] coefficient of the pair
+  double energy_lost = 0;            // [J] deformation and friction between the two
+  const char* ees_rule = "";         // how that was shared: "by stiffness", "by mass", "all to the one that moves"
+};
+
+/// In order of time.
+std::vector<Impact> impacts_of(const Model&, const Recording&);
+
+}  // namespace engine

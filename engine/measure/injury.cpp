@@ -1,0 +1,136 @@
+// Head injury criteria, of the whole course and of what the head did against each partner.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/math/functions.h"
+#include "engine/measure/metrics.h"
+#include "engine/measure/parties.h"
+
+namespace engine {
+
+double hic(const std::vector<double>& t, const std::vector<double>& a, double window) {
+  // integral by the trapezium rule, exact for a piecewise linear signal; then every pair of samples
+  std::vector<double> sum(t.size(), 0);
+  for (std::size_t i = 1; i < t.size(); ++i) sum[i] = sum[i - 1] + 0.5 * (a[i] + a[i - 1]) * (t[i] - t[i - 1]);
+  double best = 0;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    for (std::size_t k = i + 1; k < t.size() && t[k] - t[i] <= window * (1 + 1e-9); ++k) {
+      const double span = t[k] - t[i];
+      const double mean = (sum[k] - sum[i]) / span;
+      if (mean > 0) best = std::max(best, span * math::pow(mean, 2.5));
+    }
+  return best;
+}
+
+double three_ms_clip(const std::vector<double>& t, const std::vector<double>& a) {
+  constexpr double kHeld = 3e-3;  // [s]
+  // longest stretch above a level, by bisection on the level
+  auto longest_above = [&](double level) {
+    double longest = 0, begin = 0;
+    bool above = !a.empty() && a[0] >= level;
+    if (above) begin = t[0];
+    for (std::size_t i = 1; i < t.size(); ++i) {
+      const bool now = a[i] >= level;
+      const double crossing = now == above ? 0 : t[i - 1] + (level - a[i - 1]) / (a[i] - a[i - 1]) * (t[i] - t[i - 1]);
+      if (now && !above) begin = crossing;
+      if (!now && above) longest = std::max(longest, crossing - begin);
+      above = now;
+    }
+    if (above && !t.empty()) longest = std::max(longest, t.back() - begin);
+    return longest;
+  };
+  double low = 0, high = a.empty() ? 0 : *std::max_element(a.begin(), a.end());
+  if (longest_above(low) < kHeld) return 0;
+  for (int k = 0; k < 60; ++k) {
+    const double level = 0.5 * (low + high);
+    (longest_above(level) >= kHeld ? low : high) = level;
+  }
+  return low;
+}
+
+namespace {
+
+/// A stretch of the head's course, in g.
+struct Course {
+  std::vector<double> time, acceleration;
+};
+
+struct Span {
+  double from = 0, to = 0;  // [s]
+};
+
+constexpr double kAround = 0.005;  // [s] kept before and after a touch: windows may begin and end where nothing acts
+
+/// Times at which the head is pushed by a partner of the wanted kind, neighbours run together.
+std::vector<Span> touches(const Recording& recording, int head, bool ground) {
+  std::vector<Span> out;
+  for (std::size_t i = 1; i < recording.snapshots.size(); ++i) {
+    const Snapshot& s = recording.snapshots[i];
+    const bool touched = std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
+      const bool wanted = ground ? is_ground(c) : c.kind == ContactKind::vehicle;
+      return wanted && c.body_a == head && c.normal_impulse > 0;
+    });
+    if (!touched) continue;
+    const double from = recording.snapshots[i - 1].time - kAround, to = s.time + kAround;
+    if (!out.empty() && from <= out.back().to)
+      out.back().to = to;
+    else
+      out.push_back({from, to});
+  }
+  return out;
+}
+
+Course course_in(const HeadMotion& head, const Span& span) {
+  Course out;
+  for (std::size_t i = 0; i < head.time.size(); ++i) {
+    if (head.time[i] < span.from || head.time[i] > span.to) continue;
+    out.time.push_back(head.time[i]);
+    out.acceleration.push_back(head.acceleration[i] / kGravity);
+  }
+  return out;
+}
+
+struct Criteria {
+  double hic15 = 0, hic36 = 0, clip = 0;
+  bool any = false;
+};
+
+/// The worst of several stretches, each by itself.
+Criteria criteria(const HeadMotion& head, const std::vector<Span>& spans) {
+  Criteria out;
+  for (const Span& span : spans) {
+    const Course c = course_in(head, span);
+    if (c.time.size() < 2) continue;
+    out.any = true;
+    out.hic15 = std::max(out.hic15, hic(c.time, c.acceleration, 0.015));
+    out.hic36 = std::max(out.hic36, hic(c.time, c.acceleration, 0.036));
+    out.clip = std::max(out.clip, three_ms_clip(c.time, c.acceleration));
+  }
+  return out;
+}
+
+}  // namespace
+
+void measure_injury(const Model& model, const Recording& recording, int p, std::vector<Metric>& out) {
+  const Person& person = model.persons[p];
+  for (const HeadMotion& head : recording.heads) {
+    if (head.person != p) continue;
+    const std::vector<Span> car = touches(recording, person.head, false), road = touches(recording, person.head, true);
+    if (car.empty() && road.empty()) return;
+    const double first = std::min(car.empty() ? 1e300 : car.front().from, road.empty() ? 1e300 : road.front().from);
+    const Criteria whole = criteria(head, {{first, 1e300}}), vehicle = criteria(head, car), ground = criteria(head, road);
+    out.push_back({"hic15", person.name, whole.hic15});
+    out.push_back({"hic36", person.name, whole.hic36});
+    out.push_back({"three_ms_g", person.name, whole.clip});
+    if (vehicle.any) {
+      out.push_back({"hic15_vehicle", person.name, vehicle.hic15});
+      out.push_back({"three_ms_vehicle_g", person.name, vehicle.clip});
+    }
+    if (ground.any) {
+      out.push_back({"hic15_ground", person.name, ground.hic15});
+      out.push_back({"three_ms_ground_g", person.name, ground.clip});
+    }
+  }
+}
+
+}  // namespace engine

@@ -1,0 +1,81 @@
+#include "engine/measure/parties.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace engine {
+
+Party party_of(const Model& model, int body) {
+  const Body& it = model.bodies[body];
+  Party party;
+  party.vehicle = it.vehicle;
+  party.person = it.vehicle >= 0 ? -1 : it.person;
+  party.bodies = party.person >= 0 ? model.persons[party.person].bodies : std::vector<int>{body};
+  return party;
+}
+
+bool holds(const Party& party, int body) {
+  return std::find(party.bodies.begin(), party.bodies.end(), body) != party.bodies.end();
+}
+
+double mass_of(const Model& model, const Party& party) {
+  double mass = 0;
+  for (const int b : party.bodies) mass += model.bodies[b].mass;
+  return mass;
+}
+
+Vec3 centre_of_mass(const Model& model, const Party& party, const Snapshot& s) {
+  Vec3 sum = Vec3::Zero();
+  for (const int b : party.bodies) sum += model.bodies[b].mass * s.bodies[b].X_WB.p;
+  return sum / mass_of(model, party);
+}
+
+Vec3 velocity_of(const Model& model, const Party& party, const Snapshot& s) {
+  Vec3 sum = Vec3::Zero();
+  for (const int b : party.bodies) sum += model.bodies[b].mass * s.bodies[b].V_WB.v;
+  return sum / mass_of(model, party);
+}
+
+std::vector<int> trunk_of(const Model& model, int p) {
+  const Person& person = model.persons[p];
+  std::vector<int> trunk;
+  const auto add = [&trunk](int b) {
+    if (b >= 0 && std::find(trunk.begin(), trunk.end(), b) == trunk.end()) trunk.push_back(b);
+  };
+  add(person.hips);
+  add(person.torso);
+  // from the head downwards, joint by joint, to the root
+  for (int b = person.head; b >= 0 && b != person.hips;) {
+    add(b);
+    const auto above =
+        std::find_if(model.joints.begin(), model.joints.end(), [b](const Joint& j) { return j.child == b && j.parent >= 0; });
+    b = above == model.joints.end() ? -1 : above->parent;
+  }
+  return trunk;
+}
+
+std::optional<double> rest_of(const Model& model, const Recording& recording, const Party& party) {
+  // a trailer rests with what tows it: what is joined for good has one rest, named by one of its bodies
+  std::vector<int> joined = party.bodies;
+  for (std::size_t i = 0; i < joined.size(); ++i)
+    for (const Joint& j : model.joints) {
+      if (std::isfinite(j.breaking_force) || j.parent < 0 || (j.parent != joined[i] && j.child != joined[i])) continue;
+      const int other = j.parent == joined[i] ? j.child : j.parent;
+      if (std::find(joined.begin(), joined.end(), other) == joined.end()) joined.push_back(other);
+    }
+  for (const Event& e : recording.events)
+    if (e.kind == "rest" && std::find(joined.begin(), joined.end(), e.body_a) != joined.end()) return e.time;
+  return std::nullopt;
+}
+
+Vec3 push_on(const Party& party, const ContactRecord& c) {
+  const bool a = holds(party, c.body_a), b = c.body_b >= 0 && holds(party, c.body_b);
+  if (a == b) return Vec3::Zero();
+  return a ? c.impulse : Vec3(-c.impulse);
+}
+
+bool is_ground(const ContactRecord& c) {
+  return c.kind == ContactKind::ground || c.kind == ContactKind::terrain;
+}
+
+}  // namespace engine

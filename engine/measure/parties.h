@@ -1,0 +1,39 @@
+// Who takes part in an accident, as measures count them: a vehicle, a person with all its parts, a free body.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/model/model.h"
+#include "engine/recording.h"
+
+namespace engine {
+
+/// One of them; `bodies` are those whose masses and motions are its own. What a person rides is a vehicle by itself.
+struct Party {
+  int person = -1;
+  int vehicle = -1;
+  std::vector<int> bodies;  // root first
+};
+
+/// The party a body belongs to; the body alone where it is nobody's part.
+Party party_of(const Model&, int body);
+
+bool holds(const Party&, int body);
+
+double mass_of(const Model&, const Party&);
+Vec3 centre_of_mass(const Model&, const Party&, const Snapshot&);
+Vec3 velocity_of(const Model&, const Party&, const Snapshot&);
+
+/// Hips, head and the parts that join them; of a person without a head hips and torso.
+std::vector<int> trunk_of(const Model&, int person);
+
+/// When it came to rest for good, if it did within the run: its own bodies, not what it rode or what rode it.
+std::optional<double> rest_of(const Model&, const Recording&, const Party&);
+
+/// A push of a contact on the party, zero where it has no part in it; contacts within the party count for nothing.
+Vec3 push_on(const Party&, const ContactRecord&);
+
+bool is_ground(const ContactRecord&);
+
+}  // namespace engine

@@ -1,0 +1,170 @@
+#include "engine/measure/phases.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace engine {
+namespace {
+
+constexpr double kBreak = 0.05;  // [s] that long off the ground is a flight or a bounce, less is rolling over an edge
+
+struct Touch {
+  double time = 0;
+  int other = -1;  // body
+};
+
+/// First push between the party and a vehicle or mesh that is neither its rider nor its mount.
+std::optional<Touch> first_touch(const Model& model, const Recording& recording, const Party& party) {
+  const auto own = [&](int b) {
+    return b >= 0 && std::any_of(party.bodies.begin(), party.bodies.end(), [&](int own_body) {
+             return model.bodies[b].person >= 0 && model.bodies[b].person == model.bodies[own_body].person;
+           });
+  };
+  for (const Event& e : recording.events)
+    if (e.kind == "first_contact" && holds(party, e.body_a)) return Touch{e.time, e.body_b};
+  for (const Snapshot& s : recording.snapshots) {
+    std::optional<Touch> first;
+    for (const ContactRecord& c : s.contacts) {
+      if ((c.kind != ContactKind::vehicle && c.kind != ContactKind::vehicle_pair) || push_on(party, c).isZero(0)) continue;
+      const int other = holds(party, c.body_a) ? c.body_b : c.body_a;
+      if (!own(other) && (!first || c.begun < first->time)) first = Touch{c.begun, other};
+    }
+    if (first) return first;
+  }
+  return std::nullopt;
+}
+
+bool pushed_by_vehicle(const Party& party, const Snapshot& s) {
+  return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
+    return c.kind == ContactKind::vehicle && c.normal_impulse > 0 && !push_on(party, c).isZero(0);
+  });
+}
+
+bool on_ground(const Party& party, const Snapshot& s) {
+  return std::any_of(s.contacts.begin(), s.contacts.end(),
+                     [&](const ContactRecord& c) { return is_ground(c) && c.normal_impulse > 0 && holds(party, c.body_a); });
+}
+
+/// Level direction of the faster of the vehicle that touched first and of what the person rides, as they go at the touch.
+Vec3 heading_of(const Model& model, const Snapshot& s, int struck_by, int mount) {
+  int body = struck_by;
+  const auto speed = [&](int b) { return b < 0 ? -1.0 : s.bodies[b].V_WB.v.norm(); };
+  if (speed(mount) > speed(struck_by)) body = mount;
+  Vec3 heading = body < 0 ? Vec3(Vec3::UnitX()) : Vec3(s.bodies[body].X_WB.q * Vec3::UnitX());
+  // a barrier has no heading: what runs against it has
+  if (body >= 0 && model.bodies[body].vehicle < 0 && mount >= 0) heading = s.bodies[mount].X_WB.q * Vec3::UnitX();
+  heading.z() = 0;
+  return heading.norm() > 1e-6 ? Vec3(heading.normalized()) : Vec3(Vec3::UnitX());
+}
+
+/// First instant from `from` to `to` at which the party goes along the throw as fast as the vehicle does.
+std::optional<double> as_fast(const Model& model, const Recording& recording, const Party& party, const Throw& t, double to) {
+  if (t.vehicle < 0 || model.bodies[t.vehicle].fixed) return std::nullopt;
+  const auto faster = [&](const Snapshot& s) {
+    return velocity_of(model, party, s).dot(t.along) >= s.bodies[t.vehicle].V_WB.v.dot(t.along);
+  };
+  bool slower = false;  // who was as fast before, a rider that runs into the vehicle, is not taken along by it
+  for (const Snapshot& s : recording.snapshots) {
+    if (s.time >= to) break;
+    if (s.time <= t.hit)
+      slower = !faster(s);
+    else if (slower && faster(s))
+      return s.time;
+  }
+  return std::nullopt;
+}
+
+/// Whether neither ground nor vehicle touched the party for a break's time between two instants.
+bool flew_between(const Recording& recording, const Party& party, double from, double to) {
+  double since = from;
+  for (const Snapshot& s : recording.snapshots) {
+    if (s.time <= from || s.time > to) continue;
+    if (s.time - since >= kBreak) return true;
+    if (on_ground(party, s) || pushed_by_vehicle(party, s)) since = s.time;
+  }
+  return to - since >= kBreak;
+}
+
+/// When it had stopped bouncing: it touches the ground from there on without a break.
+double settled_after(const Recording& recording, const Party& party, double landed, double end) {
+  double settled = landed, last = landed;
+  for (const Snapshot& s : recording.snapshots) {
+    if (s.time <= landed || s.time > end || !on_ground(party, s)) continue;
+    if (s.time - last > kBreak) settled = s.time;
+    last = s.time;
+  }
+  return settled;
+}
+
+void add_phases(const Model& model, const Recording& recording, const Party& party, Throw& t) {
+  const double off = t.separated.value_or(t.end);
+  const std::optional<double> carried = as_fast(model, recording, party, t, off);
+  std::vector<std::pair<const char*, double>> begins{{"contact", t.hit}};
+  if (carried) begins.emplace_back("carried", *carried);
+  if (t.landed) {
+    if (t.flew) begins.emplace_back("flight", off);
+    begins.emplace_back("landing", t.flew ? *t.landed : off);
+    begins.emplace_back("slide", settled_after(recording, party, *t.landed, t.end));
+  }
+  if (t.rest) begins.emplace_back("rest", *t.rest);
+  const double length = t.thrown.norm();
+  const Vec3 line = length > 0 ? Vec3(t.thrown / length) : t.along;
+  const auto place = [&](double time) { return centre_of_mass(model, party, recording.at(time)); };
+  for (std::size_t i = 0; i < begins.size(); ++i) {
+    const bool last = i + 1 == begins.size();
+    const double from = begins[i].second, to = last ? std::max(from, t.end) : begins[i + 1].second;
+    const Vec3 start = place(from);
+    t.phases.push_back({begins[i].first, from, to, start, line.dot(place(to) - start)});
+  }
+}
+
+Throw thrown_from(const Model& model, const Recording& recording, const Party& party, const Touch& touch, int mount) {
+  Throw t;
+  t.hit = touch.time;
+  t.vehicle = touch.other;
+  t.rest = rest_of(model, recording, party);
+  if (t.rest && *t.rest < t.hit) t.rest.reset();
+  t.end = t.rest.value_or(recording.end_time());
+  const Snapshot at_hit = recording.at(t.hit);
+  t.along = heading_of(model, at_hit, touch.other, mount);
+  t.thrown = centre_of_mass(model, party, recording.at(t.end)) - centre_of_mass(model, party, at_hit);
+  t.thrown.z() = 0;
+  return t;
+}
+
+}  // namespace
+
+std::optional<Throw> throw_of_person(const Model& model, const Recording& recording, int p) {
+  const Person& person = model.persons[p];
+  const Party party{p, -1, person.bodies};
+  std::optional<Touch> touch = first_touch(model, recording, party);
+  if (person.mount >= 0) {
+    const auto of_mount = first_touch(model, recording, party_of(model, person.mount));
+    if (of_mount && (!touch || of_mount->time < touch->time)) touch = of_mount;
+  }
+  if (!touch) return std::nullopt;
+  Throw t = thrown_from(model, recording, party, *touch, person.mount);
+  for (const Event& e : recording.events)
+    if (e.kind == "ground_contact" && !t.landed && holds(party, e.body_a) && e.time >= t.hit && e.time <= t.end) t.landed = e.time;
+  for (const Snapshot& s : recording.snapshots) {
+    if (s.time < t.hit) continue;
+    if (pushed_by_vehicle(party, s)) t.separated = std::min(s.time, t.landed.value_or(t.end));
+    if (s.time >= t.landed.value_or(t.end)) break;
+  }
+  // a rider that nothing but its mount was struck with leaves with that blow
+  if (!t.separated && t.landed) t.separated = t.hit;
+  t.flew = t.landed && flew_between(recording, party, *t.separated, *t.landed);
+  add_phases(model, recording, party, t);
+  return t;
+}
+
+std::optional<Throw> throw_of_mount(const Model& model, const Recording& recording, int p) {
+  const int mount = model.persons[p].mount;
+  if (mount < 0) return std::nullopt;
+  const Party party = party_of(model, mount);
+  const auto touch = first_touch(model, recording, party);
+  if (!touch) return std::nullopt;
+  return thrown_from(model, recording, party, *touch, mount);
+}
+
+}  // namespace engine
