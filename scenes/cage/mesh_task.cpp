@@ -9,6 +9,7 @@
 #include <assimp/Importer.hpp>
 #include <cstdint>
 #include <cstring>
+#include <new>
 #include <vector>
 
 #include "scenes/cage/files.h"
@@ -101,7 +102,9 @@ std::string mesh(const std::string& name) {
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType |
                                                      aiProcess_GenSmoothNormals | aiProcess_PreTransformVertices);
-  if (!scene) return "E" + std::string(importer.GetErrorString());
+  const std::string why = scene ? "" : importer.GetErrorString();
+  if (why.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // the importer catches it and keeps its name
+  if (!scene) return "E" + why;
   if (scene->mNumMeshes == 0) return "Ethe file has no triangles";
   std::string out = "M";
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {

@@ -146,12 +146,12 @@ struct WordsHash {
 /// Equal places get equal numbers, in whichever part and however often they stand there.
 class PlaceNumbers {
  public:
+  explicit PlaceNumbers(std::size_t most) { numbers_.reserve(most); }
   std::vector<std::uint32_t> of(const std::vector<float>& positions) {
     std::vector<std::uint32_t> out;
     out.reserve(positions.size() / 3);
-    numbers_.reserve(numbers_.size() + positions.size() / 3);
     for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
-      std::array<std::uint32_t, 3> bits;
+      std::array<std::uint32_t, 3> bits{};
       // zero has two signs, and is one place
       for (std::size_t k = 0; k < 3; ++k) bits[k] = std::bit_cast<std::uint32_t>(positions[i + k] + 0.0f);
       out.push_back(numbers_.try_emplace(bits, static_cast<std::uint32_t>(numbers_.size())).first->second);
@@ -171,11 +171,16 @@ std::vector<std::string> audit(const std::vector<RawPart>& parts, const std::str
   double volume = 0, area = 0;
   engine::Vec3 facing = engine::Vec3::Zero();  // sum of area vectors: nothing for a closed surface
   engine::Aabb box;
-  PlaceNumbers places;
+  std::size_t corners = 0, triangles = 0;
+  for (const RawPart& part : parts) {
+    corners += part.positions.size() / 3;
+    triangles += part.indices.size() / 3;
+  }
+  PlaceNumbers places(corners);
   std::unordered_set<std::array<std::uint32_t, 3>, WordsHash> seen;
+  seen.reserve(triangles);
   for (const RawPart& part : parts) {
     const std::vector<std::uint32_t> number = places.of(part.positions);
-    seen.reserve(seen.size() + part.indices.size() / 3);
     const auto corner = [&](std::uint32_t i) {
       return std::array<float, 3>{part.positions[3 * i], part.positions[3 * i + 1], part.positions[3 * i + 2]};
     };

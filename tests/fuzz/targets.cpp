@@ -66,7 +66,8 @@ std::string with_checksums(std::string_view bytes) {
   return out;
 }
 
-constexpr Target kTargets[] = {{"scene", scene}, {"quantity", quantity}, {"frames", frames}, {"png", png}, {"mesh", mesh}};
+constexpr Target kTargets[] = {{"scene", scene}, {"quantity", quantity}, {"frames", frames},
+                               {"png", png},     {"mesh", mesh},         {"cage", cage}};
 
 }  // namespace
 
@@ -126,6 +127,19 @@ void png(std::string_view bytes) {
            "a picture has four bytes a pixel");
   } catch (const render::RenderError&) {
   }
+}
+
+void cage(std::string_view bytes) {
+  // what a worker says that somebody has taken over
+  const scenes::CageResult found = scenes::unpacked(std::string(bytes));
+  demand(found.problem.empty() || found.parts.empty(), "a message that is refused brings nothing");
+  for (const scenes::RawPart& part : found.parts) {
+    demand(part.normals.empty() || part.normals.size() == part.positions.size(), "a normal for each corner, or none");
+    for (const std::uint32_t i : part.indices) demand(3 * std::size_t{i} + 2 < part.positions.size(), "corners that are there");
+    for (const float value : {part.colour[0], part.colour[1], part.colour[2], part.opacity})
+      demand(value >= 0 && value <= 1, "colours between black and white");
+  }
+  scenes::audit(found.parts, "m");
 }
 
 void mesh(std::string_view bytes) {

@@ -15,6 +15,7 @@ void quantity(std::string_view);
 void frames(std::string_view);
 void png(std::string_view);
 void mesh(std::string_view);
+void cage(std::string_view);
 
 struct Target {
   const char* name;
