@@ -39,6 +39,7 @@ StepContext::StepContext(World& w, State& s, StepBuffers& b, double h)
 
 Vec3 row_velocity(const Constraint& c, const std::vector<Twist>& V_WB) {
   Vec3 u = Vec3::Zero();
+  // columns first: rows would be summed in another order, and every recording would change in its last bits
   auto add = [&](int body, const Eigen::Matrix<double, 3, 6>& J) {
     if (body < 0) return;
     const Twist& V = V_WB[body];

@@ -147,6 +147,9 @@ std::vector<std::string> undefined_bits(const std::string& file, const std::stri
     const std::string code = line.substr(0, line.find("//"));
     if (std::regex_search(code, kCall)) out.push_back(file + ":" + std::to_string(number) + ": " + line);
   }
+  return out;
+}
+
 /// The folder of a file, "engine/solver" of "engine/solver/topology.h".
 std::string folder_of(const std::string& file) {
   return file.substr(0, file.find_last_of('/'));
@@ -288,6 +291,8 @@ TEST(LayeringChecker, SeesAFunctionOfUndefinedBits) {
   for (const char* line : {"x = math::sin(a);", "engine::math::pow(a, b)", "// std::sin(a)", "combined.cos(x)", "explain(x)"})
     EXPECT_THAT(undefined_bits("scenes/loader/body.cpp", line), IsEmpty()) << line;
   EXPECT_THAT(undefined_bits("render/film.cpp", "x = std::sin(a);"), IsEmpty()) << "pictures are compared within limits";
+}
+
 TEST(LayeringChecker, SeesACircleOfFolders) {
   const std::map<std::string, std::string> two = {{"engine/a/x.h", "#include \"engine/b/y.h\"\n"},
                                                   {"engine/b/z.h", "#include \"engine/a/w.h\"\n"}};
