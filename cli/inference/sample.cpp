@@ -17,6 +17,7 @@ namespace cli::inference {
 namespace {
 
 constexpr double kShares[] = {0.025, 0.05, 0.25, 0.5, 0.75, 0.95, 0.975};
+constexpr double kTold = 1e-5;  // of a measure and in its unit: what varies less is the arithmetic's, and no axis can show it
 constexpr std::size_t kMostRows = 10'000'000;  // a table of a gigabyte
 
 bool is_bare(const std::string& text) {
@@ -139,8 +140,8 @@ Sample summarise(const scenes::Scene&, const Prior& prior, Table table, std::uin
   }
   std::vector<Output> varying;
   std::copy_if(out.outputs.begin(), out.outputs.end(), std::back_inserter(varying),
-               [](const Output& o) { return o.sensitivity.runs > 0; });
-  out.main = main_output(varying.empty() ? out.outputs : varying);
+               [](const Output& o) { return o.sd > kTold && o.sd > kTold * std::abs(o.mean); });
+  out.main = main_output(varying);
   out.table = std::move(table);
   return out;
 }

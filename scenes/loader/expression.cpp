@@ -8,10 +8,13 @@
 #include <charconv>
 #include <cmath>
 
+#include "engine/math/functions.h"
 #include "engine/model/model.h"
 
 namespace scenes {
 namespace {
+
+namespace math = engine::math;
 
 constexpr int kDeepest = 64;  // parentheses within each other
 
@@ -104,7 +107,9 @@ struct Parser {
     }
     const int exponent = sign * (t.front() - '0');
     t.remove_prefix(1);
-    base.value = std::pow(base.value, exponent);
+    double power = 1;
+    for (int i = 0; i < std::abs(exponent); ++i) power *= base.value;
+    base.value = exponent < 0 ? 1 / power : power;
     base.powers = {exponent * base.powers.m, exponent * base.powers.kg, exponent * base.powers.s, exponent * base.powers.rad};
     return base;
   }
@@ -182,7 +187,7 @@ struct Parser {
     }
     if (name != "sin" && name != "cos" && name != "tan") return a;
     if (!(p == powers_of(Dimension::angle)) && !(p == Powers{})) fail(fmt::format("takes the {} of {}", name, in_words(p)));
-    return {name == "sin" ? std::sin(a.value) : name == "cos" ? std::cos(a.value) : std::tan(a.value), {}};
+    return {name == "sin" ? math::sin(a.value) : name == "cos" ? math::cos(a.value) : math::tan(a.value), {}};
   }
 };
 

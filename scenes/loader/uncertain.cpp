@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/math/functions.h"
 #include "scenes/loader/expression.h"
 #include "scenes/loader/key_path.h"
 
@@ -147,7 +148,8 @@ struct UncertainReader {
     double low = out.numbers.front(), high = out.numbers.back();
     if (out.spread == Spread::normal) low = out.numbers[0] - kTail * out.numbers[1], high = out.numbers[0] + kTail * out.numbers[1];
     if (out.spread == Spread::log_normal)
-      low = out.numbers[0] / std::pow(out.numbers[1], kTail), high = out.numbers[0] * std::pow(out.numbers[1], kTail);
+      low = out.numbers[0] / engine::math::pow(out.numbers[1], kTail),
+      high = out.numbers[0] * engine::math::pow(out.numbers[1], kTail);
     low = std::max(low, out.lower);
     high = std::min(high, out.upper);
     const Range& range = found.key->range;

@@ -72,8 +72,8 @@ TEST(Sample, GoesOnWhereItStood) {
 
 TEST(Sample, ARunThatFailsIsARowWithItsReason) {
   const Folder folder;
-  folder.write("ball.toml", "[variables]\nmass = \"1 kg\"\n[[uncertain]]\nkey = \"variables.mass\"\nuniform = \"-1 3 kg\"\n" +
-                                ball_with("mass = \"2 kg\"", "mass = \"mass\""));
+  folder.write("ball.toml", ball_with("mass = \"2 kg\"", "mass = \"mass\"") +
+                                "[variables]\nmass = \"1 kg\"\n[[uncertain]]\nkey = \"variables.mass\"\nuniform = \"-1 3 kg\"\n");
   const Result result = run(folder, {"sample", "ball.toml", "-o", "out", "-n", "16", "--quiet"});
   ASSERT_EQ(result.code, 0) << result.err;
   const std::string csv = contents(folder / "out/runs.csv");
