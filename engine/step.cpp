@@ -99,6 +99,7 @@ void Stepper::choose_trees(World& world, const State& state) {
     for (int l = range.begin; l < range.end; ++l) world.awake[world.topology.links[l].body] = static_cast<char>(!asleep);
     if (!asleep) world.active_trees.push_back(tree);
   }
+  if (!world.topology.loops.empty()) world.loops.choose(world.topology, state.broken, world.awake);
 }
 
 void Stepper::find_contacts(World& world, const State& state, std::vector<Constraint>& found) {
@@ -193,6 +194,7 @@ double Stepper::integrate(World& world, const State& state, double h) {
     end_.time = state.time + h;
     world.time = state.time;
     first = {&world.impulse, factored};
+    world.loops.forget();
     if (compliant) compliant->restart(h);
   };
   begin(false);

@@ -33,6 +33,9 @@ void Stepper::drop_open_rows(World& world, double h) {
     const double spare = c.kind == ConstraintKind::limit ? 0.02 + 5 * h : 1e-3 + h;  // [rad], [m]: what other impulses may add
     return c.gap + h * std::min(c.u_before[0], c.u_smooth[0]) > spare;
   });
+  // the smooth motion keeps closed loops; their rows are there for what other impulses ask of them
+  const auto of_loop = [](const Constraint& c) { return c.kind == ConstraintKind::bilateral; };
+  if (!world.any_damper && std::all_of(world.constraints.begin(), world.constraints.end(), of_loop)) world.constraints.clear();
 }
 
 /// Joint resistance and the impulses of all conditions over the step; false when there are none of either. Again, from the smooth

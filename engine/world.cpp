@@ -22,13 +22,15 @@ World::World(const Model& m, const Plan& p, const RunOptions& o)
       plan(p),
       options(o),
       topology(build_topology(m, apart(m, p))),
-      smooth(m, Articulation::Keeps::last_tree),
+      smooth(m, topology.loops.empty() ? Articulation::Keeps::last_tree : Articulation::Keeps::all_trees),
       impulse(m, Articulation::Keeps::all_trees),
+      loops(m),
       meter(o.clock) {
   memory.resize(p.active.size());
   for (const Effect* effect : p.active) meter.effects.push_back({effect->name, 0, 0});
   smooth.reset(topology);
   impulse.reset(topology);
+  loops.reset(topology);
   const std::size_t n = m.bodies.size();
   reach.assign(n, 0);
   awake.assign(n, 1);
