@@ -15,11 +15,11 @@ Vec3 tip(const Outcome& it) {
   return it.last(0).X_WB * Vec3(0, 0, 0.5);
 }
 
-/// What the run cannot explain, as a share of the energy at its start above the lowest there can be: five links of 1 kg.
+/// What the run cannot explain, at most, as a share of the energy at its start.
 double unexplained(const Outcome& it) {
   double most = 0;
   for (const engine::Snapshot& s : it.recording.snapshots) most = std::max(most, std::abs(s.energies.residual));
-  return most / energy(it.recording.snapshots.front());
+  return most / std::abs(energy(it.recording.snapshots.front()));
 }
 
 Outcome four_bar(const char* step, const char* scheme) {
@@ -41,12 +41,15 @@ TEST_P(FourBar, PassesItsStretchedPositionAndArrivesWherePublished) {
 }
 
 TEST_P(FourBar, ConvergesWithOrderTwoOrBetter) {
-  const Vec3 best = tip(four_bar("0.25 ms", GetParam()));
-  const double coarse = (tip(four_bar("2 ms", GetParam())) - best).norm();
-  const double fine = (tip(four_bar("1 ms", GetParam())) - best).norm();
-  row("four-bar, order", std::string("2 and 1 ms ") + GetParam(), "%.2f (%.1e and %.1e m from 0.25 ms)", std::log2(coarse / fine),
-      coarse, fine);
+  const Vec3 best = tip(four_bar("0.5 ms", GetParam()));
+  const double coarse = (tip(four_bar("4 ms", GetParam())) - best).norm();
+  const double fine = (tip(four_bar("2 ms", GetParam())) - best).norm();
+  // one of its steps ends so near the line that the loops answer by less than the proximal term: that costs digits, not the way
+  const double near = (tip(four_bar("0.25 ms", GetParam())) - best).norm();
+  row("four-bar, order", std::string("4 and 2 ms ") + GetParam(), "%.2f (%.1e and %.1e m from 0.5 ms; 0.25 ms is %.1e m off)",
+      std::log2(coarse / fine), coarse, fine, near);
   EXPECT_GT(coarse / fine, 4);
+  EXPECT_LT(near, 1e-5);
 }
 
 class Loops : public testing::TestWithParam<Setting> {};
