@@ -20,12 +20,14 @@ World::World(const Model& m, const Plan& p, const RunOptions& o)
     : model(m),
       plan(p),
       topology(build_topology(m, apart(m, p))),
-      smooth(m, Articulation::Keeps::last_tree),
+      smooth(m, topology.loops.empty() ? Articulation::Keeps::last_tree : Articulation::Keeps::all_trees),
       impulse(m, Articulation::Keeps::all_trees),
+      loops(m),
       meter(o.clock) {
   for (const EffectKind* effect : p.active) meter.effects.push_back({effect->name, 0, 0});
   smooth.reset(topology);
   impulse.reset(topology);
+  loops.reset(topology);
   const std::size_t n = m.bodies.size();
   reach.assign(n, 0);
   awake.assign(n, 1);
@@ -78,6 +80,7 @@ void choose_trees(World& world, const State& state) {
     for (int l = range.begin; l < range.end; ++l) world.awake[world.topology.links[l].body] = static_cast<char>(!asleep);
     if (!asleep) world.active_trees.push_back(tree);
   }
+  if (!world.topology.loops.empty()) world.loops.choose(world.topology, state.broken, world.awake);
 }
 
 double kinetic_energy(const Model& model, const Motion& state) {

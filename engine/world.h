@@ -15,6 +15,7 @@
 #include "engine/solver/articulation.h"
 #include "engine/solver/constraint.h"
 #include "engine/solver/contact_solver.h"
+#include "engine/solver/loop_closure.h"
 #include "engine/state.h"
 
 namespace engine {
@@ -65,6 +66,7 @@ struct World {
   Topology topology;
   Articulation smooth;   // of the stage at hand, undamped
   Articulation impulse;  // at the start of the step, with joint resistance
+  LoopClosure loops;     // of the joints cut from the trees
   ContactSolver solver;
 
   std::vector<double> tree_mass;  // [kg] per tree

@@ -1,4 +1,5 @@
-// Joints that close a ring (a rider's hands on a bar): bilateral rows solved with the contacts.
+// Joints that close a ring or can break (a rider's hands on a bar). The smooth motion and the projection of the joints keep them
+// (solver/loop_closure.h); where a step exchanges impulses, they are bilateral rows among them.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,7 +14,6 @@ namespace {
 
 // [s] a hand gives way in some milliseconds: rigid impacts exchange impulses in no time, their force is taken over this
 constexpr double kGrasp = 0.01;
-constexpr double kCorrection = 0.2;  // [-] share of the ring's gap taken out per step
 // [-] of the response of free bodies, given to each row: what other joints hold already (two hinges on one axis) has no response
 // of its own, and rounding divided by rounding would be its impulse
 constexpr double kGive = 5e-9;
@@ -74,12 +74,9 @@ class JointLoops final : public EffectWith<LoopLoads> {
   void find(StepContext& step) override {
     const World& world = step.world;
     const State& state = step.state;
-    for (const int j : world.topology.loops) {
-      if (state.broken[j]) continue;
+    for (const int j : world.loops.joints()) {
       const Joint& joint = world.model.joints[j];
       auto moving = [&](int body) { return body >= 0 && !world.model.bodies[body].fixed ? body : -1; };
-      const bool live = (joint.child >= 0 && world.awake[joint.child]) || (joint.parent >= 0 && world.awake[joint.parent]);
-      if (!live) continue;
       JointRows rows;
       joint_rows(joint, joint.parent < 0 ? Pose{} : state.X_WB[joint.parent], state.X_WB[joint.child], rows);
       for (int k = 0; k < rows.count; ++k) {
@@ -94,7 +91,6 @@ class JointLoops final : public EffectWith<LoopLoads> {
         c.J_b.setZero();
         c.J_a.row(0) = row_on_child(rows, k).transpose();
         c.J_b.row(0) = row_on_parent(rows, k).transpose();
-        c.target = -kCorrection * rows.error[k] / step.length;
         c.softness = kGive * free_response(world, state, c);
         c.key = (static_cast<std::uint64_t>(self_) << 56) | (static_cast<std::uint64_t>(j) << 8) | static_cast<std::uint64_t>(k);
         c.effect = self_;
@@ -111,7 +107,7 @@ class JointLoops final : public EffectWith<LoopLoads> {
     std::vector<Vec3>& load = memory(state).load;
     if (load.empty()) return;
     const double forget = math::exp(-h / kGrasp);
-    for (const int j : world.topology.loops) load[j] *= forget;
+    for (const int j : world.topology.loops) load[j] = forget * load[j] + (1 - forget) / h * world.loops.impulse(j);
     for (const Constraint& c : step.constraints) {
       if (c.effect != self_ || c.kind != ConstraintKind::bilateral) continue;
       const Vec3 direction = c.body_a >= 0 ? Vec3(c.J_a.row(0).head<3>()) : Vec3(-c.J_b.row(0).head<3>());

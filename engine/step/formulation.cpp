@@ -75,6 +75,9 @@ void drop_open_conditions(StepContext& s) {
     const double spare = c.kind == ConstraintKind::limit ? 0.02 + 5 * h : 1e-3 + h;  // [rad], [m]: what other impulses may add
     return c.gap + h * std::min(c.u_before[0], c.u_smooth[0]) > spare;
   });
+  // the smooth motion keeps closed loops; their rows are there for what other impulses ask of them
+  const auto of_loop = [](const Constraint& c) { return c.kind == ConstraintKind::bilateral; };
+  if (!s.any_damper && std::all_of(s.constraints.begin(), s.constraints.end(), of_loop)) s.constraints.clear();
 }
 
 void formulate(StepContext& s) {

@@ -42,6 +42,7 @@ double Integration::advance(const State& state, const StepControl& control, doub
     end = state;
     end.time = state.time + length;
     first = {&world_.impulse, factored};
+    world_.loops.forget();
     if (contacts) contacts->restart(length);
   };
   auto advance_over = [&](double way) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "engine/effects/effect.h"
 
@@ -64,12 +65,18 @@ void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const
   if (compliant) compliant->add_forces(X, V, weight, force_);
   if (&a == &stages_[0].a)
     for (std::size_t b = 0; b < force_.size(); ++b) applied_[b] = force_[b].head<3>();
+  Articulation& articulation = first.articulation ? *first.articulation : world.smooth;
   for (const int tree : world.active_trees) {
-    Articulation& articulation = first.articulation ? *first.articulation : world.smooth;
     if (!first.factored) articulation.factor(world.topology, tree, X, nullptr);
     articulation.set_bias(world.topology, tree, V);
     articulation.solve(world.topology, tree, force_, a, Articulation::Bias::from_rows);
   }
+  if (!world.loops.any()) return;
+  double gap = 0;
+  world.loops.place(X, gap);
+  world.loops.factor(world.topology, articulation);
+  world.loops.ask_for_acceleration(V);
+  world.loops.solve(world.topology, articulation, a, &a == &stages_[0].a ? &applied_ : nullptr);
 }
 
 void SmoothMotion::advance(World& world, const Motion& state, double h, std::vector<Pose>& X, std::vector<Twist>& V,
@@ -97,6 +104,7 @@ void SmoothMotion::advance(World& world, const Motion& state, double h, std::vec
       }
     }
     accelerations(world, X_, stage.V, stage.a, compliant, kWeight[s], s == 0 ? first : FirstStage{});
+    if (world.loops.any()) world.loops.sum_up(h * kWeight[s]);
   }
   measure_swing(world);
   const auto& [k1, k2, k3, k4] = stages_;
@@ -181,53 +189,104 @@ double joint_velocity_errors(World& world, int tree, const std::vector<Twist>& V
   return largest;
 }
 
+/// Buffers of a projection, per body.
+struct Projected {
+  std::vector<Pose>& X;
+  std::vector<Twist>& V;
+  std::vector<Vec6>& force;
+  std::vector<Vec6>& result;
+};
+
+/// Trees that are closed at once: one by itself, or all that loops hold.
+class Projection {
+ public:
+  Projection(World& world, std::span<const int> trees, bool loops, Projected at)
+      : world_(world), trees_(trees), loops_(loops), at_(at) {}
+
+  double close();  // largest gap [m] left
+
+ private:
+  double errors(double& gap) {
+    double largest = 0;
+    for (const int tree : trees_) largest = std::max(largest, joint_errors(world_, tree, at_.X, gap));
+    return loops_ ? std::max(largest, world_.loops.place(at_.X, gap)) : largest;
+  }
+  double velocity_errors() {
+    double largest = 0;
+    for (const int tree : trees_) largest = std::max(largest, joint_velocity_errors(world_, tree, at_.V));
+    return loops_ ? std::max(largest, world_.loops.ask_for_rest(at_.V)) : largest;
+  }
+  void factor() {
+    for (const int tree : trees_) world_.smooth.factor(world_.topology, tree, at_.X, nullptr);
+    if (loops_) world_.loops.factor(world_.topology, world_.smooth);
+  }
+  template <class Act>
+  void for_links(Act act) {
+    for (const int tree : trees_)
+      for (int l = world_.topology.trees[tree].begin; l < world_.topology.trees[tree].end; ++l)
+        act(l, world_.topology.links[l].body);
+  }
+  /// Answers to the biases of the rows and, if there are any, what is asked of the loops.
+  void solve() {
+    for_links([&](int, int b) { at_.force[b].setZero(); });
+    for (const int tree : trees_) world_.smooth.solve(world_.topology, tree, at_.force, at_.result, Articulation::Bias::from_rows);
+    if (loops_) world_.loops.solve(world_.topology, world_.smooth, at_.result, nullptr);
+  }
+
+  World& world_;
+  std::span<const int> trees_;
+  bool loops_;
+  Projected at_;
+};
+
+double Projection::close() {
+  constexpr double kTight = 1e-13;  // [m] and [-]: below it rounding is all there is to remove
+  constexpr double kGood = 1e-12;   // [m] and [-] a looser bound would be met by chance in one run and missed in its neighbour
+  double gap = 0;
+  double error = errors(gap);
+  bool factored = false;
+  double before = 0;
+  for (int k = 0; k < 6 && error > (k == 0 ? kTight : kGood); ++k) {
+    // the first factorisation serves the steps after it: the rows have turned by no more than the error
+    if (k == 0 || error > 1e-2 * before) factor();
+    factored = true;
+    before = error;
+    for_links([&](int l, int) {
+      JointRows& rows = world_.smooth.of_link(l).rows;
+      rows.bias = -rows.error;
+    });
+    if (loops_) world_.loops.ask_for_closing();
+    solve();
+    for_links([&](int, int b) { displace(at_.X[b], at_.result[b].head<3>(), at_.result[b].tail<3>()); });
+    gap = 0;
+    error = errors(gap);
+  }
+  if (velocity_errors() < kTight) return gap;
+  if (!factored) {
+    factor();
+    velocity_errors();
+  }
+  solve();
+  for_links([&](int, int b) {
+    at_.V[b].v += at_.result[b].head<3>();
+    at_.V[b].w += at_.result[b].tail<3>();
+  });
+  return gap;
+}
+
 }  // namespace
 
 double project_joints(World& world, std::vector<Pose>& X, std::vector<Twist>& V, std::vector<Vec6>& force,
                       std::vector<Vec6>& result) {
-  constexpr double kTight = 1e-13;  // [m] and [-]: below it rounding is all there is to remove
-  constexpr double kGood = 1e-12;   // [m] and [-] a looser bound would be met by chance in one run and missed in its neighbour
-  const Topology& topology = world.topology;
+  const Projected at{X, V, force, result};
   double left = 0;
   for (const int tree : world.active_trees) {
-    const Topology::Tree& range = topology.trees[tree];
-    if (range.end - range.begin == 1 && topology.links[range.begin].joint < 0) continue;
-    double gap = 0;
-    double error = joint_errors(world, tree, X, gap);
-    bool factored = false;
-    double before = 0;
-    for (int k = 0; k < 6 && error > (k == 0 ? kTight : kGood); ++k) {
-      // the first factorisation serves the steps after it: the rows have turned by no more than the error
-      if (k == 0 || error > 1e-2 * before) world.smooth.factor(topology, tree, X, nullptr);
-      factored = true;
-      before = error;
-      for (int l = range.begin; l < range.end; ++l) {
-        force[topology.links[l].body].setZero();
-        JointRows& rows = world.smooth.of_link(l).rows;
-        rows.bias = -rows.error;
-      }
-      world.smooth.solve(topology, tree, force, result, Articulation::Bias::from_rows);
-      for (int l = range.begin; l < range.end; ++l) {
-        const int b = topology.links[l].body;
-        displace(X[b], result[b].head<3>(), result[b].tail<3>());
-      }
-      gap = 0;
-      error = joint_errors(world, tree, X, gap);
-    }
-    left = std::max(left, gap);
-    if (joint_velocity_errors(world, tree, V) < kTight) continue;
-    if (!factored) {
-      world.smooth.factor(topology, tree, X, nullptr);
-      joint_velocity_errors(world, tree, V);
-    }
-    for (int l = range.begin; l < range.end; ++l) force[topology.links[l].body].setZero();
-    world.smooth.solve(topology, tree, force, result, Articulation::Bias::from_rows);
-    for (int l = range.begin; l < range.end; ++l) {
-      const int b = topology.links[l].body;
-      V[b].v += result[b].head<3>();
-      V[b].w += result[b].tail<3>();
-    }
+    const Topology::Tree& range = world.topology.trees[tree];
+    const bool free = range.end - range.begin == 1 && world.topology.links[range.begin].joint < 0;
+    if (free || (world.loops.any() && world.loops.holds(tree))) continue;
+    left = std::max(left, Projection(world, std::span(&tree, 1), false, at).close());
   }
+  if (world.loops.any()) left = std::max(left, Projection(world, world.loops.trees(), true, at).close());
   return left;
 }
 

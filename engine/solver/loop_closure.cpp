@@ -1,0 +1,181 @@
+#include "engine/solver/loop_closure.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace engine {
+namespace {
+
+constexpr double kProximal = 1e-9;  // [-] of the response of bodies free of joints
+constexpr int kIterations = 4;      // of the proximal term
+
+/// Response of each row if its bodies were free of joints.
+double free_response(const Model& model, const std::vector<Pose>& X_WB, const Constraint& c, int row) {
+  double response = 0;
+  const auto add = [&](int b, const auto& J) {
+    if (b < 0) return;
+    const Vec3 v = J.row(row).template head<3>(), w = J.row(row).template tail<3>();
+    response += v.squaredNorm() / model.bodies[b].mass;
+    if (!w.isZero(0)) response += w.dot(inertia_W(model.bodies[b], X_WB[b].q).inverse() * w);
+  };
+  add(c.body_a, c.J_a);
+  add(c.body_b, c.J_b);
+  return response;
+}
+
+}  // namespace
+
+LoopClosure::LoopClosure(const Model& model)
+    : model_(model),
+      force_(model.bodies.size(), Vec6::Zero()),
+      answer_(model.bodies.size(), Vec6::Zero()),
+      impulse_(model.joints.size(), Vec3::Zero()) {}
+
+void LoopClosure::reset(const Topology& topology) {
+  const std::size_t loops = topology.loops.size();
+  held_tree_.assign(topology.trees.size(), 0);
+  trees_.reserve(topology.trees.size());
+  joints_.reserve(loops);
+  rows_.reserve(loops);
+  first_row_.reserve(loops);
+  blocks_.reserve(2 * loops);
+  members_.reserve(2 * loops);
+  offset_.reserve(2 * loops);
+  if (loops > 0) response_.reset(topology, 2 * loops);
+}
+
+void LoopClosure::choose(const Topology& topology, const std::vector<char>& broken, const std::vector<char>& awake) {
+  std::fill(held_tree_.begin(), held_tree_.end(), 0);
+  joints_.clear();
+  first_row_.clear();
+  blocks_.clear();
+  offset_.clear();
+  members_.clear();
+  trees_.clear();
+  size_ = 0;
+  for (const int j : topology.loops) {
+    const Joint& joint = model_.joints[j];
+    const auto moves = [&](int b) { return b >= 0 && !model_.bodies[b].fixed; };
+    const auto sleeps = [&](int b) { return moves(b) && !awake[b]; };
+    if (broken[j] || sleeps(joint.parent) || sleeps(joint.child)) continue;
+    joints_.push_back(j);
+    first_row_.push_back(size_);
+    for (int k = 0; k < row_count(joint.kind); k += 3) {
+      Constraint block;
+      block.kind = ConstraintKind::bilateral;
+      block.rows = std::min(3, row_count(joint.kind) - k);
+      block.body_a = moves(joint.child) ? joint.child : -1;
+      block.body_b = moves(joint.parent) ? joint.parent : -1;
+      members_.push_back(static_cast<int>(blocks_.size()));
+      offset_.push_back(size_ + k);
+      blocks_.push_back(block);
+    }
+    size_ += row_count(joint.kind);
+    for (const int b : {joint.parent, joint.child})
+      if (moves(b)) held_tree_[topology.tree_of_body[b]] = 1;
+  }
+  for (int t = 0; t < static_cast<int>(held_tree_.size()); ++t)
+    if (held_tree_[t]) trees_.push_back(t);
+  rows_.resize(joints_.size());
+  stride_ = whole_rows(static_cast<std::size_t>(size_));
+  G_.assign(stride_ * static_cast<std::size_t>(size_), 0.0);
+  for (auto* vector : {&wanted_, &multiplier_, &residual_, &step_, &softness_}) vector->resize(size_);
+  damped_.resize(size_, size_);
+}
+
+double LoopClosure::place(const std::vector<Pose>& X_WB, double& largest_gap) {
+  static const Pose kWorld;
+  double largest = 0;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const Joint& joint = model_.joints[joints_[i]];
+    JointRows& rows = rows_[i];
+    joint_rows(joint, joint.parent < 0 ? kWorld : X_WB[joint.parent], X_WB[joint.child], rows);
+    largest = std::max(largest, rows.error.head(rows.count).cwiseAbs().maxCoeff());
+    largest_gap = std::max(largest_gap, rows.error.head<3>().norm());
+    for (int k = 0; k < rows.count; k += 3, ++at) {
+      Constraint& block = blocks_[at];
+      for (int r = 0; r < block.rows; ++r) {
+        if (block.body_a >= 0) block.J_a.row(r) = row_on_child(rows, k + r).transpose();
+        if (block.body_b >= 0) block.J_b.row(r) = row_on_parent(rows, k + r).transpose();
+        softness_[first_row_[i] + k + r] = kProximal * free_response(model_, X_WB, block, r);
+      }
+    }
+  }
+  return largest;
+}
+
+void LoopClosure::factor(const Topology& topology, const Articulation& articulation) {
+  response_.compute(topology, articulation, blocks_, members_, offset_, stride_, G_);
+  for (int c = 0; c < size_; ++c)
+    for (int r = 0; r < size_; ++r) damped_(r, c) = G_[static_cast<std::size_t>(c) * stride_ + static_cast<std::size_t>(r)];
+  damped_.diagonal() += softness_;
+  factor_.compute(damped_);
+  damped_.diagonal() -= softness_;
+}
+
+void LoopClosure::ask_for_acceleration(const std::vector<Twist>& V_WB) {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const Joint& joint = model_.joints[joints_[i]];
+    joint_bias(joint.parent < 0 ? Vec3::Zero() : V_WB[joint.parent].w, V_WB[joint.child].w, rows_[i]);
+    wanted_.segment(first_row_[i], rows_[i].count) = rows_[i].bias.head(rows_[i].count);
+  }
+}
+
+void LoopClosure::ask_for_closing() {
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    wanted_.segment(first_row_[i], rows_[i].count) = -rows_[i].error.head(rows_[i].count);
+}
+
+double LoopClosure::ask_for_rest(const std::vector<Twist>& V_WB) {
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Constraint& c = blocks_[b];
+    Vec3 u = Vec3::Zero();
+    if (c.body_a >= 0) u += c.J_a.leftCols<3>() * V_WB[c.body_a].v + c.J_a.rightCols<3>() * V_WB[c.body_a].w;
+    if (c.body_b >= 0) u += c.J_b.leftCols<3>() * V_WB[c.body_b].v + c.J_b.rightCols<3>() * V_WB[c.body_b].w;
+    wanted_.segment(offset_[b], c.rows) = -u.head(c.rows);
+  }
+  return wanted_.cwiseAbs().maxCoeff();
+}
+
+void LoopClosure::solve(const Topology& topology, const Articulation& articulation, std::vector<Vec6>& x,
+                        std::vector<Vec3>* force) {
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Constraint& c = blocks_[b];
+    Vec3 u = Vec3::Zero();
+    if (c.body_a >= 0) u += c.J_a * x[c.body_a];
+    if (c.body_b >= 0) u += c.J_b * x[c.body_b];
+    wanted_.segment(offset_[b], c.rows) -= u.head(c.rows);
+  }
+  multiplier_.setZero();
+  residual_ = wanted_;
+  for (int k = 0; k < kIterations; ++k) {
+    step_ = factor_.solve(residual_);
+    multiplier_ += step_;
+    residual_ = wanted_;
+    residual_.noalias() -= damped_ * multiplier_;
+  }
+  for (const int tree : trees_)
+    for (int l = topology.trees[tree].begin; l < topology.trees[tree].end; ++l) force_[topology.links[l].body].setZero();
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Constraint& c = blocks_[b];
+    Vec3 l = Vec3::Zero();
+    l.head(c.rows) = multiplier_.segment(offset_[b], c.rows);
+    if (c.body_a >= 0) force_[c.body_a] += c.J_a.transpose() * l;
+    if (c.body_b >= 0) force_[c.body_b] += c.J_b.transpose() * l;
+  }
+  for (const int tree : trees_) {
+    const Topology::Tree& range = topology.trees[tree];
+    if (force)
+      for (int l = range.begin; l < range.end; ++l) (*force)[topology.links[l].body] += force_[topology.links[l].body].head<3>();
+    articulation.solve(topology, tree, force_, answer_, Articulation::Bias::zero);
+    for (int l = range.begin; l < range.end; ++l) x[topology.links[l].body] += answer_[topology.links[l].body];
+  }
+}
+
+void LoopClosure::sum_up(double weight) {
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    impulse_[joints_[i]] -= weight * multiplier_.segment<3>(first_row_[i]);  // a row pulls the child to the parent's point
+}
+
+}  // namespace engine
