@@ -149,8 +149,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"no_command",
                    {},
                    kAuthor,
-                   ": no command given; take one of render, simulate, plan, study, sample, fit, eval, figure, check, compare, "
-                   "snapshot, library, schema, version, man, completion; see crashreel --help"},
+                   ": no command given; take one of render, simulate, plan, study, sample, fit, eval, "
+                   "figure, check, compare, snapshot, library, explain, schema, version, man, completion; see crashreel --help"},
         BadCommand{"unknown_command", {"rendr"}, kAuthor, ": unknown command rendr; did you mean render?"},
         BadCommand{"unknown_option",
                    {"render", "ball.toml", "--siz", "64x64"},
