@@ -214,7 +214,7 @@ FilmPlan plan_film(const FilmArguments& wish, const scenes::Scene& scene, const 
   plan.job.quality = quality_of(wish.quality.empty() ? scene.output.quality : wish.quality);
   plan.job.workers = wish.jobs.empty() ? 0 : parse_integer("--jobs", wish.jobs, 1, kMostWorkers);
   plan.job.overwrite = wish.overwrite;
-  plan.job.metadata = {{"title", scene.title},
+  plan.job.metadata = {{"title", scene.stage.title},
                        {"version", fmt::format("crashreel {}", CRASHREEL_VERSION)},
                        {"scene", scene.path.filename().string()},
                        {"scene_sha256", scene.sha256}};

@@ -111,10 +111,7 @@ scenes::Scene load_scene(const SceneArguments& given, double memory_ceiling) {
     for (const std::string& warning : scene.warnings) fmt::print(stderr, "{}\n", warning);
   }
   scene.stage.provenance = fmt::format("crashreel {} | {}", CRASHREEL_VERSION, scene.stage.provenance);
-  if (!wish.set.empty()) {
-    scene.title += told_overrides(wish.set);
-    scene.stage.title = scene.title;
-  }
+  if (!wish.set.empty()) scene.stage.title += told_overrides(wish.set);
   for (const auto& [name, force] : scene.model.settings.effects) {
     if (force == engine::Force::off) scene.stage.warnings.push_back(fmt::format("effect {} switched off by the author", name));
   }

@@ -81,7 +81,7 @@ int draw_figures(const FigureWish& wish) {
   job.quality = wish.quality == "draft"  ? render::Quality::draft
                 : wish.quality == "fine" ? render::Quality::fine
                                          : render::Quality::standard;
-  job.metadata = {{"title", scene.title},
+  job.metadata = {{"title", scene.stage.title},
                   {"version", fmt::format("crashreel {}", CRASHREEL_VERSION)},
                   {"scene", scene.path.filename().string()},
                   {"scene_sha256", scene.sha256}};
