@@ -39,16 +39,13 @@ bool is_part(const Model& model, int body) {
   return body >= 0 && model.bodies[body].person >= 0 && model.bodies[body].vehicle < 0;
 }
 
-/// S of both surfaces [N/m]. A head is harder than the rest of a person, and a vehicle is to it what the panel it meets is, unless
-/// the scene gives a stiffness of its own.
+/// S of both surfaces [N/m]. To a head a vehicle is what the panel it meets is, unless the scene gives a stiffness of its own.
 std::pair<double, double> stiffnesses(const Model& model, const Motion& at, const SurfaceContact& touch, int a, int b) {
   const auto surface = [&](int body) -> const SurfaceProperties& {
     return body >= 0 ? model.bodies[body].surface : model.ground.surface;
   };
   const auto head = [&](int body) { return is_part(model, body) && model.persons[model.bodies[body].person].head == body; };
-  const auto own = [&](int body) {
-    return head(body) && !surface(body).stiffness_given ? kHeadStiffness : surface(body).stiffness.at(at.time);
-  };
+  const auto own = [&](int body) { return surface(body).stiffness.at(at.time); };
   double S_b = own(b);
   const auto* mesh = head(a) && b >= 0 ? std::get_if<MeshShape>(&model.bodies[b].shape) : nullptr;
   if (mesh && mesh->panels && !surface(b).stiffness_given) {

@@ -85,7 +85,7 @@ TEST(Explain, EveryMeasureOfTheReadmeIsAsTheProgramDefinesIt) {
 TEST(Simulate, ImpactsAreTheSameInTableAndSummary) {
   const Folder folder;
   const std::string scene = std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/intersection_ks.toml";
-  const Result result = run(folder, {"simulate", scene, "-q", "-o", "out", "--set", "simulation.duration=0.6 s"});
+  const Result result = run(folder, {"simulate", scene, "-q", "-o", "out", "--set", "simulation.duration=1 s"});
   ASSERT_EQ(result.code, 0) << result.err;
   const Json summary = Json::parse(contents(folder / "out/summary.json"));
   const std::vector<Row> rows = rows_of(contents(folder / "out/impacts.csv"));
