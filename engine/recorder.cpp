@@ -135,7 +135,6 @@ void Recorder::tally(const World& world, const std::vector<Constraint>& conditio
     if (at == tallies_.end() || at->key != c.key) at = tallies_.insert(at, Tally{c.key, {}, 0, Vec3::Zero()});
     ContactRecord& r = at->record;
     if (r.normal_impulse == 0) r.begun = time - duration;
-    r.energy_lost -= 0.5 * c.impulse.dot(c.u_before + c.u_after);
     r.kind = c.contact_kind;
     r.body_a = c.record_a;
     r.body_b = c.record_b;
