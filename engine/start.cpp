@@ -14,6 +14,7 @@ State initial_state(const Model& model, const Plan& plan) {
 
   State state;
   state.warm.reserve(kRoom);
+  state.phases.reserve(kRoom);
   state.contacts.list.reserve(kRoom);
   for (const Body& body : model.bodies) {
     state.X_WB.push_back(body.X_WB);
@@ -44,6 +45,7 @@ void size_contact_memory(const ContactPairs& pairs, ContactMemory& memory) {
 
 State start(World& world) {
   State state = initial_state(world.model, world.plan);
+  state.contacts.trees.reserve(world.topology.trees.size());
   close_joints(world, state);
   size_contact_memory(world.pairs, state.contact_memory);
   state.pace.last = world.model.settings.step;

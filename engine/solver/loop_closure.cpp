@@ -41,6 +41,12 @@ void LoopClosure::reset(const Topology& topology) {
   blocks_.reserve(2 * loops);
   members_.reserve(2 * loops);
   offset_.reserve(2 * loops);
+  int rows = 0;
+  for (const int j : topology.loops) rows += row_count(model_.joints[j].kind);
+  for (auto* vector : {&wanted_, &multiplier_, &residual_, &step_, &softness_}) vector->setZero(rows);
+  damped_.setIdentity(rows, rows);
+  const auto all = static_cast<std::size_t>(rows);
+  G_.reserve(whole_rows(all) * all);
   if (loops > 0) response_.reset(topology, 2 * loops);
 }
 
@@ -79,8 +85,9 @@ void LoopClosure::choose(const Topology& topology, const std::vector<char>& brok
   rows_.resize(joints_.size());
   stride_ = whole_rows(static_cast<std::size_t>(size_));
   G_.assign(stride_ * static_cast<std::size_t>(size_), 0.0);
-  for (auto* vector : {&wanted_, &multiplier_, &residual_, &step_, &softness_}) vector->resize(size_);
-  damped_.resize(size_, size_);
+  // rows of joints that do not hold stay at the end, as those of the identity: no step allocates when a joint breaks
+  for (auto* vector : {&wanted_, &softness_}) vector->setZero();
+  damped_.setIdentity();
 }
 
 double LoopClosure::place(const std::vector<Pose>& X_WB, double& largest_gap) {

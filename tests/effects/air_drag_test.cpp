@@ -155,7 +155,7 @@ TEST(AirDrag, StandsInOneFileAndOneLineOfTheTable) {
           ++lines[entry.path().filename().string()];
     }
   EXPECT_GT(lines.at("air_drag.cpp"), 1);
-  EXPECT_EQ(lines.at("effects.h"), 1);
+  EXPECT_EQ(lines.at("table.cpp"), 1);
   EXPECT_EQ(lines.size(), 2U);
 }
 
