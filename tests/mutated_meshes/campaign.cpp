@@ -152,6 +152,9 @@ class Damage {
   const std::vector<Seed>& all_;
 };
 
+// what a scene must hold besides its ground
+constexpr const char* kBall = "[[body]]\nname = \"ball\"\nmass = \"1 kg\"\naxes = \"0.1 0.1 0.1 m\"\nposition = \"0 0 50 m\"\n";
+
 bool finite(const scenes::Scene& scene) {
   const auto& solid = *scene.model.ground.terrain;
   for (const engine::Vec3& v : solid.vertices())
@@ -196,7 +199,7 @@ int main(int argc, char** argv) {
     const Seed mesh = i < all.size() ? all[i] : Damage(seed + i, all).make();
     const std::string name = "mesh" + mesh.ending;
     write(root / "inside" / name, mesh.bytes);
-    write(root / "inside/case.toml", "[ground]\nterrain = \"" + name + "\"\n");
+    write(root / "inside/case.toml", "[ground]\nterrain = \"" + name + "\"\n" + kBall);
     try {
       if (!finite(scenes::load(root / "inside/case.toml"))) complain(i, mesh, "not finite");
       ++kinds[mesh.ending].first;

@@ -242,8 +242,13 @@ TEST(MeshCage, EndsAnImportThatNeverEnds) {
 TEST(MeshCage, SaysThatMemoryEnded) {
   const SceneFolder folder;
   const auto file = folder.write("car.obj", box(4));
-  EXPECT_EQ(import_in_cage(file, folder.path(), {.memory = 40u << 20}).problem.find("processor time"), std::string::npos);
-  EXPECT_NE(import_in_cage(file, folder.path(), {.memory = 40u << 20}).problem, "");
+#ifndef __SANITIZE_ADDRESS__  // whose shadow is more than any limit
+  std::string many = box(4);
+  for (int i = 0; i < 300'000; ++i) many += "v 1 2 3\nf 1 2 " + std::to_string(9 + i) + "\n";
+  const std::string problem = import_in_cage(folder.write("many.obj", many), folder.path(), {.memory = 40u << 20}).problem;
+  EXPECT_EQ(problem.find("processor time"), std::string::npos);
+  EXPECT_NE(problem, "");
+#endif
   EXPECT_EQ(import_in_cage(file, folder.path(), {.largest = 100}).problem, "what stands in it needs more than 0 MB; thin it out");
 }
 
