@@ -131,13 +131,12 @@ bool belong_together(const engine::Model& model, const Thing& a, const Thing& b)
   });
 }
 
-/// Objects so far from all others that nothing brings them together before the run ends. Slopes, terrain and wind are left out of
-/// it: there it is not known without computing.
+/// Objects so far from all others that nothing brings them together before the run ends. Slopes, terrain and sections of effects
+/// (wind) are left out of it: there it is not known without computing.
 Sentences out_of_reach(const engine::Model& model) {
   const std::vector<Thing> things = things_of(model);
   const Vec3& gravity = model.settings.gravity;
-  const auto wind = model.inputs.find("air.wind");
-  if (wind != model.inputs.end() && wind->second.norm() > 0) return {};
+  if (!model.inputs.empty()) return {};  // sections of effects: wind, say
   if (things.size() < 2 || model.ground.terrain || !model.ground.plane || gravity.head<2>().norm() > 0) return {};
   const double time = model.settings.duration;
   const auto reach = [time](const Thing& t) { return t.fixed ? 0 : t.speed * time + 0.5 * t.acceleration * time * time; };

@@ -204,17 +204,22 @@ namespace {
 
 constexpr std::size_t kLongest = 64;  // [byte] a remedy is looked for in what a person may have typed
 
+enum class Remedies { sought, none };  // none: a remedy is being tried, and needs none of its own
+
+Quantity quantity_of(std::string_view text, Dimension wanted, Remedies);
+Quantities quantities_of(std::string_view text, Dimension wanted, Remedies);
+
 /// Whether a text reads as one quantity, or a list of them.
 bool reads(const std::string& text, Dimension wanted) {
   return text.size() <= kLongest &&
-         (parse_quantity(text, wanted).problem.empty() || parse_quantities(text, wanted).problem.empty());
+         (quantity_of(text, wanted, Remedies::none).problem.empty() || quantities_of(text, wanted, Remedies::none).problem.empty());
 }
 
 enum class Commas { decimal, either };  // what a comma may have been meant as
 
 /// "40,5 km/h" and "1, 2 m": what to write instead, where that reads.
-std::optional<std::string> comma_remedy(std::string_view text, Dimension wanted, Commas meant) {
-  if (text.size() > kLongest || text.find(',') == std::string_view::npos) return std::nullopt;
+std::optional<std::string> comma_remedy(std::string_view text, Dimension wanted, Commas meant, Remedies remedies) {
+  if (remedies == Remedies::none || text.size() > kLongest || text.find(',') == std::string_view::npos) return std::nullopt;
   const bool spaced = text.find(", ") != std::string_view::npos || text.find(' ') > text.rfind(',');
   std::string point(text), blank(text);
   std::replace(point.begin(), point.end(), ',', '.');
@@ -245,7 +250,8 @@ bool same_letters(std::string_view a, std::string_view b) {
                     [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
-std::string unknown_unit(std::string_view text, const std::string& unknown, Dimension wanted) {
+std::string unknown_unit(std::string_view text, const std::string& unknown, Dimension wanted, Remedies remedies) {
+  if (remedies == Remedies::none) return must_be(wanted);
   const auto with = [&](std::string_view unit) {
     std::string out(text);
     return out.replace(text.rfind(unknown), unknown.size(), unit);
@@ -270,9 +276,7 @@ std::vector<std::string_view> split_units(std::string_view units) {
   return out;
 }
 
-}  // namespace
-
-Quantity parse_quantity(std::string_view text, Dimension wanted) {
+Quantity quantity_of(std::string_view text, Dimension wanted, Remedies remedies) {
   Quantity out;
   std::string_view t = text;
   skip_spaces(t);
@@ -280,9 +284,9 @@ Quantity parse_quantity(std::string_view text, Dimension wanted) {
   bool negative = false;
   while (!t.empty()) {
     const auto number = take_number(t);
-    if (!number) return {0, comma_remedy(text, wanted, Commas::decimal).value_or(must_be(wanted)), {}};
+    if (!number) return {0, comma_remedy(text, wanted, Commas::decimal, remedies).value_or(must_be(wanted)), {}};
     const UnitValue unit = take_unit(t, wanted);
-    if (!unit.unknown.empty()) return {0, unknown_unit(text, unit.unknown, wanted), {}};
+    if (!unit.unknown.empty()) return {0, unknown_unit(text, unit.unknown, wanted, remedies), {}};
     if (unit.powers == Powers{} && unit.factor == 1 && wanted != Dimension::none) {
       return {0, fmt::format("needs a unit: write {}", unit_examples(*number, wanted)), number};
     }
@@ -296,16 +300,16 @@ Quantity parse_quantity(std::string_view text, Dimension wanted) {
   return out;
 }
 
-Quantities parse_quantities(std::string_view text, Dimension wanted) {
+Quantities quantities_of(std::string_view text, Dimension wanted, Remedies remedies) {
   Quantities out;
   std::string_view t = text;
   for (skip_spaces(t); is_number_start(t); skip_spaces(t)) {
     const auto number = take_number(t);
-    if (!number) return {{}, comma_remedy(text, wanted, Commas::either).value_or(must_be(wanted))};
+    if (!number) return {{}, comma_remedy(text, wanted, Commas::either, remedies).value_or(must_be(wanted))};
     out.values.push_back(*number);
   }
   const UnitValue unit = take_unit(t, wanted);
-  if (!unit.unknown.empty()) return {{}, unknown_unit(text, unit.unknown, wanted)};
+  if (!unit.unknown.empty()) return {{}, unknown_unit(text, unit.unknown, wanted, remedies)};
   if (!(unit.powers == line(wanted).powers) || !t.empty()) {
     return {{},
             wanted == Dimension::none ? "must be plain numbers"
@@ -314,6 +318,16 @@ Quantities parse_quantities(std::string_view text, Dimension wanted) {
   }
   for (double& value : out.values) value *= unit.factor;
   return out;
+}
+
+}  // namespace
+
+Quantity parse_quantity(std::string_view text, Dimension wanted) {
+  return quantity_of(text, wanted, Remedies::sought);
+}
+
+Quantities parse_quantities(std::string_view text, Dimension wanted) {
+  return quantities_of(text, wanted, Remedies::sought);
 }
 
 std::string unit_examples(double number, Dimension d, double lower, double upper) {

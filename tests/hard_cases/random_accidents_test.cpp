@@ -128,9 +128,9 @@ TEST_P(RandomAccidents, SayThatTheyAreRight) {
       100 * unexplained, 1e3 * depth, 1e3 * crush, gap, angle, residual);
 }
 
-// Three of 1,600 that go beyond the bounds above: a foot inside a car, an arm jammed on the trunk, an arm turned too far.
+// Three of 1,600 that go beyond the bounds above: a foot inside a car, and twice an arm turned too far.
 TEST(RandomAccident, SaysWhereItFallsShort) {
-  for (const unsigned seed : {533U, 778U, 1038U}) {
+  for (const unsigned seed : {533U, 1038U, 1416U}) {
     const scenes::testing::SceneFolder folder;
     const engine::Recording it = engine::simulate(folder.load(accident(seed)).model);
     const auto& d = it.diagnostics;
