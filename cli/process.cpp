@@ -1,5 +1,6 @@
 #include "cli/process.h"
 
+#include <execinfo.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
@@ -141,6 +142,10 @@ void tell_when_stopped(const std::string& kept) {
 }
 
 void prepare_process() {
+  // A thread of the GL driver that ends has the C library load libgcc, and abort where memory has run out by then. So it is loaded
+  // now: man 3 backtrace, "Notes".
+  void* frame = nullptr;
+  backtrace(&frame, 1);
   std::set_terminate(end_without_memory);
   fill_standard_descriptors();
   take_over_streams();
