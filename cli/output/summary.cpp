@@ -114,7 +114,7 @@ Json impacts_json(const std::vector<engine::Impact>& impacts) {
                 {"friction_used", number_json(i.friction_used)},
                 {"friction_limit", number_json(i.friction_limit)}};
     for (const auto& [side, s] : {std::pair("a", &i.a), std::pair("b", &i.b)}) {
-      const auto key = [&](const char* before, const char* after) { return fmt::format("{}_{}_{}", before, side, after); };
+      const auto key = [of = side](const char* before, const char* after) { return fmt::format("{}_{}_{}", before, of, after); };
       row[key("delta_v", "mps")] = s->delta_v.norm();
       row[key("delta_v", "vector_mps")] = vector_json(s->delta_v);
       row[key("pdof", "deg")] = number_json(s->pdof);
