@@ -36,10 +36,12 @@ void draw_grid(const Pen& pen, const std::vector<Chart>& grid, const Box& box) {
   const std::size_t rows = (grid.size() + 3) / 4, columns = (grid.size() + rows - 1) / rows;
   const double width = (box.width - kGap * static_cast<double>(columns - 1)) / static_cast<double>(columns);
   const double height = (box.height - 0.4 * kGap * static_cast<double>(rows - 1)) / static_cast<double>(rows);
-  for (std::size_t i = 0; i < grid.size(); ++i)
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const std::size_t row = i / columns, column = i % columns;
     draw_chart(pen, grid[i],
-               {box.x + static_cast<double>(i % columns) * (width + kGap),
-                box.y + static_cast<double>(i / columns) * (height + 0.4 * kGap), width, height});
+               {box.x + static_cast<double>(column) * (width + kGap), box.y + static_cast<double>(row) * (height + 0.4 * kGap),
+                width, height});
+  }
 }
 
 void draw(const Page& page, cairo_t* c) {

@@ -71,6 +71,7 @@ const std::vector<Library> kLibraries = {
     {"assimp/.*", {"scenes/cage/"}},
     {"meshoptimizer\\.h", {"scenes/loader/"}},
     {"seccomp\\.h", {"scenes/cage/"}},
+    {"execinfo\\.h", {"cli/process.cpp"}},
     {"CLI/.*", {"cli/command.cpp"}},
     {"boost/.*", {"cli/inference/"}},
     {"nlohmann/.*", {"scenes/", "cli/"}},
