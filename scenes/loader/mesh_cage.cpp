@@ -35,7 +35,7 @@ class Message {
       return;
     }
     out.resize(n);
-    std::memcpy(out.data(), bytes_.data(), n * sizeof(T));
+    if (n > 0) std::memcpy(out.data(), bytes_.data(), n * sizeof(T));
     bytes_.remove_prefix(n * sizeof(T));
   }
 
