@@ -19,7 +19,11 @@
 namespace cli {
 namespace {
 
+#ifdef __SANITIZE_ADDRESS__
+constexpr double kEnoughToLoad = 1e14;  // [byte] its shadow of all memory counts
+#else
 constexpr double kEnoughToLoad = 200e6;  // [byte] for any scene of the library
+#endif
 
 namespace fs = std::filesystem;
 
