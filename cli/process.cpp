@@ -6,9 +6,12 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <string>
@@ -24,8 +27,24 @@ namespace {
 constexpr unsigned kPatience = 1;  // [s] of the two a batch system is promised
 
 volatile sig_atomic_t asked_to_stop = 0;
+pid_t program = 0;  // workers inherit the handlers, and leave last words and files to their parent
+
+// All that a handler may touch is prepared beforehand: it neither allocates nor formats.
+std::array<char, 512> kept_text = {"nothing was kept"};
+std::array<std::atomic<const char*>, 64> passing_files = {};
+
+const char* name_of(int stop) {
+  return stop == SIGINT ? "SIGINT" : stop == SIGHUP ? "SIGHUP" : "SIGTERM";
+}
 
 void end_now(int) {
+  if (getpid() == program) {
+    for (const char* text :
+         {"crashreel: stopped by ", name_of(asked_to_stop), "; ", static_cast<const char*>(kept_text.data()), "\n"})
+      if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
+    for (const auto& file : passing_files)
+      if (const char* path = file.load()) unlink(path);
+  }
   _exit(128 + asked_to_stop);
 }
 
@@ -119,26 +138,24 @@ void take_over_streams() {
   std::abort();
 }
 
-const char* name_of(int stop) {
-  return stop == SIGINT ? "SIGINT" : stop == SIGHUP ? "SIGHUP" : "SIGTERM";
-}
-
-}  // namespace
-
-namespace {
-
-std::string& what_is_kept() {
-  static std::string words = "nothing was kept";
-  return words;
-}
-
 }  // namespace
 
 Interrupted::Interrupted(int number)
-    : std::runtime_error(fmt::format("stopped by {}; {}", name_of(number), what_is_kept())), signal(number) {}
+    : std::runtime_error(fmt::format("stopped by {}; {}", name_of(number), kept_text.data())), signal(number) {}
 
 void tell_when_stopped(const std::string& kept) {
-  what_is_kept() = kept;
+  const std::size_t length = kept.copy(kept_text.data(), kept_text.size() - 1);
+  kept_text[length] = '\0';
+}
+
+void remove_when_stopped(const char* path) {
+  for (auto& file : passing_files)
+    if (const char* none = nullptr; file.compare_exchange_strong(none, path)) return;
+}
+
+void keep_when_stopped(const char* path) {
+  for (auto& file : passing_files)
+    if (const char* held = path; file.compare_exchange_strong(held, nullptr)) return;
 }
 
 void prepare_process() {
@@ -151,6 +168,7 @@ void prepare_process() {
   take_over_streams();
   signal(SIGPIPE, SIG_IGN);
   signal(SIGXFSZ, SIG_IGN);
+  program = getpid();
   handle(SIGALRM, end_now);
   for (const int stop : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};

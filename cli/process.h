@@ -24,6 +24,11 @@ void write_to_terminal(const std::string&);
 /// What the message of Interrupted says is left of the work: "nothing was kept" unless a command says otherwise.
 void tell_when_stopped(const std::string& kept);
 
+/// A file to remove should the program end from within a signal's handler, where no destructor runs. The text must stay where it is
+/// until keep_when_stopped.
+void remove_when_stopped(const char* path);
+void keep_when_stopped(const char* path);
+
 /// Whether a signal asked to stop. Cheap: for loops.
 bool interrupted();
 /// Throws Interrupted if one did.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/exit.h"
+#include "cli/process.h"
 #include "render/publish.h"
 
 namespace cli {
@@ -44,6 +45,7 @@ OutputLock::OutputLock(const std::filesystem::path& output, Covers covers)
   const std::string name = output_.filename().string();
   if (!covers_) covers_ = [name](const std::string& other) { return other == name || other == name + ".whole"; };
   take();
+  remove_when_stopped(file_.c_str());
   clear();
 }
 
@@ -77,6 +79,7 @@ void OutputLock::take() {
 OutputLock::~OutputLock() {
   clear();
   unlink(file_.c_str());
+  keep_when_stopped(file_.c_str());
   close(handle_);
 }
 

@@ -22,8 +22,8 @@ using namespace scenes::cage;
 std::string answer_to(const std::string& name) {
   try {
     return mesh(name);
-  } catch (const std::bad_alloc&) {
-    return "Eit needs more memory than the import may take";
+  } catch (const std::bad_alloc&) {  // more than any memory
+    _exit(kNoMemory);
   } catch (const std::exception& error) {
     return std::string("E") + error.what();
   }
@@ -35,6 +35,8 @@ int main(int argc, char** argv) {
   int kind = 0;
   socklen_t size = sizeof kind;
   if (argc != 4 || getsockopt(kSocket, SOL_SOCKET, SO_TYPE, &kind, &size) != 0) return 2;
+  // at the first refusal: an importer may swallow the exception, or throw it where none may pass
+  std::set_new_handler([] { _exit(kNoMemory); });
   const std::uint32_t walls = raise_walls({std::strtoul(argv[2], nullptr, 10), std::strtoul(argv[3], nullptr, 10)});
   const std::string answer = answer_to(argv[1]);
   const Header header{Header::result, walls, answer.size()};

@@ -103,7 +103,7 @@ std::string mesh(const std::string& name) {
   const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType |
                                                      aiProcess_GenSmoothNormals | aiProcess_PreTransformVertices);
   const std::string why = scene ? "" : importer.GetErrorString();
-  if (why.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // the importer catches it and keeps its name
+  if (why.find("bad_array_new_length") != std::string::npos) throw std::bad_alloc();  // the importer caught it and kept its name
   if (!scene) return "E" + why;
   if (scene->mNumMeshes == 0) return "Ethe file has no triangles";
   std::string out = "M";

@@ -19,6 +19,9 @@ struct Header {
 /// The parent's answer to open_file: one byte, with the open file beside it or without.
 constexpr char kHere = 'Y', kRefused = 'N';
 
+/// Exit code of a worker that was refused memory.
+constexpr int kNoMemory = 5;
+
 /// Walls that a kernel may lack.
 enum Wall : std::uint32_t { landlock = 1, seccomp = 2 };
 

@@ -16,12 +16,6 @@
 
 #include "scenes/cage/protocol.h"
 
-#if defined(__SANITIZE_ADDRESS__)
-#define CRASHREEL_ADDRESS_LIMIT 0
-#else
-#define CRASHREEL_ADDRESS_LIMIT 1
-#endif
-
 namespace scenes::cage {
 namespace {
 
@@ -36,7 +30,7 @@ void set_limits(const Limits& limits) {
   limit(RLIMIT_NPROC, 0);
   limit(RLIMIT_NOFILE, 16);
   limit(RLIMIT_CPU, limits.cpu_time);
-  if (CRASHREEL_ADDRESS_LIMIT) limit(RLIMIT_AS, limits.memory);
+  limit(RLIMIT_AS, limits.memory);
 }
 
 /// Root without its rights is a user like others, to whom RLIMIT_NPROC applies.

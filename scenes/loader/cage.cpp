@@ -221,6 +221,7 @@ class CagedWorker {
     if (late_) return fmt::format("the import did not answer for {} s", limits_.patience);
     if (WIFEXITED(status_) && WEXITSTATUS(status_) == 127)
       return fmt::format("the program {} cannot be started", worker_program().string());
+    if (WIFEXITED(status_) && WEXITSTATUS(status_) == cage::kNoMemory) return "it needs more memory than the import may take";
     // the kernel's own count may be ahead of what it reports at the end
     if (WIFSIGNALED(status_) && WTERMSIG(status_) == SIGKILL && spent_ > 0.5 * limits_.cpu_time)
       return fmt::format("the import took more than {} s of processor time; convert the file to OBJ, or thin it out",

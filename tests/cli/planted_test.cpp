@@ -253,6 +253,21 @@ TEST_F(Planted, AHangupEndsARunAsOtherSignalsDo) {
     EXPECT_FALSE(entry.path().string().ends_with(".lock")) << entry.path();
 }
 
+TEST_F(Planted, ARunStoppedTwiceEndsAtOnceAndLeavesNoLock) {
+  folder.write("long.toml", ball_with("duration = \"0.4 s\"", "duration = \"600 s\"\nstep = \"0.1 ms\""));
+  const pid_t child = start({"study", "long.toml", "-o", "out", "--jobs", "1"});
+  const auto at_work = [this] { return fs::exists(folder / "out/runs"); };
+  for (int look = 0; look < 10'000 && !at_work(); ++look) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_TRUE(at_work());
+  kill(child, SIGSTOP);  // both are there when it goes on
+  kill(child, SIGTERM);
+  kill(child, SIGHUP);
+  kill(child, SIGCONT);
+  EXPECT_THAT(end_of(child), testing::AnyOf(128 + SIGTERM, 128 + SIGHUP));
+  EXPECT_THAT(contents(folder / "log"), HasSubstr("finished runs are kept in out/runs"));
+  EXPECT_FALSE(fs::exists(folder / "out/study.lock"));
+}
+
 TEST_F(Planted, AFullDiskLeavesNoPartOfAFigure) {
   EXPECT_EQ(under_shell(folder, "ulimit -f 1; $P figure ball.toml -o figures --size 64x64 --quality draft 2>/dev/null >/dev/null"),
             3);
@@ -265,7 +280,11 @@ TEST_F(Planted, APictureMayHaveSixtyFourMillionPixels) {
   const Result refused = run(folder, {"check", "bomb.toml"});
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.err, HasSubstr("it has more than 64 million pixels"));
-  // what is allowed is held to the ceiling while it is read: it needs 600 MB
+}
+
+TEST_F(Planted, APictureIsHeldToTheCeilingOfMemory) {
+  // while it is read it needs 600 MB
+  folder.write("bomb.toml", ground("ground.png"));
   write_black(folder / "ground.png", 8000);
   EXPECT_EQ(run(folder, {"simulate", "bomb.toml", "-o", "out", "--max-memory", "300 MB"}).code, 3);
   EXPECT_EQ(run(folder, {"simulate", "bomb.toml", "-o", "out", "--max-memory", "1 GB"}).code, 0);

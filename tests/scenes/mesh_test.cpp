@@ -233,23 +233,19 @@ TEST(MeshCage, EndsAnImportThatNeverEnds) {
   const SceneFolder folder;
   const auto file = folder.write("bomb.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\nrubbish\n");
   const CageResult result = import_in_cage(file, folder.path(), {.cpu_time = 1});
-  // whichever comes first on this machine: time, memory, or the reader's own end where it was refused memory
+  // whichever comes first on this machine
   EXPECT_THAT(result.problem,
               ::testing::AnyOf("the import took more than 1 s of processor time; convert the file to OBJ, or thin it out",
-                               "it needs more memory than the import may take",
-                               "the import crashed; convert the file to OBJ and try again"));
+                               "it needs more memory than the import may take"));
 }
 
 TEST(MeshCage, SaysThatMemoryEnded) {
   const SceneFolder folder;
   const auto file = folder.write("car.obj", box(4));
-#ifndef __SANITIZE_ADDRESS__  // whose shadow is more than any limit
   std::string many = box(4);
   for (int i = 0; i < 300'000; ++i) many += "v 1 2 3\nf 1 2 " + std::to_string(9 + i) + "\n";
-  const std::string problem = import_in_cage(folder.write("many.obj", many), folder.path(), {.memory = 40u << 20}).problem;
-  EXPECT_EQ(problem.find("processor time"), std::string::npos);
-  EXPECT_NE(problem, "");
-#endif
+  EXPECT_EQ(import_in_cage(folder.write("many.obj", many), folder.path(), {.memory = 40u << 20}).problem,
+            "it needs more memory than the import may take");
   EXPECT_EQ(import_in_cage(file, folder.path(), {.largest = 100}).problem, "what stands in it needs more than 0 MB; thin it out");
 }
 
