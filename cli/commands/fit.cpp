@@ -41,6 +41,12 @@ inference::ButFor but_for(const inference::Prior& prior, const inference::Fit& f
                           const std::string& change) {
   if (change.find('=') == std::string::npos)
     throw UsageError(fmt::format("--but-for is \"{}\": must be KEY=VALUE, like vehicle.sedan.speed=\"30 km/h\"", change));
+  if (fit.posterior.effective < inference::kEnoughRuns) {
+    inference::ButFor none;
+    none.change = change;
+    none.unanswered = fmt::format("too few effective runs ({:.0f}) carry the posterior", fit.posterior.effective);
+    return none;
+  }
   std::vector<std::vector<std::string>> changed;
   std::vector<inference::Answer> before;
   for (const std::size_t r : inference::drawn(fit.posterior, kButForRuns)) {

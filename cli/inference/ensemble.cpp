@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 
 #include "cli/exit.h"
 #include "cli/inference/crew.h"
@@ -64,8 +65,9 @@ void Ensemble::keep(const std::string& name, const Answer& a) {
 
 std::vector<Answer> Ensemble::run(const std::vector<std::vector<std::string>>& runs) {
   std::vector<std::size_t> waiting;
+  std::set<std::string> asked;  // a posterior that rests on few runs draws each of them many times
   for (std::size_t i = 0; i < runs.size(); ++i)
-    if (!known_.contains(name_of(runs[i]))) waiting.push_back(i);
+    if (const std::string name = name_of(runs[i]); !known_.contains(name) && asked.insert(name).second) waiting.push_back(i);
   Progress progress(wish_.verb, "runs", static_cast<double>(waiting.size()), wish_.show);
   std::size_t done = 0;
   const auto work = [&](std::size_t k) { return as_line(name_of(runs[waiting[k]]), answer(scene_, runs[waiting[k]], *meshes_)); };

@@ -61,6 +61,7 @@ constexpr double kContradicts = 0.01;
 /// "What if" from the same posterior.
 struct ButFor {
   std::string change;                                               // "vehicle.sedan.speed=30 km/h"
+  std::string unanswered;                                           // why; empty: answered
   std::size_t runs = 0, met_before = 0, met_after = 0, failed = 0;  // of equally probable runs
   double avoided = 0, low = 0, high = 0;                            // probability that they would not have met, with its 95 % range
   struct Severity {

@@ -65,6 +65,7 @@ Json check_json(const Prior& prior, const scenes::Evidence& e, const Check& c) {
 }
 
 Json but_for_json(const ButFor& b) {
+  if (!b.unanswered.empty()) return {{"set", b.change}, {"unanswered", b.unanswered}};
   Json out = {{"set", b.change}, {"runs", b.runs}, {"failed", b.failed}, {"met", b.met_before}, {"met_after", b.met_after}};
   if (b.met_before > 0) out["no_contact"] = {{"probability", b.avoided}, {"p2_5", b.low}, {"p97_5", b.high}};
   for (const ButFor::Severity& s : b.severities)
@@ -107,7 +108,9 @@ void add_modes(const Prior& prior, const Fit& fit, std::vector<std::string>& out
 void add_but_for(const std::vector<ButFor>& all, std::vector<std::string>& out) {
   for (const ButFor& b : all) {
     std::string line = fmt::format("With {}: ", b.change);
-    if (b.met_before == 0)
+    if (!b.unanswered.empty())
+      line += "not answered, " + b.unanswered;
+    else if (b.met_before == 0)
       line += "nobody was met to begin with";
     else
       line += fmt::format("the contact would not have occurred in {:.0f} % ({:.0f} to {:.0f}) of {} equally probable runs",
@@ -136,7 +139,7 @@ std::vector<std::string> sentences(const scenes::Scene& scene, const Prior& prio
         out.push_back("If the assumptions below hold: " + answer_in_words(prior.inputs()[i], i, fit) + ".");
   } else {
     for (const std::string& reason : fit.reasons) out.push_back("No single number can be given: " + reason + ".");
-    add_modes(prior, fit, out);
+    if (fit.posterior.effective >= kEnoughRuns) add_modes(prior, fit, out);
   }
   add_but_for(but_for, out);
   std::string assumed, seen;

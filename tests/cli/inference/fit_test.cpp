@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "../program.h"
 
@@ -115,10 +118,26 @@ TEST(Fit, TheBestRunIsASceneThatGivesItsMisfit) {
 
 TEST(Fit, ButForAsksTheSameRunsAgain) {
   const Folder folder;
-  const Result result = fit(folder, kGallery + "fit_puck.toml", {"-n", "64", "--but-for", "body.puck.friction=0.35"});
+  const Result result = fit(folder, kGallery + "fit_puck.toml", {"-n", "800", "--but-for", "body.puck.friction=0.35"});
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(fitted(folder)["but_for"][0]["met"], 0);  // a puck alone meets nobody
+  // a run that the posterior draws many times is made once
+  std::vector<std::string> lines;
+  for (const auto& journal : std::filesystem::directory_iterator(folder / "out/runs")) {
+    std::istringstream in(contents(journal.path()));
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+  }
+  EXPECT_GT(lines.size(), 800u);
+  EXPECT_EQ(std::set<std::string>(lines.begin(), lines.end()).size(), lines.size());
   EXPECT_EQ(fit(folder, kGallery + "fit_puck.toml", {"--but-for", "body.puck.frction=0.3", "--overwrite"}).code, 2);
+}
+
+TEST(Fit, AnswersNoButForFromAHandfulOfRuns) {
+  const Folder folder;
+  const Result result = fit(folder, kGallery + "fit_puck.toml", {"-n", "16", "--but-for", "body.puck.friction=0.35"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("With body.puck.friction=0.35: not answered, too few effective runs ("));
+  EXPECT_THAT(fitted(folder)["but_for"][0]["unanswered"].get<std::string>(), StartsWith("too few effective runs"));
 }
 
 TEST(Fit, SaysWhatIsMissing) {
