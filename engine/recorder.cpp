@@ -118,7 +118,7 @@ void Recorder::watch_compression(const World& world, const Constraint& c, double
 /// What rigid contacts and joints promise to keep. What overlaps at the start is told by itself, and takes its time to part.
 void Recorder::watch_bounds(const World& world, const Constraint& c, double time) {
   if (is_compliant(c)) return;
-  if (c.kind == ConstraintKind::limit) overturned_.note(-c.gap, time, c);
+  if (c.kind == ConstraintKind::limit) (c.slides ? overslid_ : overturned_).note(-c.gap, time, c);
   if (is_contact(c) && -c.gap > world.log.overlap_at_start(c.record_a, c.record_b) + kToldInside)
     (c.contact_kind == ContactKind::vehicle_pair ? crossed_ : stood_inside_).note(-c.gap, time, c);
 }
@@ -270,6 +270,9 @@ void Recorder::warn_of_shortfalls(const World& world, std::vector<std::string>& 
   if (overturned_.amount > kToldBeyond)
     warnings.push_back(name(overturned_.body_a) + " was turned " + told(overturned_.amount / kDegree) +
                        " deg beyond its range against " + name(overturned_.body_b) + at(overturned_) + kCompare);
+  if (overslid_.amount > kToldInside)
+    warnings.push_back(name(overslid_.body_a) + " slid " + told(1e3 * overslid_.amount) + " mm beyond its range against " +
+                       name(overslid_.body_b) + at(overslid_) + kCompare);
 }
 
 namespace {

@@ -63,6 +63,7 @@ class Recorder {
   Shortfall stood_inside_;  // [m] of a rigid contact
   Shortfall crossed_;       // [m] of two vehicles
   Shortfall overturned_;    // [rad] of a joint, beyond its range
+  Shortfall overslid_;      // [m] the same of a slide
 };
 
 }  // namespace engine

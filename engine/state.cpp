@@ -5,7 +5,7 @@
 namespace engine {
 namespace {
 
-constexpr std::uint64_t kMark = 0x3130455441545343;  // "CSTATE01"
+constexpr std::uint64_t kMark = 0x3230455441545343;  // "CSTATE02"
 
 /// All but the motion and what effects keep to themselves.
 template <class S>

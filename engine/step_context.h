@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "engine/joints/coordinates.h"
 #include "engine/world.h"
 
 namespace engine {
@@ -11,12 +12,13 @@ namespace engine {
 /// What a joint's resistance does over one step.
 struct Resistance {
   Vec3 torque_W = Vec3::Zero();  // [N m] on the child at the start of the step, for springs
-  Vec3 w_before = Vec3::Zero();  // [rad/s] relative angular velocity under smooth forces alone
-  Vec3 w_after = Vec3::Zero();   // [rad/s] with all impulses, before what they displaced turns the joint's axes
-  Mat3 axes_W = Mat3::Zero();    // of the articulation angles, columns
-  // of dry friction, per articulation angle
-  Vec3 rate = Vec3::Zero();       // [rad/s] at the start of the step
-  Vec3 slip_rate = Vec3::Zero();  // [rad/s] at which it yields its torque in this step, 0: has none
+  Vec3 force_W = Vec3::Zero();   // [N] the same, of a slide, at the child's point
+  Twist before;                  // of the child against the parent, under smooth forces alone
+  Twist after;                   // with all impulses, before what they displaced turns the joint's axes
+  JointCoordinates at_start;
+  // of dry friction, per coordinate
+  Eigen::Vector4d rate = Eigen::Vector4d::Zero();       // [rad/s], [m/s] at the start of the step
+  Eigen::Vector4d slip_rate = Eigen::Vector4d::Zero();  // at which it yields its torque in this step, 0: has none
   int effect = 0;
 };
 

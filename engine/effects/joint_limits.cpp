@@ -6,37 +6,65 @@
 
 #include "engine/effects/registration.h"
 #include "engine/effects/words.h"
-#include "engine/solver/joint_angles.h"
+#include "engine/joints/coordinates.h"
 
 namespace engine {
 namespace {
 
-constexpr double kNear = 0.12;    // [rad] a limit this close gets a row ...
-constexpr double kPerRate = 2.0;  // ... or one that 2 steps at the present rate would reach
+constexpr double kNear = 0.12;       // [rad] a limit this close gets a row ...
+constexpr double kNearSlide = 0.01;  // [m] the same of a slide
+constexpr double kPerRate = 2.0;     // ... or one that 2 steps at the present rate would reach
 
-bool has_limit(const ArticulationAngle& angle) {
-  return std::isfinite(angle.lower) || std::isfinite(angle.upper);
+bool has_limit(const JointCoordinate& range) {
+  return std::isfinite(range.lower) || std::isfinite(range.upper);
 }
 
 Finding look_at(const Model& model) {
-  std::size_t angles = 0, joints = 0;
+  std::size_t angles = 0, slides = 0, joints = 0;
   for (const Joint& joint : model.joints) {
-    const auto of_joint = std::count_if(joint.angles.begin(), joint.angles.end(), has_limit);
-    angles += static_cast<std::size_t>(of_joint);
-    joints += of_joint > 0;
+    const auto of_joint = static_cast<std::size_t>(std::count_if(joint.angles.begin(), joint.angles.end(), has_limit));
+    const bool slide = has_limit(joint.slide);
+    angles += of_joint;
+    slides += slide;
+    joints += of_joint > 0 || slide;
   }
   if (model.joints.empty()) return {false, "no joints", ""};
-  if (angles == 0) return {false, counted(model.joints.size(), "joint") + ", none with a range of motion", ""};
-  return {true, counted(angles, "articulation angle") + " of " + counted(joints, "joint") + " with an end to the range of motion",
+  if (joints == 0) return {false, counted(model.joints.size(), "joint") + ", none with a range of motion", ""};
+  const std::string what = (angles > 0 ? counted(angles, "articulation angle") : "") + (angles > 0 && slides > 0 ? " and " : "") +
+                           (slides > 0 ? counted(slides, "slide") : "");
+  return {true, what + " of " + counted(joints, "joint") + " with an end to the range of motion",
           "ends out of reach of a step; one passed by more than 0.4 deg has the step taken again in halves"};
 }
 
-void add_limit(ContactSearch& search, const Joint& joint, int joint_index, int angle, bool upper, double gap,
-               const Vec3& gradient_W, int self) {
+/// Response [1/kg] or [1/(kg m^2)] of a row if its bodies were free of joints.
+double free_response(const Model& model, const Motion& at, const Constraint& c, const Vec3& gradient_W) {
+  double response = 0;
+  const auto add = [&](int b, const auto& J) {
+    if (b < 0) return;
+    const Body& body = model.bodies[b];
+    const Vec3 axis_B = at.X_WB[b].q.conjugate() * (c.slides ? Vec3(J.row(0).template tail<3>()) : gradient_W);
+    response += (c.slides ? 1 / body.mass : 0) + axis_B.dot(body.inertia_B.inverse() * axis_B);
+  };
+  add(c.body_a, c.J_a);
+  add(c.body_b, c.J_b);
+  return response;
+}
+
+/// One end of the range of coordinate `i`.
+struct End {
+  int joint, i;
+  bool upper;
+  double gap;  // [rad] or [m]
+};
+
+void add_limit(ContactSearch& search, const JointCoordinates& now, const End& end, int self) {
   const World& world = search.world;
+  const Joint& joint = world.model.joints[end.joint];
+  const Vec3 gradient_W = now.gradient_W.col(end.i);
   Constraint c;
   c.kind = ConstraintKind::limit;
   c.rows = 1;
+  c.slides = end.i == kSlide;
   auto moving = [&](int body) { return body >= 0 && !world.model.bodies[body].fixed ? body : -1; };
   c.body_a = moving(joint.child);
   c.body_b = moving(joint.parent);
@@ -44,21 +72,23 @@ void add_limit(ContactSearch& search, const Joint& joint, int joint_index, int a
   c.record_b = joint.parent;
   c.J_a.setZero();
   c.J_b.setZero();
-  const double sign = upper ? -1 : 1;
-  c.J_a.row(0).tail<3>() = sign * gradient_W.transpose();
-  c.J_b.row(0).tail<3>() = -sign * gradient_W.transpose();
-  c.gap = gap;
-  const bool persons = world.model.bodies[joint.child].person >= 0;
-  if (yields(world.model.settings.contact_law, persons) && joint.stop_stiffness > 0) {
-    c.stiffness = joint.stop_stiffness;
-    for (const int b : {c.body_a, c.body_b}) {
-      if (b < 0) continue;
-      const Vec3 axis_B = search.at.X_WB[b].q.conjugate() * gradient_W;
-      c.free_response += axis_B.dot(world.model.bodies[b].inertia_B.inverse() * axis_B);
-    }
+  const double sign = end.upper ? -1 : 1;
+  if (c.slides) {
+    c.J_a.row(0) << sign * gradient_W.transpose(), sign * now.r_C.cross(gradient_W).transpose();
+    c.J_b.row(0) << -sign * gradient_W.transpose(), -sign * now.r_P.cross(gradient_W).transpose();
+  } else {
+    c.J_a.row(0).tail<3>() = sign * gradient_W.transpose();
+    c.J_b.row(0).tail<3>() = -sign * gradient_W.transpose();
   }
-  c.key = (static_cast<std::uint64_t>(self) << 56) | (static_cast<std::uint64_t>(joint_index) << 8) |
-          static_cast<std::uint64_t>(2 * angle + upper);
+  c.gap = end.gap;
+  const bool persons = world.model.bodies[joint.child].person >= 0;
+  if (const double stiffness = joint.coordinate(end.i).stop_stiffness;
+      yields(world.model.settings.contact_law, persons) && stiffness > 0) {
+    c.stiffness = stiffness;
+    c.free_response = free_response(world.model, search.at, c, gradient_W);
+  }
+  c.key = (static_cast<std::uint64_t>(self) << 56) | (static_cast<std::uint64_t>(end.joint) << 8) |
+          static_cast<std::uint64_t>(2 * end.i + end.upper);
   c.effect = self;
   search.found.push_back(c);
 }
@@ -78,16 +108,19 @@ class JointLimits final : public Effect {
     for (int j = 0; j < static_cast<int>(world.model.joints.size()); ++j) {
       const Joint& joint = world.model.joints[j];
       if (!world.awake[joint.child] && (joint.parent < 0 || !world.awake[joint.parent])) continue;
-      if (!has_limit(joint.angles[0]) && !has_limit(joint.angles[1]) && !has_limit(joint.angles[2])) continue;
-      const JointAngles now = joint_angles(joint, joint.parent < 0 ? Pose{} : at.X_WB[joint.parent], at.X_WB[joint.child]);
-      const Vec3 w_PC = at.V_WB[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : at.V_WB[joint.parent].w);
-      for (int i = 0; i < 3; ++i) {
+      const auto& angles = joint.angles;
+      if (!has_limit(angles[0]) && !has_limit(angles[1]) && !has_limit(angles[2]) && !has_limit(joint.slide)) continue;
+      const JointCoordinates now =
+          joint_coordinates(joint, joint.parent < 0 ? Pose{} : at.X_WB[joint.parent], at.X_WB[joint.child]);
+      const Twist relative = relative_motion(now, joint.parent < 0 ? Twist{} : at.V_WB[joint.parent], at.V_WB[joint.child]);
+      for (int i = 0; i < kCoordinates; ++i) {
         if (!now.free[i]) continue;
-        const ArticulationAngle& range = joint.angles[i];
-        const double near = kNear + kPerRate * search.within * std::abs(now.gradient_W.col(i).dot(w_PC));
-        const double above = now.angle[i] - range.lower, below = range.upper - now.angle[i];
-        if (above < near) add_limit(search, joint, j, i, false, above, now.gradient_W.col(i), self_);
-        if (below < near) add_limit(search, joint, j, i, true, below, now.gradient_W.col(i), self_);
+        const JointCoordinate& range = joint.coordinate(i);
+        const double rate = now.gradient_W.col(i).dot(part_of(relative, i));
+        const double near = (i == kSlide ? kNearSlide : kNear) + kPerRate * search.within * std::abs(rate);
+        const double above = now.value[i] - range.lower, below = range.upper - now.value[i];
+        if (above < near) add_limit(search, now, {j, i, false, above}, self_);
+        if (below < near) add_limit(search, now, {j, i, true, below}, self_);
       }
     }
   }

@@ -6,8 +6,8 @@
 
 #include "engine/effects/registration.h"
 #include "engine/effects/words.h"
+#include "engine/joints/rows.h"
 #include "engine/math/functions.h"
-#include "engine/solver/joint_rows.h"
 
 namespace engine {
 namespace {

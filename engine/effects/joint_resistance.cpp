@@ -1,36 +1,38 @@
-// Resistive spring torque, damping and dry friction of the articulation angles and the passive torques of legs, linearly implicit
-// over the step: a light hand on a damped wrist has rates of 1e4 1/s that no explicit scheme holds at 1 ms.
+// Resistive springs, damping and dry friction of the joints' coordinates and the passive torques of legs, linearly implicit over
+// the step: a light hand on a damped wrist has rates of 1e4 1/s that no explicit scheme holds at 1 ms.
 #include <algorithm>
 #include <cmath>
 
 #include "engine/effects/passive_legs.h"
 #include "engine/effects/registration.h"
 #include "engine/effects/words.h"
-#include "engine/solver/joint_angles.h"
+#include "engine/joints/coordinates.h"
 
 namespace engine {
 namespace {
 
-constexpr double kStuckRate = 1e-5;  // [rad/s] at which a joint held by dry friction gives way: 0.6 mrad in a minute at most
+constexpr double kStuckRate = 1e-5;  // [rad/s], [m/s] at which dry friction gives way: 0.6 mrad or mm in a minute at most
 constexpr double kMayGrow = 1.5;     // [-] in a step, of the rate that is looked ahead
-constexpr double kHeldBack = 1e-3;   // [rad/s] by more friction than the given: the impulses are found again
+constexpr double kHeldBack = 1e-3;   // [rad/s], [m/s] by more friction than the given: the impulses are found again
 
-bool resists(const ArticulationAngle& a) {
-  return a.stiffness > 0 || a.damping > 0 || a.friction_torque > 0;
+bool resists(const JointCoordinate& a) {
+  return a.stiffness > 0 || a.damping > 0 || a.friction > 0;
+}
+template <class Says>
+bool any_coordinate(const Joint& joint, Says says) {
+  return std::any_of(joint.angles.begin(), joint.angles.end(), says) || says(joint.slide);
 }
 bool resists(const Joint& joint) {
-  return joint.passive != PassiveTorque::none ||
-         std::any_of(joint.angles.begin(), joint.angles.end(), [](auto& a) { return resists(a); });
+  return joint.passive != PassiveTorque::none || any_coordinate(joint, [](const JointCoordinate& a) { return resists(a); });
 }
 
 Finding look_at(const Model& model) {
   std::size_t all = 0, springs = 0, dampers = 0, frictions = 0, passive = 0;
   for (const Joint& joint : model.joints) {
-    auto any = [&](auto resists_by) { return std::any_of(joint.angles.begin(), joint.angles.end(), resists_by); };
     all += resists(joint);
-    springs += any([](const ArticulationAngle& a) { return a.stiffness > 0; });
-    dampers += any([](const ArticulationAngle& a) { return a.damping > 0; });
-    frictions += any([](const ArticulationAngle& a) { return a.friction_torque > 0; });
+    springs += any_coordinate(joint, [](const JointCoordinate& a) { return a.stiffness > 0; });
+    dampers += any_coordinate(joint, [](const JointCoordinate& a) { return a.damping > 0; });
+    frictions += any_coordinate(joint, [](const JointCoordinate& a) { return a.friction > 0; });
     passive += joint.passive != PassiveTorque::none;
   }
   if (model.joints.empty()) return {false, "no joints", ""};
@@ -51,48 +53,72 @@ Finding look_at(const Model& model) {
 /// must hold a spring at the very instant the spring pulls, or the joint creeps.
 bool in_stages(const Model& model, const Joint& joint) {
   if (model.settings.scheme == Scheme::stepping) return false;
-  if (std::any_of(joint.angles.begin(), joint.angles.end(), [](auto& a) { return a.friction_torque > 0; })) return false;
+  if (any_coordinate(joint, [](const JointCoordinate& a) { return a.friction > 0; })) return false;
   constexpr double kStable = 1.5;  // [-] rate times step
-  double largest_inverse = 0;
-  for (const int b : {joint.parent, joint.child})
-    if (b >= 0 && !model.bodies[b].fixed) largest_inverse += 1 / model.bodies[b].inertia_B.diagonal().minCoeff();
-  for (const ArticulationAngle& a : joint.angles)
-    if (a.damping * largest_inverse * model.settings.step > kStable ||
-        a.stiffness * largest_inverse * model.settings.step * model.settings.step > kStable)
-      return false;
-  return joint.passive == PassiveTorque::none ||
-         joint.passive_share * kStiffestPassiveTorque * largest_inverse * model.settings.step * model.settings.step < kStable;
+  double largest_inverse = 0, inverse_mass = 0;
+  for (const int b : {joint.parent, joint.child}) {
+    if (b < 0 || model.bodies[b].fixed) continue;
+    largest_inverse += 1 / model.bodies[b].inertia_B.diagonal().minCoeff();
+    inverse_mass += 1 / model.bodies[b].mass;
+  }
+  const double h = model.settings.step;
+  const auto stiff = [h](const JointCoordinate& a, double inverse) {
+    return a.damping * inverse * h > kStable || a.stiffness * inverse * h * h > kStable;
+  };
+  if (std::any_of(joint.angles.begin(), joint.angles.end(), [&](auto& a) { return stiff(a, largest_inverse); })) return false;
+  if (stiff(joint.slide, inverse_mass)) return false;
+  return joint.passive == PassiveTorque::none || joint.passive_share * kStiffestPassiveTorque * largest_inverse * h * h < kStable;
 }
 
-/// Torque of springs and dampers [N m] on the child, world axes.
-Vec3 smooth_torque(const Joint& joint, const JointAngles& now, const Vec3& w_PC) {
-  Vec3 torque = Vec3::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const ArticulationAngle& a = joint.angles[i];
+/// Of springs and dampers on the child, world axes: torque [N m] as w and, at the child's point, force [N] as v.
+Twist smooth_resistance(const Joint& joint, const JointCoordinates& now, const Twist& relative) {
+  Twist out;
+  for (int i = 0; i < kCoordinates; ++i) {
+    const JointCoordinate& a = joint.coordinate(i);
     if (!now.free[i]) continue;
     const Vec3 axis = now.axes_W.col(i);
-    torque -= a.stiffness * (now.angle[i] - a.rest) * now.gradient_W.col(i) + a.damping * axis.dot(w_PC) * axis;
+    (i == kSlide ? out.v : out.w) -=
+        a.stiffness * (now.value[i] - a.rest) * now.gradient_W.col(i) + a.damping * axis.dot(part_of(relative, i)) * axis;
   }
-  return torque;
+  return out;
 }
 
-/// The rate [rad/s] at which an angle that turns at `now` will come out of the step if it goes on changing as in the last; held, if
-/// it comes to rest on the way.
-double expect_slip(Resistance& resistance, const Vec3& change, int angle, double now, double h) {
-  const double ahead = std::copysign(1.0, now) * (now + h * change[angle]);
-  resistance.rate[angle] = now;
-  return resistance.slip_rate[angle] = std::max(std::min(ahead, kMayGrow * std::abs(now)), kStuckRate);
+/// The rate [rad/s], [m/s] at which a coordinate that goes at `now` will come out of the step if it goes on changing as in the
+/// last; held, if it comes to rest on the way.
+double expect_slip(Resistance& resistance, const Eigen::Vector4d& change, int i, double now, double h) {
+  const double ahead = std::copysign(1.0, now) * (now + h * change[i]);
+  resistance.rate[i] = now;
+  return resistance.slip_rate[i] = std::max(std::min(ahead, kMayGrow * std::abs(now)), kStuckRate);
+}
+
+JointCoordinates coordinates_at(const Joint& joint, const std::vector<Pose>& X) {
+  return joint_coordinates(joint, joint.parent < 0 ? Pose{} : X[joint.parent], X[joint.child]);
+}
+
+Twist relative_motion_at(const Joint& joint, const JointCoordinates& now, const std::vector<Twist>& V) {
+  return relative_motion(now, joint.parent < 0 ? Twist{} : V[joint.parent], V[joint.child]);
 }
 
 Vec3 relative_turning(const Joint& joint, const std::vector<Twist>& V) {
   return V[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : V[joint.parent].w);
 }
 
+/// What a force or torque of one along the coordinate changes of its rate, were both bodies free [1/kg], [1/(kg m^2)].
+double free_response(const Model& model, const Joint& joint, int i, const Vec3& axis, const std::vector<Pose>& X) {
+  double response = 0;
+  for (const int b : {joint.parent, joint.child}) {
+    if (b < 0 || model.bodies[b].fixed) continue;
+    const Vec3 axis_B = X[b].q.conjugate() * axis;
+    response += i == kSlide ? 1 / model.bodies[b].mass : axis_B.dot(axis_B.cwiseQuotient(model.bodies[b].inertia_B.diagonal()));
+  }
+  return response;
+}
+
 }  // namespace
 
 /// How the rates of joints with dry friction changed over the last step.
 struct FrictionMemory {
-  std::vector<Vec3> change;  // [rad/s^2] per joint, per articulation angle
+  std::vector<Eigen::Vector4d> change;  // [rad/s^2], [m/s^2] per joint, per coordinate
 
   template <class S>
   static auto fields(S& s) {
@@ -109,7 +135,9 @@ class JointResistance final : public EffectWith<FrictionMemory> {
     for (const Joint& joint : world.model.joints) in_stages_.push_back(resists(joint) && in_stages(world.model, joint));
   }
 
-  void begin(World& world, State& state) override { memory(state).change.assign(world.model.joints.size(), Vec3::Zero()); }
+  void begin(World& world, State& state) override {
+    memory(state).change.assign(world.model.joints.size(), Eigen::Vector4d::Zero());
+  }
 
   void before_step(World& world, State& state, double) override {
     if (world.model.settings.scheme != Scheme::stepping) power_ = power_taken(world, state);
@@ -120,10 +148,11 @@ class JointResistance final : public EffectWith<FrictionMemory> {
     for (std::size_t j = 0; j < world.model.joints.size(); ++j) {
       const Joint& joint = world.model.joints[j];
       if (!in_stages_[j] || !world.awake[joint.child]) continue;
-      const JointAngles now = joint_angles(joint, joint.parent < 0 ? Pose{} : X[joint.parent], X[joint.child]);
-      const Vec3 torque = smooth_torque(joint, now, relative_turning(joint, V));
-      force[joint.child].tail<3>() += torque;
-      if (joint.parent >= 0) force[joint.parent].tail<3>() -= torque;
+      const JointCoordinates now = coordinates_at(joint, X);
+      const Twist resistance = smooth_resistance(joint, now, relative_motion_at(joint, now, V));
+      force[joint.child].tail<3>() += resistance.w;
+      if (joint.parent >= 0) force[joint.parent].tail<3>() -= resistance.w;
+      if (now.free[kSlide]) add_along_slide(now, joint, resistance.v, force);
     }
     for (const PassiveLeg& leg : legs_)
       for_passive_joints(world.model, leg, X, [&](int j, const Vec3& g, double torque, double) {
@@ -148,32 +177,34 @@ class JointResistance final : public EffectWith<FrictionMemory> {
         memory(step.state).change[j].setZero();
         continue;
       }
-      const JointAngles now = joint_angles(joint, joint.parent < 0 ? Pose{} : state.X_WB[joint.parent], state.X_WB[joint.child]);
-      const Vec3 w_PC = relative_turning(joint, state.V_WB);
-      damper.matrix.setZero();
+      const JointCoordinates& now = resistance.at_start = coordinates_at(joint, state.X_WB);
+      const Twist relative = relative_motion_at(joint, now, state.V_WB);
+      damper = {};
       resistance.torque_W.setZero();
+      resistance.force_W.setZero();
       resistance.effect = self_;
       resistance.slip_rate.setZero();
-      for (int i = 0; i < 3; ++i) {
-        const ArticulationAngle& a = joint.angles[i];
+      for (int i = 0; i < kCoordinates; ++i) {
+        const JointCoordinate& a = joint.coordinate(i);
         if (!now.free[i] || !resists(a)) continue;
+        Mat3& matrix = i == kSlide ? damper.sliding : damper.turning;
         const Vec3 g = now.gradient_W.col(i), axis = now.axes_W.col(i);
-        resistance.axes_W.col(i) = axis;
-        const double friction = a.friction_torque / expect_slip(resistance, memory(step.state).change[j], i, axis.dot(w_PC), h);
+        const double rate = axis.dot(part_of(relative, i));
+        const double friction = a.friction / expect_slip(resistance, memory(step.state).change[j], i, rate, h);
         const double damping = in_stages_[j] ? 0 : a.damping;
-        damper.matrix += h * (damping + friction) * axis * axis.transpose();
+        matrix += h * (damping + friction) * axis * axis.transpose();
         if (in_stages_[j] || a.stiffness == 0) continue;
-        damper.matrix += h * h * a.stiffness * g * g.transpose();
-        resistance.torque_W -= a.stiffness * (now.angle[i] - a.rest) * g;
+        matrix += h * h * a.stiffness * g * g.transpose();
+        (i == kSlide ? resistance.force_W : resistance.torque_W) -= a.stiffness * (now.value[i] - a.rest) * g;
       }
-      if (damper.matrix.isZero(0)) continue;
+      if (damper.turning.isZero(0) && damper.sliding.isZero(0)) continue;
       damper.present = true;
       step.any_damper = true;
     }
     for (const PassiveLeg& leg : legs_)
       for_passive_joints(world.model, leg, state.X_WB, [&](int j, const Vec3& g, double torque, double stiffness) {
         if (in_stages_[j] || !world.awake[world.model.joints[j].child]) return;
-        step.buffers.dampers[j].matrix += h * h * stiffness * g * g.transpose();
+        step.buffers.dampers[j].turning += h * h * stiffness * g * g.transpose();
         step.buffers.dampers[j].present = true;
         step.any_damper = true;
         step.buffers.resistances[j].torque_W += torque * g;
@@ -192,25 +223,20 @@ class JointResistance final : public EffectWith<FrictionMemory> {
       JointDamper& damper = step.buffers.dampers[j];
       Resistance& resistance = step.buffers.resistances[j];
       if (!damper.present) continue;
-      const Vec3 w_PC = relative_turning(joint, step.end.V_WB);
-      for (int i = 0; i < 3; ++i) {
-        const double torque = joint.angles[i].friction_torque;
+      const JointCoordinates& at_start = resistance.at_start;
+      const Twist relative = relative_motion_at(joint, at_start, step.end.V_WB);
+      for (int i = 0; i < kCoordinates; ++i) {
+        const double friction = joint.coordinate(i).friction;
         double& assumed = resistance.slip_rate[i];
-        if (torque <= 0 || assumed <= 0) continue;
-        const Vec3 axis = resistance.axes_W.col(i);
-        const double came_out = std::abs(axis.dot(w_PC));
+        if (friction <= 0 || assumed <= 0) continue;
+        const Vec3 axis = at_start.axes_W.col(i);
+        const double came_out = std::abs(axis.dot(part_of(relative, i)));
         if (came_out <= assumed) continue;
-        double inverse_inertia = 0;
-        for (const int b : {joint.parent, joint.child}) {
-          if (b < 0 || world.model.bodies[b].fixed) continue;
-          const Vec3 axis_B = step.end.X_WB[b].q.conjugate() * axis;
-          inverse_inertia += axis_B.dot(axis_B.cwiseQuotient(world.model.bodies[b].inertia_B.diagonal()));
-        }
-        const double slower = inverse_inertia * torque * h;  // [rad/s] what the torque takes away
+        const double slower = free_response(world.model, joint, i, axis, step.end.X_WB) * friction * h;  // what it takes away
         const double held_back = slower * (came_out / assumed - 1);
         if (held_back < kHeldBack) continue;
         const double rate = came_out + held_back;
-        damper.matrix += h * torque * (1 / rate - 1 / assumed) * axis * axis.transpose();
+        (i == kSlide ? damper.sliding : damper.turning) += h * friction * (1 / rate - 1 / assumed) * axis * axis.transpose();
         assumed = rate;
         any = true;
       }
@@ -224,8 +250,11 @@ class JointResistance final : public EffectWith<FrictionMemory> {
     for (std::size_t j = 0; j < world.model.joints.size(); ++j) {
       const Resistance& resistance = step.buffers.resistances[j];
       if (!step.buffers.dampers[j].present || resistance.slip_rate.isZero(0)) continue;
-      const Vec3 w_PC = relative_turning(world.model.joints[j], state.V_WB);
-      memory(state).change[j] = (resistance.axes_W.transpose() * w_PC - resistance.rate) / step.length;
+      const JointCoordinates& at_start = resistance.at_start;
+      const Twist relative = relative_motion_at(world.model.joints[j], at_start, state.V_WB);
+      Eigen::Vector4d rate;
+      rate << at_start.axes_W.leftCols<3>().transpose() * relative.w, at_start.axes_W.col(kSlide).dot(relative.v);
+      memory(state).change[j] = (rate - resistance.rate) / step.length;
     }
     if (world.model.settings.scheme == Scheme::stepping) return;
     state.energy.dissipated[self_] += 0.5 * step.length * (power_ + power_taken(world, state));
@@ -238,9 +267,10 @@ class JointResistance final : public EffectWith<FrictionMemory> {
     for (std::size_t j = 0; j < world.model.joints.size(); ++j) {
       const Joint& joint = world.model.joints[j];
       if (!in_stages_[j] || !world.awake[joint.child]) continue;
-      const JointAngles now = joint_angles(joint, joint.parent < 0 ? Pose{} : at.X_WB[joint.parent], at.X_WB[joint.child]);
-      const Vec3 w_PC = relative_turning(joint, at.V_WB);
-      power -= smooth_torque(joint, now, w_PC).dot(w_PC);
+      const JointCoordinates now = coordinates_at(joint, at.X_WB);
+      const Twist relative = relative_motion_at(joint, now, at.V_WB);
+      const Twist resistance = smooth_resistance(joint, now, relative);
+      power -= resistance.w.dot(relative.w) + (now.free[kSlide] ? resistance.v.dot(relative.v) : 0);
     }
     for (const PassiveLeg& leg : legs_)
       for_passive_joints(world.model, leg, at.X_WB, [&](int j, const Vec3& g, double torque, double) {

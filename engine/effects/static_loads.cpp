@@ -5,6 +5,7 @@
 #include <map>
 
 #include "engine/effects/driver.h"
+#include "engine/joints/joint_type.h"
 
 namespace engine {
 namespace {
@@ -120,7 +121,7 @@ std::vector<double> static_wheel_loads(const Model& model, const Topology& topol
     for (const Joint& joint : model.joints) {
       if (topology.tree_of_body[joint.child] != tree || joint.parent < 0 || topology.tree_of_body[joint.parent] != tree) continue;
       const bool ball =
-          joint.kind == JointKind::spherical && model.bodies[joint.child].vehicle >= 0 && model.bodies[joint.parent].vehicle >= 0;
+          type_of(joint.kind).turns() == 3 && model.bodies[joint.child].vehicle >= 0 && model.bodies[joint.parent].vehicle >= 0;
       unknowns.push_back({joint.child, joint.parent, push_at(standing.X[joint.child] * joint.X_CF.p), ball ? 1 : kFree});
       if (ball) continue;
       unknowns.push_back({joint.child, joint.parent, {0, 1, 0}, kFree});

@@ -44,27 +44,28 @@ template <int N>
 /// A motion of the body that gives the rows the right-hand side g; any other differs by what the joint leaves free.
 Vec6 particular(const JointRows& rows, bool body_is_joint_child, const Vec3& r) {
   const double s = body_is_joint_child ? -1 : 1;
+  const int turns = rows.held_along;  // where the rows on the attitude begin
   Vec3 w = Vec3::Zero();
-  switch (rows.count) {
-    case 3:
+  switch (rows.held_turns()) {
+    case 0:
       break;
-    case 4:
-      w = s * rows.bias[3] / rows.n[0].squaredNorm() * rows.n[0];
+    case 1:
+      w = s * rows.bias[turns] / rows.n[0].squaredNorm() * rows.n[0];
       break;
-    case 5: {
+    case 2: {
       const double aa = rows.n[0].squaredNorm(), ab = rows.n[0].dot(rows.n[1]), bb = rows.n[1].squaredNorm();
-      const double x = rows.bias[3], y = rows.bias[4];
+      const double x = rows.bias[turns], y = rows.bias[turns + 1];
       w = s / (aa * bb - ab * ab) * ((bb * x - ab * y) * rows.n[0] + (aa * y - ab * x) * rows.n[1]);
       break;
     }
     default: {
       Mat3 N;
       N << rows.n[0].transpose(), rows.n[1].transpose(), rows.n[2].transpose();
-      w = s * (N.inverse() * rows.bias.tail<3>());
+      w = s * (N.inverse() * rows.bias.segment<3>(turns));
     }
   }
   Vec6 c;
-  c << s * rows.bias.head<3>() + r.cross(w), w;
+  c << s * along_held(rows, rows.bias) + r.cross(w), w;
   return c;
 }
 
@@ -87,15 +88,18 @@ void Articulation::reset(const Topology& topology) {
   H_.resize(links);
 }
 
-/// S = [skew(r) S_w; S_w]: the point of the joint stays.
+/// Of the motion subspace S, at the joint's point, the body's centre makes [S_v + skew(r) S_w; S_w].
 template <int K>
-void Articulation::eliminate(Factor& f, const Hinge& hinge, const Eigen::Matrix<double, 3, K>& S_w, const Mat6& H, Mat6* H_parent) {
-  Eigen::Matrix<double, 6, K> S;
-  S.template topRows<3>() = skew_times<K>(hinge.r, S_w);
-  S.template bottomRows<3>() = S_w;
+void Articulation::eliminate(Factor& f, const Hinge& hinge, const Mat6& H, Mat6* H_parent) {
+  Eigen::Matrix<double, 6, K> S = motion_subspace<K>(f.rows);
+  const Eigen::Matrix<double, 3, K> S_v = S.template topRows<3>(), S_w = S.template bottomRows<3>();
+  S.template topRows<3>() += skew_times<K>(hinge.r, S_w);
   const Eigen::Matrix<double, 6, K> HS = H * S;
   Eigen::Matrix<double, K, K> k = S.transpose() * HS;
-  if (hinge.damper && hinge.damper->present) k.noalias() += S_w.transpose() * hinge.damper->matrix * S_w;
+  if (hinge.damper && hinge.damper->present) {
+    k.noalias() += S_w.transpose() * hinge.damper->turning * S_w;
+    if (f.rows.slides() > 0) k.noalias() += S_v.transpose() * hinge.damper->sliding * S_v;
+  }
   const Eigen::Matrix<double, K, K> ki = k.inverse();
   f.D.noalias() = S * ki * S.transpose();
   if (!H_parent) {
@@ -123,6 +127,37 @@ void Articulation::eliminate(Factor& f, const Hinge& hinge, const Eigen::Matrix<
   H_parent->topRightCorner<3, 3>() += upper;
   H_parent->bottomLeftCorner<3, 3>() += upper.transpose();
   H_parent->bottomRightCorner<3, 3>() += rest.bottomRightCorner<3, 3>() + TQ + TQ.transpose() + skew_times<3>(d, PT);
+}
+
+/// By the size of the motion subspace: a free ball and a hinge, the joints of persons, have products of their own.
+void Articulation::eliminate_any(Factor& f, const Hinge& hinge, const Mat6& H, Mat6* H_parent) {
+  const int slides = f.rows.slides(), turns = f.rows.turns();
+  const bool damped = hinge.damper && hinge.damper->present;
+  double* parent = H_parent ? H_parent->data() : nullptr;
+  if (slides == 0 && turns == 3 && !damped) {
+    eliminate_point(H.data(), hinge.r.data(), hinge.r_parent.data(), f.D.data(), f.X.data(), parent);
+    return;
+  }
+  if (slides == 0 && turns == 1) {
+    const Vec3& axis = f.rows.u[0];
+    const double damping = damped ? (axis.transpose() * hinge.damper->turning * axis)(0) : 0;
+    eliminate_hinge(H.data(), hinge.r.data(), hinge.r_parent.data(), axis.data(), damping, f.D.data(), f.X.data(), parent);
+    return;
+  }
+  switch (slides + turns) {
+    case 0:
+      return eliminate_fixed(f, hinge, H, H_parent);
+    case 1:
+      return eliminate<1>(f, hinge, H, H_parent);
+    case 2:
+      return eliminate<2>(f, hinge, H, H_parent);
+    case 3:
+      return eliminate<3>(f, hinge, H, H_parent);
+    case 4:
+      return eliminate<4>(f, hinge, H, H_parent);
+    default:
+      return eliminate<5>(f, hinge, H, H_parent);
+  }
 }
 
 /// No freedom at all: the parent carries the body as its own.
@@ -163,32 +198,7 @@ void Articulation::factor(const Topology& topology, int tree, const std::vector<
     const bool child = link.body_is_joint_child;
     const Hinge hinge{child ? f.rows.r_C : f.rows.r_P, child ? f.rows.r_P : f.rows.r_C,
                       dampers ? &(*dampers)[link.joint] : nullptr};
-    Mat6* H_parent = link.parent < 0 ? nullptr : &H_[topology.link_of_body[link.parent] - first_];
-    double* parent = H_parent ? H_parent->data() : nullptr;
-    switch (f.rows.count) {
-      case 3:
-        if (hinge.damper && hinge.damper->present) {
-          eliminate<3>(f, hinge, Mat3::Identity(), H, H_parent);
-        } else {
-          eliminate_point(H.data(), hinge.r.data(), hinge.r_parent.data(), f.D.data(), f.X.data(), parent);
-        }
-        break;
-      case 4: {  // a cross of two axes
-        Eigen::Matrix<double, 3, 2> axes;
-        axes << f.rows.t[0], f.rows.u[0];
-        eliminate<2>(f, hinge, axes, H, H_parent);
-        break;
-      }
-      case 5: {
-        const Vec3& axis = f.rows.u[0];
-        const double damping = hinge.damper && hinge.damper->present ? (axis.transpose() * hinge.damper->matrix * axis)(0) : 0;
-        eliminate_hinge(H.data(), hinge.r.data(), hinge.r_parent.data(), axis.data(), damping, f.D.data(), f.X.data(), parent);
-        break;
-      }
-      default:
-        eliminate_fixed(f, hinge, H, H_parent);
-        break;
-    }
+    eliminate_any(f, hinge, H, link.parent < 0 ? nullptr : &H_[topology.link_of_body[link.parent] - first_]);
   }
 }
 
@@ -198,7 +208,7 @@ void Articulation::set_bias(const Topology& topology, int tree, const std::vecto
     const Topology::Link& link = topology.links[l];
     if (link.joint < 0) continue;
     const Joint& joint = model_.joints[link.joint];
-    joint_bias(joint.parent < 0 ? Vec3::Zero() : V_WB[joint.parent].w, V_WB[joint.child].w, of_link(l).rows);
+    joint_bias(joint.parent < 0 ? Twist{} : V_WB[joint.parent], V_WB[joint.child], of_link(l).rows);
   }
 }
 
@@ -207,7 +217,7 @@ void Articulation::solve(const Topology& topology, int tree, std::vector<Vec6>& 
   for (int l = range.begin; l < range.end; ++l) {
     const Topology::Link& link = topology.links[l];
     const Factor& f = of_link(l);
-    if (bias == Bias::from_rows && f.rows.count == 3) {
+    if (bias == Bias::from_rows && f.rows.count == 3 && f.rows.held_along == 3) {
       // a shared point: no turning is asked for
       const Vec3 c = (link.body_is_joint_child ? -1 : 1) * f.rows.bias.head<3>();
       a[link.body] << c, Vec3::Zero();

@@ -1,26 +1,27 @@
 // The joints of a tree of bodies, factorised in tree order: exact whatever the mass ratio, linear in the number of bodies.
 //
 // To solve   [ M  J^T ] [ a]   [f]
-//            [ J   0  ] [-l] = [g]     leaves first, each body with its own joint, S the motions that joint leaves it:
+//            [ J   0  ] [-l] = [g]     leaves first, each body with its own joint, S its motion subspace (joints/rows.h):
 //   a_c = X0 a_p + S z + c       X0 carries the parent's motion to c as if the joint were locked, c gives the rows their bias g
 //   H_c = M_c + what its children added,  K = S^T H_c S,  D = S K^-1 S^T
 //   a_c = X a_p + D f_c + c,     X = X0 - D H_c X0,  with f_c - H_c c for f_c
 //   H_p += X0^T H_c X            f_p += X^T f_c
 // after Featherstone (1983). What is inverted is K, as large as the joint has freedoms, and never the inertia of a light body.
-// A damper C between c and p (3x3 on the relative angular velocity, times the step) adds S_w^T C S_w to K.
+// A damper C between c and p (on the relative velocity at the joint's point, times the step) adds S^T C S to K.
 // How bodies answer each other follows from X and D alone: W_ii = D_i + X_i W_pp X_i^T, W_ij = X_i W_pj: see response.h.
 #pragma once
 
 #include <vector>
 
-#include "engine/solver/joint_rows.h"
+#include "engine/joints/rows.h"
 #include "engine/solver/topology.h"
 
 namespace engine {
 
-/// Implicit resistance of one joint over a step: `matrix` (world, symmetric, >= 0) [kg m^2] as if added to the inertia.
+/// Implicit resistance of one joint over a step (world, symmetric, >= 0), as if added to the inertia.
 struct JointDamper {
-  Mat3 matrix = Mat3::Zero();
+  Mat3 turning = Mat3::Zero();  // [kg m^2]
+  Mat3 sliding = Mat3::Zero();  // [kg]
   bool present = false;
 };
 
@@ -59,8 +60,10 @@ class Articulation {
     const Vec3& r_parent;  // [m] from its parent's
     const JointDamper* damper;
   };
+  /// The joint's freedoms in number K.
   template <int K>
-  void eliminate(Factor&, const Hinge&, const Eigen::Matrix<double, 3, K>& S_w, const Mat6& H, Mat6* H_parent);
+  void eliminate(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);
+  void eliminate_any(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);
   void eliminate_fixed(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);
 
   const Model& model_;

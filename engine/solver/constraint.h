@@ -17,7 +17,8 @@ enum class ConstraintKind { contact, wheel, limit, bilateral };
 struct Constraint {
   ConstraintKind kind = ConstraintKind::contact;
   int rows = 3;
-  int body_a = -1;  // -1: the world
+  bool slides = false;  // limit: the end of a slide [m], not of a turn [rad]
+  int body_a = -1;      // -1: the world
   int body_b = -1;
   Eigen::Matrix<double, 3, 6, Eigen::RowMajor> J_a = Eigen::Matrix<double, 3, 6>::Zero();  // first `rows` rows
   Eigen::Matrix<double, 3, 6, Eigen::RowMajor> J_b = Eigen::Matrix<double, 3, 6>::Zero();
@@ -50,7 +51,7 @@ struct Constraint {
   /// What a contact or limit is when it is found; the rest is of the step that solves it.
   template <class S>
   static auto fields(S& s) {
-    return std::tie(s.kind, s.rows, s.body_a, s.body_b, s.J_a, s.J_b, s.point, s.frame, s.gap, s.friction, s.restitution,
+    return std::tie(s.kind, s.rows, s.slides, s.body_a, s.body_b, s.J_a, s.J_b, s.point, s.frame, s.gap, s.friction, s.restitution,
                     s.stiffness, s.hysteresis, s.free_response, s.whole_response, s.key, s.effect, s.contact_kind, s.record_a,
                     s.record_b);
   }
@@ -58,6 +59,11 @@ struct Constraint {
 
 inline bool is_contact(const Constraint& c) {
   return c.kind == ConstraintKind::contact;
+}
+
+/// The end of an articulation angle's range.
+inline bool is_angular_limit(const Constraint& c) {
+  return c.kind == ConstraintKind::limit && !c.slides;
 }
 
 /// A contact or limit whose depth is a deformation, not an error.

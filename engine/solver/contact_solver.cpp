@@ -141,7 +141,7 @@ double ContactSolver::sweep(std::vector<Constraint>& all, const std::vector<int>
         next[0] = c.impulse[0] + (c.target - u[0] - c.softness * c.impulse[0]) / (A(0, 0) + c.softness);
         if (c.kind == ConstraintKind::limit) {
           next[0] = std::max(0.0, next[0]);
-          scale = kLimitArm;
+          scale = c.slides ? 1 : kLimitArm;
         }
         break;
       }

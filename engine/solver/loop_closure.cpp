@@ -100,7 +100,7 @@ double LoopClosure::place(const std::vector<Pose>& X_WB, double& largest_gap) {
     JointRows& rows = rows_[i];
     joint_rows(joint, joint.parent < 0 ? kWorld : X_WB[joint.parent], X_WB[joint.child], rows);
     largest = std::max(largest, rows.error.head(rows.count).cwiseAbs().maxCoeff());
-    largest_gap = std::max(largest_gap, rows.error.head<3>().norm());
+    largest_gap = std::max(largest_gap, gap_of(rows));
     for (int k = 0; k < rows.count; k += 3, ++at) {
       Constraint& block = blocks_[at];
       for (int r = 0; r < block.rows; ++r) {
@@ -125,7 +125,7 @@ void LoopClosure::factor(const Topology& topology, const Articulation& articulat
 void LoopClosure::ask_for_acceleration(const std::vector<Twist>& V_WB) {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const Joint& joint = model_.joints[joints_[i]];
-    joint_bias(joint.parent < 0 ? Vec3::Zero() : V_WB[joint.parent].w, V_WB[joint.child].w, rows_[i]);
+    joint_bias(joint.parent < 0 ? Twist{} : V_WB[joint.parent], V_WB[joint.child], rows_[i]);
     wanted_.segment(first_row_[i], rows_[i].count) = rows_[i].bias.head(rows_[i].count);
   }
 }
@@ -182,8 +182,11 @@ void LoopClosure::solve(const Topology& topology, const Articulation& articulati
 }
 
 void LoopClosure::sum_up(double weight) {
-  for (std::size_t i = 0; i < joints_.size(); ++i)
-    impulse_[joints_[i]] -= weight * multiplier_.segment<3>(first_row_[i]);  // a row pulls the child to the parent's point
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    Vec6 amounts = Vec6::Zero();
+    amounts.head(rows_[i].held_along) = multiplier_.segment(first_row_[i], rows_[i].held_along);
+    impulse_[joints_[i]] -= weight * along_held(rows_[i], amounts);  // a row pulls the child to the parent's point
+  }
 }
 
 }  // namespace engine

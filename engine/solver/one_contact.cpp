@@ -89,7 +89,7 @@ double natural_residual(const Constraint& c, const Vec3& u, const Mat3& A, doubl
     case ConstraintKind::bilateral:
       return std::abs(miss);
     case ConstraintKind::limit:
-      return kLimitArm * std::abs(c.impulse[0] - std::max(0.0, c.impulse[0] - miss / a)) * a;
+      return (c.slides ? 1.0 : kLimitArm) * std::abs(c.impulse[0] - std::max(0.0, c.impulse[0] - miss / a)) * a;
     case ConstraintKind::wheel: {
       // the soft normal answers to the suspension, the road plane to the tyre: each by its own response
       const Vec3 change = solve_wheel(A, u, c.impulse, c) - c.impulse;

@@ -55,9 +55,9 @@ void book(StepContext& s) {
   for (std::size_t i = 0; i < s.constraints.size(); ++i) {
     const Constraint& c = s.constraints[i];
     dissipated[c.effect] -= work_of(s, i);
-    if (is_contact(c) && !is_compliant(c)) diagnostics.max_penetration = std::max(diagnostics.max_penetration, -c.gap);
-    if (c.kind == ConstraintKind::limit && !is_compliant(c))
-      diagnostics.max_joint_angle_error = std::max(diagnostics.max_joint_angle_error, -c.gap);
+    if (!is_hard(c)) continue;
+    double& deepest = is_angular_limit(c) ? diagnostics.max_joint_angle_error : diagnostics.max_penetration;
+    deepest = std::max(deepest, -c.gap);
   }
   if (!s.any_damper) return;
   for (const int tree : world.active_trees)

@@ -18,7 +18,7 @@ bool is_formulated(const Constraint& c) {
 
 /// Does the condition close within the step, faster than things that come to rest?
 bool strikes(const Constraint& c, double h, double v_impact) {
-  const double threshold = c.kind == ConstraintKind::limit ? kLimitImpact : v_impact;
+  const double threshold = is_angular_limit(c) ? kLimitImpact : v_impact;
   const bool hard = c.kind == ConstraintKind::contact || c.kind == ConstraintKind::limit;
   return hard && !is_compliant(c) && c.u_before[0] < -threshold && c.gap + h * std::min(c.u_before[0], c.u_free[0]) < 0;
 }
@@ -72,7 +72,7 @@ void drop_open_conditions(StepContext& s) {
     if (is_formulated(c)) return false;
     // an impact that the cut step ends at: a row would brake the approach
     if (s.placing && is_contact(c) && c.restitution > 0 && c.gap > 0 && c.u_before[0] < -v_impact) return true;
-    const double spare = c.kind == ConstraintKind::limit ? 0.02 + 5 * h : 1e-3 + h;  // [rad], [m]: what other impulses may add
+    const double spare = is_angular_limit(c) ? 0.02 + 5 * h : 1e-3 + h;  // [rad], [m]: what other impulses may add
     return c.gap + h * std::min(c.u_before[0], c.u_smooth[0]) > spare;
   });
   // the smooth motion keeps closed loops; their rows are there for what other impulses ask of them

@@ -6,16 +6,27 @@
 namespace engine {
 namespace {
 
-/// How fast the joints that resist turn now.
-void note_turning(StepContext& s, Vec3 Resistance::*when) {
+/// How fast the joints that resist turn and slide now.
+void note_motion(StepContext& s, Twist Resistance::*when) {
   for (const int tree : s.world.active_trees)
     for (int l = s.world.topology.trees[tree].begin; l < s.world.topology.trees[tree].end; ++l) {
       const int j = s.world.topology.links[l].joint;
       if (j < 0 || !s.buffers.dampers[j].present) continue;
       const Joint& joint = s.world.model.joints[j];
-      const Vec3 w_P = joint.parent < 0 ? Vec3(Vec3::Zero()) : s.end.V_WB[joint.parent].w;
-      s.buffers.resistances[j].*when = s.end.V_WB[joint.child].w - w_P;
+      Resistance& resistance = s.buffers.resistances[j];
+      resistance.*when =
+          relative_motion(resistance.at_start, joint.parent < 0 ? Twist{} : s.end.V_WB[joint.parent], s.end.V_WB[joint.child]);
     }
+}
+
+/// Angular impulse and impulse over the step on the child if the joint moved as given.
+Twist impulse_at(const StepContext& s, int j, const Twist& motion) {
+  const Resistance& resistance = s.buffers.resistances[j];
+  const JointDamper& damper = s.buffers.dampers[j];
+  Twist out;
+  out.w = resistance.torque_W * s.length - damper.turning * motion.w;
+  if (resistance.at_start.free[kSlide]) out.v = resistance.force_W * s.length - damper.sliding * motion.v;
+  return out;
 }
 
 }  // namespace
@@ -25,7 +36,7 @@ void prepare_resistance(StepContext& s) {
 }
 
 void apply_resistance(StepContext& s) {
-  note_turning(s, &Resistance::w_before);
+  note_motion(s, &Resistance::before);
   const Topology& topology = s.world.topology;
   std::vector<Vec6>&force = s.buffers.force, &result = s.buffers.result;
   for (const int tree : s.world.active_trees) {
@@ -36,9 +47,10 @@ void apply_resistance(StepContext& s) {
       if (j < 0 || !s.buffers.dampers[j].present) continue;
       const Joint& joint = s.world.model.joints[j];
       const Resistance& resistance = s.buffers.resistances[j];
-      const Vec3 twist = resistance.torque_W * s.length - s.buffers.dampers[j].matrix * resistance.w_before;
-      force[joint.child].tail<3>() += twist;
-      if (joint.parent >= 0) force[joint.parent].tail<3>() -= twist;
+      const Twist impulse = impulse_at(s, j, resistance.before);
+      force[joint.child].tail<3>() += impulse.w;
+      if (joint.parent >= 0) force[joint.parent].tail<3>() -= impulse.w;
+      if (resistance.at_start.free[kSlide]) add_along_slide(resistance.at_start, joint, impulse.v, force);
     }
     s.world.impulse.solve(topology, tree, force, result, Articulation::Bias::zero);
     for (int l = range.begin; l < range.end; ++l) {
@@ -50,8 +62,8 @@ void apply_resistance(StepContext& s) {
   }
 }
 
-void note_turning_after(StepContext& s) {
-  note_turning(s, &Resistance::w_after);
+void note_motion_after(StepContext& s) {
+  note_motion(s, &Resistance::after);
 }
 
 bool friction_gave_way(StepContext& s) {
@@ -63,8 +75,10 @@ bool friction_gave_way(StepContext& s) {
 
 double resistance_work(const StepContext& s, int j) {
   const Resistance& resistance = s.buffers.resistances[j];
-  const Vec3 twist = resistance.torque_W * s.length - s.buffers.dampers[j].matrix * resistance.w_after;
-  return 0.5 * twist.dot(resistance.w_before + resistance.w_after);
+  const Twist impulse = impulse_at(s, j, resistance.after);
+  const double turning = 0.5 * impulse.w.dot(resistance.before.w + resistance.after.w);
+  if (!resistance.at_start.free[kSlide]) return turning;
+  return turning + 0.5 * impulse.v.dot(resistance.before.v + resistance.after.v);
 }
 
 }  // namespace engine

@@ -12,7 +12,7 @@ void prepare_resistance(StepContext&);
 void apply_resistance(StepContext&);
 
 /// After the impulses: how fast the joints turn now.
-void note_turning_after(StepContext&);
+void note_motion_after(StepContext&);
 
 /// Did a joint come out faster than its friction was told of? Then its damper is revised.
 bool friction_gave_way(StepContext&);

@@ -15,7 +15,7 @@ constexpr double kLimitRecoverySpeed = 2;  // [rad/s]
 
 /// What the position of a rigid contact or stop still needs beyond its impulse.
 double wanted(const Constraint& c, double h, double weight) {
-  const bool limit = c.kind == ConstraintKind::limit;
+  const bool limit = is_angular_limit(c);
   const double slop = limit ? kLimitSlop : kSlop;
   const double travel = h * (0.5 * (c.u_before[0] + c.u_smooth[0]) + weight * (c.u_after[0] - c.u_smooth[0]));
   const double end = c.gap + travel;

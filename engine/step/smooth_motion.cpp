@@ -161,7 +161,7 @@ double joint_errors(World& world, int tree, const std::vector<Pose>& X, double& 
     static const Pose kWorld;
     JointRows& rows = world.smooth.of_link(l).rows;
     joint_rows(joint, joint.parent < 0 ? kWorld : X[joint.parent], X[joint.child], rows);
-    largest_gap = std::max(largest_gap, rows.error.head<3>().norm());
+    largest_gap = std::max(largest_gap, gap_of(rows));
     for (int k = 0; k < rows.count; ++k) largest = std::max(largest, std::abs(rows.error[k]));
   }
   return largest;
@@ -175,15 +175,7 @@ double joint_velocity_errors(World& world, int tree, const std::vector<Twist>& V
     if (link.joint < 0) continue;
     const Joint& joint = world.model.joints[link.joint];
     JointRows& rows = world.smooth.of_link(l).rows;
-    const Twist& child = V[joint.child];
-    Vec3 w = -child.w;
-    rows.bias.head<3>() = child.v + child.w.cross(rows.r_C);
-    if (joint.parent >= 0) {
-      const Twist& parent = V[joint.parent];
-      rows.bias.head<3>() -= parent.v + parent.w.cross(rows.r_P);
-      w += parent.w;
-    }
-    for (int k = 0; k < rows.count - 3; ++k) rows.bias[3 + k] = -rows.n[k].dot(w);
+    joint_velocity_error(joint.parent < 0 ? Twist{} : V[joint.parent], V[joint.child], rows);
     largest = std::max(largest, rows.bias.head(rows.count).cwiseAbs().maxCoeff());
   }
   return largest;

@@ -127,7 +127,7 @@ void exchange_over_step(StepContext& s) {
     solve_islands(s);
     apply(s);
     if (!s.any_damper) return;
-    note_turning_after(s);
+    note_motion_after(s);
     if (pass == kMostPasses || !friction_gave_way(s)) return;
     s.end = smooth;
   }

@@ -41,18 +41,20 @@ double fastest_turning(const World& world, const Motion& at) {
   return std::sqrt(fastest);
 }
 
-double deepest(const std::vector<Constraint>& list, ConstraintKind kind) {
+/// Penetration [m] of rigid contacts and stops of slides, or [rad] of stops of turns.
+double deepest(const std::vector<Constraint>& list, bool turns) {
   double depth = 0;
   for (const Constraint& c : list)
-    if (c.kind == kind && !is_compliant(c)) depth = std::max(depth, -c.gap);
+    if ((is_contact(c) || c.kind == ConstraintKind::limit) && is_angular_limit(c) == turns && !is_compliant(c))
+      depth = std::max(depth, -c.gap);
   return depth;
 }
 
 /// Do contacts and limits at the end of a step stand no deeper in each other than the bound, or than at its start?
 bool acceptable(const std::vector<Constraint>& start, const std::vector<Constraint>& end, double tolerance) {
   const double penetrate = std::min(kMayPenetrate, tolerance);
-  return deepest(end, ConstraintKind::contact) < std::max(penetrate, deepest(start, ConstraintKind::contact) + kSlop) &&
-         deepest(end, ConstraintKind::limit) < std::max(kMayExceed, deepest(start, ConstraintKind::limit) + kSlop);
+  return deepest(end, false) < std::max(penetrate, deepest(start, false) + kSlop) &&
+         deepest(end, true) < std::max(kMayExceed, deepest(start, true) + kSlop);
 }
 
 }  // namespace

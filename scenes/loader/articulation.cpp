@@ -70,7 +70,8 @@ void make_universal(const FigureJoint& joint, engine::Joint& out) {
     const double sense = angle.axis[axis];
     const double middle = sense * (angle.lower + angle.upper) / 2;
     const double half = (angle.upper - angle.lower) / 2;
-    out.angles[static_cast<std::size_t>(axis)] = {-half, half, joint.stiffness, -middle, joint.damping, joint.friction_torque};
+    out.angles[static_cast<std::size_t>(axis)] = {
+        -half, half, joint.stiffness, -middle, joint.damping, joint.friction_torque, joint.stop_stiffness};
     engine::Quat& q = k == 0 ? out.X_PF.q : out.X_CF.q;
     q = engine::math::rotation(k == 0 ? middle : -middle, Vec3::Unit(axis));
   }
@@ -84,7 +85,6 @@ engine::Joint engine_joint(const Figure& figure, const FigureJoint& joint, const
   out.kind = joint.angles.size() == 1 ? engine::JointKind::revolute : engine::JointKind::ragdoll;
   out.passive = joint.passive;
   out.passive_share = joint.passive_share;
-  out.stop_stiffness = joint.stop_stiffness;
   out.flexes_about = joint.angles[0].axis.y() < 0 ? -1 : 1;
   const Quat q_mid = articulation(joint, middle(joint));
   out.X_PF = {joint.at - figure.segments[static_cast<std::size_t>(joint.parent)].centre, q_mid};
@@ -100,8 +100,8 @@ engine::Joint engine_joint(const Figure& figure, const FigureJoint& joint, const
   Vec3 upper = start;
   widen_over_ranges(joint, q_mid, lower, upper);
   for (int i = 0; i < 3; ++i) {
-    engine::ArticulationAngle& angle = out.angles[static_cast<std::size_t>(i)];
-    angle = {lower[i], upper[i], joint.stiffness, standing[i], joint.damping, joint.friction_torque};
+    engine::JointCoordinate& angle = out.angles[static_cast<std::size_t>(i)];
+    angle = {lower[i], upper[i], joint.stiffness, standing[i], joint.damping, joint.friction_torque, joint.stop_stiffness};
   }
   return out;
 }

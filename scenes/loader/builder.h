@@ -63,7 +63,7 @@ engine::SurfaceProperties read_surface(Reader&, engine::SurfaceProperties base);
 /// Checks that an inertia tensor belongs to some distribution of mass: positive, and no moment above the sum of the others.
 void check_inertia(Reader&, std::string_view key, const engine::Mat3& inertia);
 /// range, stiffness, rest, damping, friction_torque on top of `base`.
-engine::ArticulationAngle read_angle(Reader&, engine::ArticulationAngle base);
+engine::JointCoordinate read_angle(Reader&, engine::JointCoordinate base);
 render::MaterialKind read_material_kind(Reader&, std::string_view key);
 
 /// Keys that several sections list in their tables.

@@ -1,6 +1,7 @@
 // [[joint]]: between two bodies, or a body and the world.
 #include <fmt/format.h>
 
+#include "engine/joints/joint_type.h"
 #include "scenes/loader/builder.h"
 
 namespace scenes {
@@ -21,16 +22,32 @@ const Section kAngleSection{
     "What is not given here is taken from the joint.",
     kAngleKeys};
 
+const Key kSlideKeys[] = {
+    {"range", Type::range, Dimension::length, "", "Lower and upper limit of the way. Left out: free."},
+    {"stiffness", Type::number, Dimension::stiffness, "0", "Resistive spring force per way.", kNotNegative},
+    {"rest", Type::number, Dimension::length, "0", "Way at which the spring is slack."},
+    {"damping", Type::number, Dimension::damping, "0", "Resistance per speed.", kNotNegative},
+    {"friction", Type::number, Dimension::force, "0", "Constant resistance against sliding.", kNotNegative},
+    {"stop_stiffness", Type::number, Dimension::stiffness, "0",
+     "Of the stops at the ends of the range, compliant contact law only; 0: rigid, as they are with Default-Auto.", kNotNegative},
+};
+const Section kSlideSection{
+    "joint.slide", "[joint.slide]",
+    "The slide of a prismatic or cylindrical joint: the way of the joint's centre along axis since the start.", kSlideKeys};
+
 const Key kKeys[] = {
     {"name", Type::text, Dimension::none, "''", "Name in messages; left out: parent-child."},
     {"kind", Type::choice, Dimension::none, "'spherical'",
-     "Which turns it leaves: about axis; a cardan cross; all; all with limits; none.", kAny,
-     "revolute|universal|spherical|ragdoll|fixed"},
+     "What it leaves: turns about axis; a cardan cross; all turns; all with limits; nothing; sliding along axis; sliding and "
+     "turning.",
+     kAny, "revolute|universal|spherical|ragdoll|fixed|prismatic|cylindrical"},
     {"parent", Type::text, Dimension::none, "'world'", "A body, or the world."},
     {"child", Type::text, Dimension::none, kRequired, "The body that hangs on the parent."},
     {"at", Type::vector3, Dimension::length, "", "The joint's centre at the start, in the world. Left out: the child's centre."},
     {"axis", Type::vector3, Dimension::none, "[0, 1, 0]",
-     "World direction of the joint frame's y at the start: the axis of a revolute, the parent's arm of a cardan cross."},
+     "World direction of the joint frame's y at the start: what a revolute turns about and a prismatic slides along, the parent's "
+     "arm "
+     "of a cardan cross."},
     {"second_axis", Type::vector3, Dimension::none, "",
      "World direction of the joint frame's x, at right angles to axis: the child's arm of a cardan cross."},
     CRASHREEL_ANGLE_KEYS,
@@ -39,7 +56,10 @@ const Key kKeys[] = {
     {"x", Type::table, Dimension::none, "", "The first swing angle.", kAny, {}, &kAngleSection},
     {"y", Type::table, Dimension::none, "", "The second swing angle; the angle of a revolute.", kAny, {}, &kAngleSection},
     {"z", Type::table, Dimension::none, "", "The twist.", kAny, {}, &kAngleSection},
+    {"slide", Type::table, Dimension::none, "", "The slide of a prismatic or cylindrical joint.", kAny, {}, &kSlideSection},
 };
+
+constexpr std::array<std::string_view, 3> kAngleNames{"x", "y", "z"};
 
 engine::Quat read_frame(Reader& r) {
   const engine::Vec3 y = r.vector("axis");
@@ -78,15 +98,45 @@ int find_body(Builder& builder, Reader& r, std::string_view key) {
 const Section kJointSection{"joint", "[[joint]]",
                             "Ties a body to another or to the world. All angles are zero in the pose at the start.", kKeys};
 
-engine::ArticulationAngle read_angle(Reader& r, engine::ArticulationAngle out) {
+engine::JointCoordinate read_angle(Reader& r, engine::JointCoordinate out) {
   if (r.has("range"))
     std::tie(out.lower, out.upper) = [](std::array<double, 2> a) { return std::pair{a[0], a[1]}; }(r.range("range"));
   if (r.has("stiffness")) out.stiffness = r.number("stiffness");
   if (r.has("rest")) out.rest = r.number("rest");
   if (r.has("damping")) out.damping = r.number("damping");
-  if (r.has("friction_torque")) out.friction_torque = r.number("friction_torque");
+  if (r.has("friction_torque")) out.friction = r.number("friction_torque");
   return out;
 }
+
+namespace {
+
+engine::JointCoordinate read_slide(Reader& r) {
+  engine::JointCoordinate out;
+  if (r.has("range"))
+    std::tie(out.lower, out.upper) = [](std::array<double, 2> a) { return std::pair{a[0], a[1]}; }(r.range("range"));
+  out.stiffness = r.number("stiffness");
+  out.rest = r.number("rest");
+  out.damping = r.number("damping");
+  out.friction = r.number("friction");
+  out.stop_stiffness = r.number("stop_stiffness");
+  return out;
+}
+
+/// What resists or ends a motion that this kind of joint does not have.
+void refuse_what_is_not_free(Reader& r, const engine::Joint& joint) {
+  const engine::JointType& type = engine::type_of(joint.kind);
+  const auto free = engine::joint_coordinates(joint, {}, {}).free;
+  const std::string slides = type.slides() > 0 ? "; what is of its slide stands in [joint.slide]" : "";
+  for (const std::string_view key : {"range", "stiffness", "rest", "damping", "friction_torque", "stop_stiffness"})
+    if (type.turns() == 0 && r.has(key)) r.fail(key, fmt::format("a {} joint does not turn{}", type.name, slides));
+  for (std::size_t i = 0; i < kAngleNames.size(); ++i)
+    if (!free[i] && r.has(kAngleNames[i]))
+      r.fail(kAngleNames[i], fmt::format("a {} joint does not turn about {}", type.name, kAngleNames[i]));
+  if (type.slides() == 0 && r.has("slide"))
+    r.fail("slide", fmt::format("a {} joint does not slide; prismatic and cylindrical ones do", type.name));
+}
+
+}  // namespace
 
 void read_joint(Builder& builder, Reader r) {
   engine::Joint joint;
@@ -94,6 +144,7 @@ void read_joint(Builder& builder, Reader r) {
   joint.parent = find_body(builder, r, "parent");
   joint.child = find_body(builder, r, "child");
   joint.name = r.has("name") ? r.text("name") : r.text("parent") + "-" + r.text("child");
+  refuse_what_is_not_free(r, joint);
   const bool complete = joint.child >= 0 && (joint.parent >= 0 || r.text("parent") == "world");
   if (!complete) return;
   if (joint.child == joint.parent) r.fail("child", "must be another body than the parent");
@@ -101,12 +152,12 @@ void read_joint(Builder& builder, Reader r) {
   const engine::Pose X_WF{r.vector_if("at").value_or(child.X_WB.p), read_frame(r)};
   joint.X_CF = child.X_WB.inverse() * X_WF;
   joint.X_PF = joint.parent < 0 ? X_WF : builder.scene.model.bodies[static_cast<std::size_t>(joint.parent)].X_WB.inverse() * X_WF;
-  joint.stop_stiffness = r.number("stop_stiffness");
   joint.angles.fill(read_angle(r, {}));
-  const std::array<std::string_view, 3> kNames{"x", "y", "z"};
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (auto angle = r.table(kNames[i])) joint.angles[i] = read_angle(*angle, joint.angles[i]);
+  for (std::size_t i = 0; i < kAngleNames.size(); ++i) {
+    if (auto angle = r.table(kAngleNames[i])) joint.angles[i] = read_angle(*angle, joint.angles[i]);
+    joint.angles[i].stop_stiffness = r.number("stop_stiffness");
   }
+  if (auto slide = r.table("slide")) joint.slide = read_slide(*slide);
   builder.scene.model.joints.push_back(std::move(joint));
 }
 

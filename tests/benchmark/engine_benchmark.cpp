@@ -168,7 +168,7 @@ Spread spread_of(const Peer& peer, const std::string& scene, double step) {
 
 void damp(Model& model, double damping) {  // [N m s/rad]
   for (engine::Joint& joint : model.joints)
-    for (engine::ArticulationAngle& angle : joint.angles) angle.damping = damping;
+    for (engine::JointCoordinate& angle : joint.angles) angle.damping = damping;
 }
 
 /// Of a common scene with joints damped as in the comparison, shifted or tilted; `change` is made to each start.

@@ -180,7 +180,7 @@ TEST(Rk4, IsOfFourthOrderWithJointSpringsAndDampers) {
     model.bodies[0].V_WB.v = model.bodies[0].V_WB.w.cross(Vec3(0, 0, -0.3));
     model.bodies[1].V_WB.w = model.bodies[0].V_WB.w;
     model.bodies[1].V_WB.v = model.bodies[0].V_WB.w.cross(Vec3(0, 0, -0.8));
-    for (ArticulationAngle& a : model.joints[1].angles) a.stiffness = 3, a.damping = 0.05;
+    for (JointCoordinate& a : model.joints[1].angles) a.stiffness = 3, a.damping = 0.05;
     return simulate(model).snapshots.back().bodies[1].X_WB.p;
   };
   const Vec3 exact = swung(1.0 / 8192);
@@ -202,7 +202,7 @@ TEST(CompliantJoint, HasTheFrictionOfTheStepThatWasTaken) {
     model.bodies[0].V_WB.w = {0, 4, 1};
     model.bodies[1].V_WB.w = {0, 4, 1};
     model.bodies[1].V_WB.v += Vec3(0, 4, 1).cross(Vec3(0.28, 0, 0));
-    for (ArticulationAngle& a : model.joints[0].angles) a.friction_torque = 1;
+    for (JointCoordinate& a : model.joints[0].angles) a.friction = 1;
     const Recording run = simulate(model);
     double kinetic = run.snapshots.front().energies.kinetic, residual = 0, taken = 0;
     for (const Snapshot& s : run.snapshots) residual = std::max(residual, std::abs(s.energies.residual));

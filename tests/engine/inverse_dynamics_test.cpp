@@ -42,19 +42,23 @@ struct Experiment {
   std::vector<Twist> V;
 };
 
-/// Axes the joint leaves to the child, world: columns, `count` of them.
+/// Axes the joint lets the child turn about, world: columns, `count` of them; and whether it slides along y of the parent's frame.
 struct FreeAxes {
   Mat3 axis = Mat3::Identity();
   int count = 0;
+  Vec3 slide = Vec3::Zero();
 };
 
 FreeAxes free_axes(const Joint& joint, const Pose& X_WP, const Pose& X_WC) {
   const Vec3 y_P = X_WP.q * (joint.X_PF.q * Vec3::UnitY()), x_C = X_WC.q * (joint.X_CF.q * Vec3::UnitX());
   FreeAxes out;
+  if (joint.kind == JointKind::prismatic || joint.kind == JointKind::cylindrical) out.slide = y_P;
   switch (joint.kind) {
     case JointKind::fixed:
+    case JointKind::prismatic:
       break;
     case JointKind::revolute:
+    case JointKind::cylindrical:
       out.axis.col(0) = y_P;
       out.count = 1;
       break;
@@ -90,16 +94,18 @@ Experiment chain(JointKind kind, Random& random) {
     joint.X_CF = {random.vector(0.3), random.attitude()};
     const double a = random.between(-2, 2), b = random.between(-2, 2);
     Quat q_FF = Quat::Identity();
-    if (kind == JointKind::revolute) q_FF = Eigen::AngleAxisd(a, Vec3::UnitY());
+    if (kind == JointKind::revolute || kind == JointKind::cylindrical) q_FF = Eigen::AngleAxisd(a, Vec3::UnitY());
     if (kind == JointKind::universal) q_FF = Eigen::AngleAxisd(a, Vec3::UnitY()) * Eigen::AngleAxisd(b, Vec3::UnitX());
     if (kind == JointKind::spherical || kind == JointKind::ragdoll) q_FF = random.attitude();
     Pose X_WC;
     X_WC.q = e.X.back().q * joint.X_PF.q * q_FF * joint.X_CF.q.conjugate();
-    X_WC.p = e.X.back() * joint.X_PF.p - X_WC.q * joint.X_CF.p;
     const FreeAxes axes = free_axes(joint, e.X.back(), X_WC);
+    const Vec3 point = e.X.back() * joint.X_PF.p + random.between(-1, 1) * axes.slide;
+    X_WC.p = point - X_WC.q * joint.X_CF.p;
     Twist V_C{Vec3::Zero(), e.V.back().w};
     for (int i = 0; i < axes.count; ++i) V_C.w += random.between(-6, 6) * axes.axis.col(i);
-    V_C.v = e.V.back().v + e.V.back().w.cross(e.X.back().q * joint.X_PF.p) - V_C.w.cross(X_WC.q * joint.X_CF.p);
+    V_C.v = e.V.back().v + e.V.back().w.cross(point - e.X.back().p) + random.between(-4, 4) * axes.slide -
+            V_C.w.cross(X_WC.q * joint.X_CF.p);
     e.X.push_back(X_WC);
     e.V.push_back(V_C);
     e.model.joints.push_back(joint);
@@ -110,7 +116,7 @@ Experiment chain(JointKind kind, Random& random) {
 class JointKinds : public testing::TestWithParam<JointKind> {};
 INSTANTIATE_TEST_SUITE_P(Every, JointKinds,
                          testing::Values(JointKind::fixed, JointKind::revolute, JointKind::universal, JointKind::spherical,
-                                         JointKind::ragdoll));
+                                         JointKind::ragdoll, JointKind::prismatic, JointKind::cylindrical));
 
 TEST_P(JointKinds, InverseDynamicsGivesBackForcesAndJointTorques) {
   Random random(20 + static_cast<unsigned>(GetParam()));
@@ -118,9 +124,10 @@ TEST_P(JointKinds, InverseDynamicsGivesBackForcesAndJointTorques) {
     const Experiment e = chain(GetParam(), random);
     const std::size_t n = e.X.size();
 
-    // forward: forces and moments on every body, torques in the joints along their free axes
+    // forward: forces and moments on every body, torques and forces in the joints along their free axes
     std::vector<Vec3> F(n), M(n);
     std::vector<Vec3> torque(2, Vec3::Zero());
+    std::vector<double> along(2, 0);
     std::vector<Vec6> force(n), a(n, Vec6::Zero());
     for (std::size_t b = 0; b < n; ++b) {
       F[b] = random.vector(50);
@@ -134,6 +141,13 @@ TEST_P(JointKinds, InverseDynamicsGivesBackForcesAndJointTorques) {
       for (int i = 0; i < axes.count; ++i) {
         force[j + 1].tail<3>() += torque[j][i] * axes.axis.col(i);
         force[j].tail<3>() -= torque[j][i] * axes.axis.col(i);
+      }
+      if (axes.slide.isZero(0)) continue;
+      along[j] = random.between(-50, 50);
+      const Vec3 point = e.X[j + 1] * e.model.joints[j].X_CF.p;
+      for (const auto& [b, sign] : {std::pair{j + 1, 1.0}, std::pair{j, -1.0}}) {
+        force[b].head<3>() += sign * along[j] * axes.slide;
+        force[b].tail<3>() += sign * along[j] * (point - e.X[b].p).cross(axes.slide);
       }
     }
     const Topology topology = build_topology(e.model, {});
@@ -155,7 +169,7 @@ TEST_P(JointKinds, InverseDynamicsGivesBackForcesAndJointTorques) {
       Vec3 got_F = Vec3::Zero(), got_M = Vec3::Zero();
       if (b + 1 < n) {
         got_F = -F_joint;
-        got_M = -M_joint - (R * e.model.joints[b].X_PF.p).cross(F_joint);
+        got_M = -M_joint - (e.X[b + 1] * e.model.joints[b].X_CF.p - e.X[b].p).cross(F_joint);
       }
       if (b == 0) {
         // the root hangs on nothing: its own balance must close with what was put in
@@ -170,18 +184,24 @@ TEST_P(JointKinds, InverseDynamicsGivesBackForcesAndJointTorques) {
       const FreeAxes axes = free_axes(joint, e.X[b - 1], e.X[b]);
       for (int i = 0; i < axes.count; ++i)
         EXPECT_NEAR(axes.axis.col(i).dot(M_joint), torque[b - 1][i], 1e-9 * (1 + F_joint.norm() + M_joint.norm())) << trial;
+      EXPECT_NEAR(axes.slide.dot(F_joint), along[b - 1], 1e-9 * (1 + F_joint.norm())) << trial;
     }
 
-    // and the motion is one the joints allow: centres stay together, only free turns accelerate
+    // and the motion is one the joints allow: points stay together but for the slide, only free turns accelerate
     for (std::size_t j = 0; j < 2; ++j) {
       const Joint& joint = e.model.joints[j];
-      auto at_joint = [&](std::size_t b, const Vec3& p_B) -> Vec3 {
-        const Vec3 r = e.X[b].q * p_B;
+      const Vec3 point = e.X[j + 1] * joint.X_CF.p;
+      auto velocity = [&](std::size_t b) -> Vec3 { return e.V[b].v + e.V[b].w.cross(point - e.X[b].p); };
+      auto at_joint = [&](std::size_t b) -> Vec3 {
+        const Vec3 r = point - e.X[b].p;
         return a[b].head<3>() + a[b].tail<3>().cross(r) + e.V[b].w.cross(e.V[b].w.cross(r));
       };
       const double size = 1 + a[j].norm() + a[j + 1].norm() + e.V[j].w.squaredNorm() + e.V[j + 1].w.squaredNorm();
-      EXPECT_LT((at_joint(j, joint.X_PF.p) - at_joint(j + 1, joint.X_CF.p)).norm(), 1e-9 * size) << trial;
       const FreeAxes axes = free_axes(joint, e.X[j], e.X[j + 1]);
+      // seen from the parent the point accelerates along the slide alone, beyond what Coriolis asks for
+      Vec3 opening = at_joint(j + 1) - at_joint(j) - 2 * e.V[j].w.cross(velocity(j + 1) - velocity(j));
+      opening -= axes.slide.dot(opening) * axes.slide;
+      EXPECT_LT(opening.norm(), 1e-9 * size) << trial;
       // relative turn w = sum rate_i e_i, so its acceleration is sum rate_i' e_i + rate_i e_i': take the second part off
       const Vec3 w = e.V[j + 1].w - e.V[j].w;
       Vec3 alpha = a[j + 1].tail<3>() - a[j].tail<3>();
@@ -250,7 +270,7 @@ TEST_P(JointKinds, RowsAnswerEachOtherAsTheBodiesMoveUnderThem) {
         all.push_back(c);
       }
     std::vector<JointDamper> dampers(e.model.joints.size());
-    for (JointDamper& damper : dampers) damper = {random.inertia(), trial % 2 == 0};
+    for (JointDamper& damper : dampers) damper = {random.inertia(), random.inertia(), trial % 2 == 0};
     const Topology topology = build_topology(e.model, {});
     ASSERT_EQ(topology.trees.size(), 2u);
     Articulation articulation(e.model, Articulation::Keeps::all_trees);

@@ -20,7 +20,7 @@ Model rod(double friction_torque, Scheme scheme, double duration, double step, b
   model.settings.record_interval = 0.01;
   model.bodies = {inert(kMass, Vec3::Constant(kInertia), {kArm, 0, 0})};
   model.joints = {joint_at(model, JointKind::revolute, -1, 0, Vec3::Zero())};
-  model.joints[0].angles[1].friction_torque = friction_torque;
+  model.joints[0].angles[1].friction = friction_torque;
   return model;
 }
 

@@ -22,7 +22,7 @@ Recording turned(ContactLaw law, Scheme scheme, double step, double duration = 0
   model.bodies[0].V_WB.w = {0, kRate, 0};
   model.joints = {joint_at(model, JointKind::revolute, -1, 0, Vec3::Zero())};
   model.joints[0].angles[1].upper = 0.1;
-  model.joints[0].stop_stiffness = kStiffness;
+  model.joints[0].angles[1].stop_stiffness = kStiffness;
   return simulate(model);
 }
 

@@ -31,8 +31,8 @@ engine::Model flying(Scheme scheme, Resistance resistance, double step, double d
   model.settings.effects["self_contact"] = engine::Force::off;
   if (resistance == Resistance::none) model.settings.effects["joint_resistance"] = engine::Force::off;
   for (engine::Joint& joint : model.joints)
-    for (engine::ArticulationAngle& angle : joint.angles) {
-      angle.friction_torque = 0;
+    for (engine::JointCoordinate& angle : joint.angles) {
+      angle.friction = 0;
       angle.damping *= 0.2;  // light enough for an explicit scheme at the coarsest step
     }
   return model;

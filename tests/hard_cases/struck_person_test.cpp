@@ -21,7 +21,7 @@ TEST_P(StruckPerson, HoldsTogetherAndNeverGainsEnergy) {
     model.settings.record_interval = model.settings.step;
     for (engine::Joint& joint : model.joints) {
       joint.passive = engine::PassiveTorque::none;
-      for (engine::ArticulationAngle& angle : joint.angles) angle.damping = angle.friction_torque = angle.stiffness = 0;
+      for (engine::JointCoordinate& angle : joint.angles) angle.damping = angle.friction = angle.stiffness = 0;
     }
   });
   const auto& d = it.diagnostics();

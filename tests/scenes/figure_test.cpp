@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/solver/joint_angles.h"
+#include "engine/joints/coordinates.h"
 #include "scene_file.h"
 
 namespace scenes {
@@ -96,11 +96,11 @@ TEST_P(Figures, TakeEveryPoseOfTheLibraryWithTheirLowestPointOnTheGround) {
       const auto& P = scene.model.bodies[static_cast<std::size_t>(joint.parent)];
       const auto& C = scene.model.bodies[static_cast<std::size_t>(joint.child)];
       EXPECT_LT((P.X_WB * joint.X_PF.p - C.X_WB * joint.X_CF.p).norm(), 1e-12) << pose << " " << joint.name;
-      const engine::JointAngles now = engine::joint_angles(joint, P.X_WB, C.X_WB);
+      const engine::JointCoordinates now = engine::joint_coordinates(joint, P.X_WB, C.X_WB);
       for (std::size_t i = 0; i < 3; ++i) {
         if (!now.free[i]) continue;
-        EXPECT_GE(now.angle[static_cast<int>(i)], joint.angles[i].lower - 1e-9) << pose << " " << joint.name << " " << i;
-        EXPECT_LE(now.angle[static_cast<int>(i)], joint.angles[i].upper + 1e-9) << pose << " " << joint.name << " " << i;
+        EXPECT_GE(now.value[static_cast<int>(i)], joint.angles[i].lower - 1e-9) << pose << " " << joint.name << " " << i;
+        EXPECT_LE(now.value[static_cast<int>(i)], joint.angles[i].upper + 1e-9) << pose << " " << joint.name << " " << i;
       }
     }
   }
@@ -151,11 +151,12 @@ TEST(Person16, HangsAnUpperArmInACardanCross) {
       "figure = \"person-16\"\n[person.angles]\nright_shoulder_flexion = \"50 deg\"\nright_shoulder_abduction = \"70 deg\"\n");
   for (const engine::Joint& joint : scene.model.joints) {
     if (joint.name != "p/right_shoulder") continue;
-    const engine::JointAngles now = engine::joint_angles(joint, scene.model.bodies[static_cast<std::size_t>(joint.parent)].X_WB,
-                                                         scene.model.bodies[static_cast<std::size_t>(joint.child)].X_WB);
+    const engine::JointCoordinates now =
+        engine::joint_coordinates(joint, scene.model.bodies[static_cast<std::size_t>(joint.parent)].X_WB,
+                                  scene.model.bodies[static_cast<std::size_t>(joint.child)].X_WB);
     // flexion turns about -y from the middle of -60..180 deg, abduction of the right arm about -x from the middle of -30..180 deg
-    EXPECT_NEAR(now.angle.y(), -(50 - 60) * kDegree, 1e-12);
-    EXPECT_NEAR(now.angle.x(), -(70 - 75) * kDegree, 1e-12);
+    EXPECT_NEAR(now.value.y(), -(50 - 60) * kDegree, 1e-12);
+    EXPECT_NEAR(now.value.x(), -(70 - 75) * kDegree, 1e-12);
     return;
   }
   FAIL() << "no right shoulder";

@@ -118,7 +118,7 @@ TEST_P(Poses, StandsOnTheGroundWithItsJointsTogether) {
     const auto& child = scene.model.bodies[static_cast<std::size_t>(joint.child)];
     EXPECT_LT((parent.X_WB * joint.X_PF.p - child.X_WB * joint.X_CF.p).norm(), 1e-12) << joint.name;
     // the limits hold the pose and stay clear of the singular half turn
-    for (const engine::ArticulationAngle& angle : joint.angles) EXPECT_LE(angle.lower, angle.upper) << joint.name;
+    for (const engine::JointCoordinate& angle : joint.angles) EXPECT_LE(angle.lower, angle.upper) << joint.name;
     const auto& a = joint.angles;
     const double corner = std::hypot(std::max(-a[0].lower, a[0].upper), std::max(-a[1].lower, a[1].upper));
     EXPECT_LT(corner, 170 * kDegree) << joint.name;

@@ -1,0 +1,11 @@
+// A slider: the child's point slides along y of the parent's frame, and nothing turns.
+#include "engine/joints/joint_type.h"
+
+namespace engine {
+
+template <>
+JointType joint_type<JointKind::prismatic>() {
+  return {"prismatic", "prismatic", {0, 2, 1}, 2, {{{0, 1}, {1, 2}, {2, 0}}}, 3, add_slide_along_y};
+}
+
+}  // namespace engine
