@@ -10,6 +10,9 @@ enum class ShowProgress { automatic, always, never };
 /// Seconds on a clock that never jumps. The engine has none of its own.
 double clock_seconds();
 
+/// [s] this process has computed. On an idle core it passes as the clock does; what others take of a busy one is left out.
+double computed_seconds();
+
 class Progress {
  public:
   /// "simulate", "s" of 4.0; "draw", "frames" of 120.

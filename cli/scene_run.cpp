@@ -10,6 +10,7 @@
 #include "cli/estimate.h"
 #include "cli/exit.h"
 #include "cli/foresight.h"
+#include "cli/output/summary.h"
 #include "cli/process.h"
 #include "engine/simulate.h"
 #include "scenes/loader/value.h"
@@ -137,6 +138,7 @@ engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan
   Progress progress("simulate", "s", scene.model.settings.duration, progress_of(wish));
   engine::RunOptions options;
   if (costs == Costs::timed || wish.verbose) options.clock = clock_seconds;
+  options.step_clocks = {clock_seconds, computed_seconds};
   options.progress = [&progress](double time) {
     progress.at(time);
     return !interrupted();
@@ -157,6 +159,7 @@ engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan
     fmt::print(stderr, "crashreel: note: nothing touched: no vehicle or person met anything but the ground in this run\n");
   if (!wish.quiet) {
     for (const std::string& warning : warnings) fmt::print(stderr, "crashreel: warning: {}\n", warning);
+    if (const std::string slow = slow_step(recording); !slow.empty()) fmt::print(stderr, "crashreel: warning: {}\n", slow);
   }
   if (const auto& failure = recording.failure) {
     fmt::print(stderr, "crashreel: the model diverged at {:.4f} s, body {}, effect {}: {}; the recording up to there is kept\n",

@@ -11,6 +11,13 @@ namespace engine {
 /// A clock handed in by those who want the cost per effect; the engine has none of its own.
 using Clock = double (*)();
 
+/// Clocks of those who want to know which step took longest: one that goes on [s], and the time this process has computed [s],
+/// which takes a call of the system and is read only now and then.
+struct StepClocks {
+  Clock passed = nullptr;
+  Clock computed = nullptr;
+};
+
 /// Parts of the step that serve several effects at once.
 enum class Phase { integration, impulses, joint_projection, recording, rest };
 

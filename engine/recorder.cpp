@@ -48,8 +48,6 @@ Recorder::Recorder(const World& world, const State& state)
       last_ground_(world.model.persons.size(), 0) {
   tallies_.reserve(kRoom);
   events_.reserve(kRoom);
-  last_energy_ =
-      kinetic_energy(world.model, state) + potential_energy(world.model, state) + state.energy.springs - state.energy.added;
   keep(state);
   for (std::size_t p = 0; p < world.model.persons.size(); ++p)
     for (const int b : trunk_of(world.model, static_cast<int>(p))) {
@@ -239,9 +237,7 @@ void Recorder::snapshot(const World& world, const State& state, Recording& recor
   s.energies.added = state.energy.added;
   s.energies.residual = s.energies.kinetic + s.energies.potential - state.energy.initial - state.energy.added;
   for (const double d : state.energy.dissipated) s.energies.residual += d;
-  const double mechanical = s.energies.kinetic + s.energies.potential - s.energies.added;
-  energy_rise_ = std::max(energy_rise_, mechanical - last_energy_);
-  last_energy_ = mechanical;
+  energy_.weigh(state, s.energies);
   recording.snapshots.push_back(std::move(s));
   watch_rest(world, state, since);
 }
@@ -307,7 +303,7 @@ void Recorder::finish(const World& world, const State& state, Recording& recordi
   std::stable_sort(recording.events.begin(), recording.events.end(),
                    [](const Event& a, const Event& b) { return a.time < b.time; });
   recording.diagnostics = world.log.diagnostics;
-  recording.diagnostics.max_energy_rise = energy_rise_;
+  energy_.close(world, recording.diagnostics);
   recording.diagnostics.max_compression = compression_;
   warn_of_shortfalls(world, recording.diagnostics.warnings);
   warn_of_idle_impacts(world, recording.diagnostics.warnings);

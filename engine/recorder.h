@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/energy_watch.h"
 #include "engine/world.h"
 
 namespace engine {
@@ -56,8 +57,7 @@ class Recorder {
   std::size_t exchanges_told_ = 0;
   std::vector<Vec3> velocity_;  // [m/s] per body, at the last sample
   double sampled_ = 0;          // [s] when that was
-  double last_energy_ = 0;
-  double energy_rise_ = 0;  // [J] largest between two snapshots
+  EnergyWatch energy_;
   double compression_ = 0;  // [m] deepest of a compliant contact
   Shortfall too_deep_;      // [m] of a compliant contact, beyond its thickness
   Shortfall stood_inside_;  // [m] of a rigid contact

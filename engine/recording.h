@@ -109,6 +109,9 @@ struct Diagnostics {
   double max_compression = 0;        // [m] compliant law: deepest contact, of both surfaces together
   double max_solver_residual = 0;    // [m/s]
   double max_energy_rise = 0;        // [J] largest rise of the mechanical energy between two snapshots that no source explains
+  double energy_turned_over = 0;     // [J] most that was moving, given off or put in at a snapshot
+  double max_unexplained = 0;        // [J] most at a snapshot, of either sign, that the ledger cannot explain
+  double max_effect_gain = 0;        // [J] most that an effect which has no energy to give gave in a step
   long contact_sweeps = 0;
   long newton_steps = 0;        // of the contact solver
   long restitution_scaled = 0;  // impacts whose restitution was lowered because Newton's rule would have created energy
@@ -122,6 +125,13 @@ struct Failure {
   std::string body;
   std::string effect;
   std::string message;
+};
+
+/// The step that took longest to compute, where the caller handed in clocks. Not the same from run to run.
+struct LongestStep {
+  double processor_s = 0;           // [s]
+  double time = 0;                  // [s] at its end
+  std::vector<std::string> bodies;  // that had most contacts and limits in it, or turned fastest
 };
 
 /// Acceleration of the centre of a person's head, a sample a step: what head injury criteria integrate. Only with the compliant
@@ -145,6 +155,7 @@ struct Recording {
   std::vector<EffectCost> costs;   // of the effects of the plan; wall_s only when a clock was handed in
   std::vector<EffectCost> phases;  // of what serves several effects at once
   Diagnostics diagnostics;
+  std::optional<LongestStep> longest_step;
   long steps = 0;
   double wall_s = 0;  // filled by the caller: the engine has no clock
   std::optional<Failure> failure;

@@ -9,6 +9,7 @@
 #include "engine/recorder.h"
 #include "engine/start.h"
 #include "engine/step/step.h"
+#include "engine/step_watch.h"
 
 namespace engine {
 namespace {
@@ -38,6 +39,7 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
     const Meter::Span span(world.meter, Phase::recording);
     recorder.tally(world, conditions, time, duration);
   });
+  StepWatch watch(options.step_clocks);
   // at such a speed the first step alone would take minutes
   recording.failure = look_for_divergence(world, state, stepper.conditions());
   for (long k = first; k < steps && !recording.failure; ++k) {
@@ -46,6 +48,7 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
       left -= stepper.advance(state, left);
       recording.failure = look_for_divergence(world, state, stepper.conditions());
     }
+    watch.note(world, state, stepper.conditions());
     if (recording.failure) break;
     state.time = static_cast<double>(k + 1) * h;
     ++recording.steps;
@@ -58,6 +61,7 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
     if (options.progress && (k + 1) % kAskEvery == 0 && !options.progress(state.time)) break;
   }
   recorder.finish(world, state, recording);
+  recording.longest_step = watch.longest(world);
   world.meter.finish();
   recording.costs = world.meter.effects;
   recording.phases = world.meter.phases;

@@ -17,7 +17,8 @@ using Progress = std::function<bool(double time)>;
 
 struct RunOptions {
   Progress progress;
-  Clock clock = nullptr;
+  Clock clock = nullptr;   // for the costs
+  StepClocks step_clocks;  // for Recording::longest_step
   /// Goes on from here in place of the model's start, to the end of the model's duration. Of the same model and plan, at the end of
   /// a step, such as `end` of an earlier run; counted in the run's own frame (local_frame.h). The Recording then begins at its time
   /// and tells what happens from there on; energies count from the start of the first run.

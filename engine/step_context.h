@@ -43,10 +43,11 @@ struct StepBuffers {
   std::vector<Resistance> resistances;          // per joint
   std::vector<Vec6> force, displacing, result;  // per body
   Islands islands;
-  std::vector<double> weight;   // [-] per condition: share of the step that its displacement acts
-  std::vector<double> allowed;  // [m] per condition of an island: what its position may still need
-  std::vector<int> members;     // that exchange impulses at an instant
-  std::vector<double> targets;  // of those
+  std::vector<double> weight;             // [-] per condition: share of the step that its displacement acts
+  std::vector<double> dissipated_before;  // [J] per effect, when the step began
+  std::vector<double> allowed;            // [m] per condition of an island: what its position may still need
+  std::vector<int> members;               // that exchange impulses at an instant
+  std::vector<double> targets;            // of those
 };
 
 struct StepContext {
@@ -67,13 +68,6 @@ struct StepContext {
   int unsettled = -1;       // the condition that has it
   double joint_gap = 0;     // [m] before the joints were closed
 };
-
-/// Calls act(body) for every body of the trees that take part.
-template <class Act>
-void for_awake_bodies(const World& world, Act&& act) {
-  for (const int tree : world.active_trees)
-    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) act(world.topology.links[l].body);
-}
 
 /// Velocity along the rows of a condition, of a against b.
 Vec3 row_velocity(const Constraint&, const std::vector<Twist>& V_WB);

@@ -49,7 +49,10 @@ World::World(const Model& m, const Plan& p, const RunOptions& o)
   solver.reserve(topology, kRoom);
   active_trees.reserve(topology.trees.size());
   log.events.reserve(kRoom);
-  for (std::size_t e = 0; e < p.active.size(); ++e) effects.push_back(p.active[e]->make(*this, static_cast<int>(e)));
+  for (std::size_t e = 0; e < p.active.size(); ++e) {
+    effects.push_back(p.active[e]->make(*this, static_cast<int>(e)));
+    gives.push_back(static_cast<char>(p.active[e]->gives && p.active[e]->gives(m)));
+  }
 }
 
 World::~World() = default;

@@ -46,6 +46,8 @@ struct Overlap {
 struct RunLog {
   Diagnostics diagnostics;
   Shortfall unsettled;            // [m/s] conditions that the solver left unmet
+  Shortfall gain;                 // [J] that an effect gave in a step though it has none to give, and at which bodies most
+  int gained_by = -1;             // that effect
   std::vector<Overlap> overlaps;  // at the start
   std::vector<Event> events;
   std::vector<ContactRecord> exchanges;  // at an instant and by no constraint (Kudlich-Slibar), over the whole run
@@ -75,6 +77,7 @@ struct World {
   std::vector<int> active_trees;
   ContactPairs pairs;
   std::vector<std::unique_ptr<Effect>> effects;  // of the plan
+  std::vector<char> gives;                       // of each: may it give energy?
   Meter meter;
   RunLog log;
 };
@@ -84,6 +87,13 @@ void warn_of_overlap(World&, int a, int b, double gap);
 
 /// Which trees take part: those of persons in the zero condition and those asleep do not.
 void choose_trees(World&, const State&);
+
+/// Calls act(body) for every body of the trees that take part.
+template <class Act>
+void for_awake_bodies(const World& world, Act&& act) {
+  for (const int tree : world.active_trees)
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) act(world.topology.links[l].body);
+}
 
 /// Kinetic and gravitational energy [J] of all bodies that move.
 double kinetic_energy(const Model&, const Motion&);

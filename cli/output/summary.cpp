@@ -168,6 +168,9 @@ Json diagnostics_json(const engine::Diagnostics& d) {
           {"rest_penetration_m", d.rest_penetration},
           {"max_solver_residual", d.max_solver_residual},
           {"max_energy_rise_J", d.max_energy_rise},
+          {"energy_turned_over_J", d.energy_turned_over},
+          {"max_unexplained_J", d.max_unexplained},
+          {"max_effect_gain_J", d.max_effect_gain},
           {"contact_sweeps", d.contact_sweeps},
           {"substeps", d.substeps},
           {"warnings", d.warnings}};
@@ -186,7 +189,11 @@ Json cost_json(const engine::Recording& recording) {
   for (const engine::EffectCost& cost : recording.phases) {
     phases.push_back({{"phase", cost.effect}, {"calls", cost.calls}, {"wall_s", cost.wall_s}});
   }
+  Json longest = nullptr;
+  if (const auto& step = recording.longest_step)
+    longest = {{"processor_s", step->processor_s}, {"time_s", step->time}, {"bodies", step->bodies}};
   return {{"steps", recording.steps},
+          {"longest_step", longest},
           {"wall_s", recording.wall_s},
           {"steps_per_s", per_second(static_cast<double>(recording.steps), recording.wall_s)},
           {"realtime_factor", per_second(recording.end_time(), recording.wall_s)},
@@ -195,6 +202,14 @@ Json cost_json(const engine::Recording& recording) {
 }
 
 }  // namespace
+
+std::string slow_step(const engine::Recording& recording) {
+  constexpr double kSlow = 1;  // [s]
+  const auto& step = recording.longest_step;
+  if (!step || step->processor_s <= kSlow) return {};
+  return fmt::format("the step to {:.4g} s took {:.3g} s of processor time: {}", step->time, step->processor_s,
+                     fmt::join(step->bodies, ", "));
+}
 
 Json plan_json(const std::vector<engine::PlanLine>& lines) {
   Json out = Json::array();
@@ -259,6 +274,7 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
   line("simulated", fmt::format("{:.4g} s in {:.3g} s, {} steps, {:.3g} times real time", recording.end_time(), recording.wall_s,
                                 recording.steps, per_second(recording.end_time(), recording.wall_s)));
   for (const std::string& warning : d.warnings) line("warning", warning);
+  if (const std::string slow = slow_step(recording); !slow.empty()) line("warning", slow);
   line("recording hash", fmt::format("{:016x}", engine::hash(recording)));
   return out;
 }

@@ -15,6 +15,8 @@ namespace cli {
 nlohmann::ordered_json summary_json(const scenes::Scene&, const engine::Recording&, const std::vector<engine::Metric>&);
 /// The plan alone, as it stands in summary.json.
 nlohmann::ordered_json plan_json(const std::vector<engine::PlanLine>&);
+/// That a step took more than a second of processor time, and about which bodies it was; empty: none did.
+std::string slow_step(const engine::Recording&);
 /// Main metrics, energy, diagnostics and cost, for people.
 std::string summary_text(const scenes::Scene&, const engine::Recording&, const std::vector<engine::Metric>&);
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "cli/progress.h"
 #include "cli/film_plan.h"
 #include "cli/study/statistics.h"
 #include "cli/study/trial.h"

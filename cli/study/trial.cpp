@@ -32,12 +32,6 @@ std::string bytes_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-double computed_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
 std::string program_hash() {
   return scenes::sha256(bytes_of("/proc/self/exe"));
 }

@@ -38,9 +38,6 @@ std::string fingerprint_of(const Trial&, const scenes::Scene& loaded, const std:
 /// SHA-256 of the running program: a new build may give new answers.
 std::string program_hash();
 
-/// [s] this process has computed. On an idle core it passes as the clock does; what others take of a busy one is left out.
-double computed_seconds();
-
 /// Runs the trial on the calling process' core until its time is known: at least three repetitions if it is short.
 Outcome run(const Trial&);
 

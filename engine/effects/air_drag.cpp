@@ -199,6 +199,10 @@ class AirDrag final : public Effect {
                                          "`crashreel plan` tells what that leaves out.",
                                          kKeys};
   static Finding look(const Model& model) { return look_at(model); }
+  static bool gives(const Model& model) {
+    const Vec3* wind = input(model, "air.wind");
+    return wind && !wind->isZero(0);
+  }
   static std::string left_out(const Model& model, const Recording& run) { return left_out_along(model, run); }
 
   AirDrag(const World& world, int self) : Effect(self), air_(air_of(world.model)) {}

@@ -24,6 +24,7 @@ class BodyContact final : public Effect {
  public:
   static constexpr const char* kName = "body_contact";
   static Finding look(const Model& model) { return look_at(model); }
+  static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
   BodyContact(World& world, int self) : Effect(self) { add_runs_between_bodies(world, self); }
 

@@ -273,6 +273,7 @@ class BodyworkContact final : public Effect {
  public:
   static constexpr const char* kName = "bodywork_contact";
   static Finding look(const Model& model) { return look_at(model); }
+  static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
   BodyworkContact(World& world, int self) : Effect(self) { list_pairs(world.model, world.pairs); }
 

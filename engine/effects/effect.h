@@ -104,6 +104,8 @@ struct EffectKind {
   Finding (*look)(const Model&) = nullptr;
   /// Finding::left_out of an effect that was not in the plan, once the run is known: closer than before it. Null: no closer.
   std::string (*left_out)(const Model&, const Recording&) = nullptr;
+  /// May it give energy that its account did not take before: springs, surfaces that give way, the wind? Null: never.
+  bool (*gives)(const Model&) = nullptr;
   SceneSection section;
   std::unique_ptr<Effect> (*make)(World&, int self) = nullptr;
   EffectMemory (*first_memory)() = nullptr;

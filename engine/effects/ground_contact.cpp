@@ -27,6 +27,7 @@ class GroundContact final : public Effect {
  public:
   static constexpr const char* kName = "ground_contact";
   static Finding look(const Model& model) { return look_at(model); }
+  static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
   GroundContact(const World&, int self) : Effect(self) {}
 

@@ -99,6 +99,7 @@ class JointLimits final : public Effect {
  public:
   static constexpr const char* kName = "joint_limits";
   static Finding look(const Model& model) { return look_at(model); }
+  static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
   JointLimits(const World&, int self) : Effect(self) {}
 

@@ -130,6 +130,12 @@ class JointResistance final : public EffectWith<FrictionMemory> {
  public:
   static constexpr const char* kName = "joint_resistance";
   static Finding look(const Model& model) { return look_at(model); }
+  static bool gives(const Model& model) {
+    return std::any_of(model.joints.begin(), model.joints.end(), [](const Joint& joint) {
+      return joint.passive != PassiveTorque::none ||
+             any_coordinate(joint, [](const JointCoordinate& a) { return a.stiffness > 0; });
+    });
+  }
 
   JointResistance(const World& world, int self) : EffectWith(self), legs_(passive_legs(world.model)) {
     for (const Joint& joint : world.model.joints) in_stages_.push_back(resists(joint) && in_stages(world.model, joint));

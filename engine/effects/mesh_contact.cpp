@@ -46,6 +46,7 @@ class MeshContact final : public Effect {
  public:
   static constexpr const char* kName = "mesh_contact";
   static Finding look(const Model& model) { return look_at(model); }
+  static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
   MeshContact(World& world, int self) : Effect(self) {
     const auto& bodies = world.model.bodies;

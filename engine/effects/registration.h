@@ -32,6 +32,7 @@ constexpr EffectKind describe() {
   kind.name = E::kName;
   kind.look = E::look;
   if constexpr (requires { E::left_out; }) kind.left_out = E::left_out;
+  if constexpr (requires { E::gives; }) kind.gives = E::gives;
   if constexpr (requires { E::kSection; }) kind.section = E::kSection;
   kind.make = [](World& world, int self) -> std::unique_ptr<Effect> { return std::make_unique<E>(world, self); };
   kind.first_memory = [] {

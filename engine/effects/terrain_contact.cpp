@@ -25,6 +25,7 @@ class TerrainContact final : public Effect {
  public:
   static constexpr const char* kName = "terrain_contact";
   static Finding look(const Model& model) { return look_at(model); }
+  static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
   TerrainContact(World& world, int self) : Effect(self) {
     if (!world.model.ground.terrain) return;

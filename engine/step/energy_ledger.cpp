@@ -67,6 +67,22 @@ void book(StepContext& s) {
     }
 }
 
+void note_gains(StepContext& s) {
+  RunLog& log = s.world.log;
+  for (std::size_t e = 0; e < s.world.effects.size(); ++e) {
+    const double gain = s.buffers.dissipated_before[e] - s.state.energy.dissipated[e];
+    if (s.world.gives[e] || gain <= log.gain.amount) continue;
+    log.gain = {gain, s.state.time, -1, -1};
+    log.gained_by = static_cast<int>(e);
+    double most = 0;
+    for (std::size_t i = 0; s.impulses && i < s.constraints.size(); ++i)
+      if (const Constraint& c = s.constraints[i]; c.effect == static_cast<int>(e) && work_of(s, i) > most) {
+        most = work_of(s, i);
+        log.gain.body_a = c.record_a, log.gain.body_b = c.record_b;
+      }
+  }
+}
+
 double largest_rise(StepContext& s) {
   note_rises(s);
   Islands& islands = s.buffers.islands;

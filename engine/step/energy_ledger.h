@@ -8,6 +8,9 @@ namespace engine {
 /// Books the work of all conditions and of the joints' resistance.
 void book(StepContext&);
 
+/// Notes what effects that have no energy to give gave since StepBuffers::dissipated_before was filled.
+void note_gains(StepContext&);
+
 /// The most [J] that the mechanical energy of an island rose over the step beyond what its joints' resistance gave. Rigid contacts
 /// and stops give none; but two segments that press on each other near a dead centre of the joints between them (chin and chest)
 /// exchange impulses so large that the levers they turn meanwhile matter. Wheels and springs may give energy: of islands that have

@@ -19,6 +19,7 @@ Stepper::Stepper(World& world, OnImpulses on_impulses)
     : world_(world), on_impulses_(std::move(on_impulses)), buffers_(world), motion_(world, buffers_) {}
 
 double Stepper::advance(State& state, double most) {
+  buffers_.dissipated_before = state.energy.dissipated;
   choose_trees(world_, state);
   motion_.smooth.recall(state.pace.swing_rate, state.pace.swinging_body);
   StepControl control(world_, state, most, motion_.smooth.fastest_swing());
@@ -106,6 +107,7 @@ void Stepper::commit(StepContext& s, const CompliantContacts::Crossing* crossing
   state.contacts.trees = world_.active_trees;
   state.contacts.known = true;
   call(world_, Hook::after_step, &Effect::after_step, s);
+  note_gains(s);
 }
 
 }  // namespace engine

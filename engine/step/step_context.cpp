@@ -22,6 +22,7 @@ StepBuffers::StepBuffers(const World& world) {
   islands.rise.reserve(trees);
   for (auto* list : {&weight, &allowed, &targets}) list->reserve(kRoom);
   members.reserve(kRoom);
+  dissipated_before.reserve(world.effects.size());
 }
 
 StepContext::StepContext(World& w, State& s, StepBuffers& b, double h)

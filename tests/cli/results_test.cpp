@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "cli/output/summary.h"
 #include "tests/cli/program.h"
 
 using namespace cli_tests;
@@ -199,12 +200,28 @@ TEST(Simulate, SummaryHasEveryKeyOfTheContract) {
   // half of m v^2 and m g h from the ground
   EXPECT_NEAR(summary.at("energy").at("initial_J").get<double>(), 0.5 * 3 + 3 * kGravity * 0.3, 1e-9);
   for (const char* key : {"final_J", "dissipated_J", "residual_J"}) EXPECT_TRUE(summary.at("energy").contains(key)) << key;
-  for (const char* key : {"max_joint_gap_m", "max_joint_angle_error_rad", "max_penetration_m", "max_solver_residual", "warnings"}) {
+  for (const char* key : {"max_joint_gap_m", "max_joint_angle_error_rad", "max_penetration_m", "max_solver_residual", "warnings",
+                          "energy_turned_over_J", "max_unexplained_J", "max_effect_gain_J"}) {
     EXPECT_TRUE(summary.at("diagnostics").contains(key)) << key;
   }
   EXPECT_EQ(summary.at("cost").at("steps"), 400);
   for (const char* key : {"wall_s", "steps_per_s", "realtime_factor", "effects"})
     EXPECT_TRUE(summary.at("cost").contains(key)) << key;
+  // one of the steps took the longest, and no longer than the run
+  const auto& longest = summary.at("cost").at("longest_step");
+  EXPECT_GT(longest.at("processor_s").get<double>(), 0);
+  EXPECT_LE(longest.at("processor_s").get<double>(), summary.at("cost").at("wall_s").get<double>());
+  EXPECT_GT(longest.at("time_s").get<double>(), 0);
+  EXPECT_FALSE(longest.at("bodies").empty());
+}
+
+TEST(SlowStep, IsToldFromASecondOfProcessorTimeOn) {
+  engine::Recording run;
+  EXPECT_EQ(cli::slow_step(run), "");
+  run.longest_step = engine::LongestStep{0.99, 0.5, {"head"}};
+  EXPECT_EQ(cli::slow_step(run), "");
+  run.longest_step = engine::LongestStep{2.5, 0.512, {"head", "car"}};
+  EXPECT_EQ(cli::slow_step(run), "the step to 0.512 s took 2.5 s of processor time: head, car");
 }
 
 TEST(Simulate, ImpulseColumnsAddUpToTheMomentumThatWasExchanged) {

@@ -1,0 +1,169 @@
+// A run says by itself when its energy does not add up, and which step took long: planted faults, and runs without any.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/effects/effect.h"
+#include "engine/energy_watch.h"
+#include "engine/start.h"
+#include "engine/step/energy_ledger.h"
+#include "engine/step_watch.h"
+#include "tests/engine/experiment.h"
+
+namespace {
+
+using namespace engine;
+using namespace engine::test;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A pendulum that meets the ground, two bodies by name.
+Model experiment() {
+  Model model = on_ground(0.5);
+  model.bodies = {ball(0.2, 3, {0, 0, 0.6}), ball(0.2, 1, {1, 0, 0.2})};
+  model.bodies[0].name = "high";
+  model.bodies[1].name = "low";
+  return model;
+}
+
+/// Snapshots' energies: kinetic, potential, dissipated, residual.
+Energies at_instant(double kinetic, double potential, double dissipated, double residual) {
+  return {kinetic, potential, {dissipated}, 0, residual};
+}
+
+struct Watched {
+  Model model = experiment();
+  Plan plan = compile(model);
+  World world{model, plan, {}};
+  State state = start(world);
+};
+
+TEST(EnergyWatch, WarnsOfMoreThanAHundredthUnexplained) {
+  for (const double missing : {-1.2, -0.8, 0.8, 1.2}) {
+    Watched w;
+    EnergyWatch watch;
+    watch.weigh(w.state, at_instant(0, 100, 0, 0));
+    w.state.time = 0.25;
+    watch.weigh(w.state, at_instant(40, 0, 60 + missing, missing));  // 100 J were turned over
+    w.state.time = 0.5;
+    watch.weigh(w.state, at_instant(0, 0, 100, 0));
+    Diagnostics out;
+    watch.close(w.world, out);
+    EXPECT_NEAR(out.energy_turned_over, std::max(100.0, 100 + missing), 1e-12);
+    EXPECT_EQ(out.max_unexplained, std::abs(missing));
+    if (std::abs(missing) < 1)
+      EXPECT_THAT(out.warnings, IsEmpty());
+    else
+      EXPECT_THAT(out.warnings, ElementsAre(AllOf(HasSubstr("1.2 J at 250 ms that no effect explains"), HasSubstr("turned over"))));
+  }
+}
+
+TEST(EnergyWatch, IsSilentAboutRoundingOfWhatRests) {
+  Watched w;
+  EnergyWatch watch;
+  watch.weigh(w.state, at_instant(1e-14, 20, 0, 1e-9));
+  Diagnostics out;
+  watch.close(w.world, out);
+  EXPECT_THAT(out.warnings, IsEmpty());
+}
+
+/// The index of an effect in the plan.
+int named(const Plan& plan, const std::string& name) {
+  for (std::size_t e = 0; e < plan.active.size(); ++e)
+    if (name == plan.active[e]->name) return static_cast<int>(e);
+  return -1;
+}
+
+TEST(EnergyWatch, NamesTheEffectAndBodiesOfAGiftInAStep) {
+  Watched w;
+  const int ground = named(w.plan, "ground_contact");
+  ASSERT_GE(ground, 0);
+  StepBuffers buffers(w.world);
+  choose_trees(w.world, w.state);
+  buffers.dissipated_before = w.state.energy.dissipated;
+  StepContext step(w.world, w.state, buffers, 1e-3);
+  // the ground throws `low` up: an impulse along what it moves by
+  Constraint c;
+  c.effect = ground;
+  c.body_a = c.record_a = 1;
+  c.impulse = {4, 0, 0};
+  c.u_after = {2, 0, 0};
+  step.constraints = {c};
+  step.impulses = true;
+  buffers.weight = {0.5};
+  book(step);
+  note_gains(step);
+  EXPECT_NEAR(w.world.log.gain.amount, 4, 1e-12);  // L (u_before + u_after) / 2
+  EnergyWatch watch;
+  watch.weigh(w.state, at_instant(10, 20, 0, 0));
+  Diagnostics out;
+  watch.close(w.world, out);
+  EXPECT_NEAR(out.max_effect_gain, 4, 1e-12);
+  EXPECT_THAT(out.warnings,
+              ElementsAre(AllOf(HasSubstr("ground_contact gave 4 J to low and the world"), HasSubstr("has none to give"))));
+}
+
+TEST(EnergyWatch, LetsSpringsAndYieldingSurfacesGive) {
+  Model model = experiment();
+  model.settings.contact_law = ContactLaw::compliant;
+  const Plan plan = compile(model);
+  const World world(model, plan, {});
+  EXPECT_TRUE(world.gives[static_cast<std::size_t>(named(plan, "ground_contact"))]);
+  const Watched rigid;
+  EXPECT_FALSE(rigid.world.gives[static_cast<std::size_t>(named(rigid.plan, "ground_contact"))]);
+}
+
+TEST(EnergyWatch, FindsNothingInARunThatKeepsItsBooks) {
+  const Recording run = simulate(experiment());
+  EXPECT_THAT(run.diagnostics.warnings, IsEmpty());
+  EXPECT_GT(run.diagnostics.energy_turned_over, 3 * kGravity * 0.4 * 0.9);  // what falls 0.4 m
+  EXPECT_LT(run.diagnostics.max_unexplained, 1e-3 * run.diagnostics.energy_turned_over);
+  EXPECT_LT(run.diagnostics.max_effect_gain, 1e-3 * run.diagnostics.energy_turned_over);
+}
+
+TEST(EnergyWatch, WarnsOfARunWhoseStepIsTooLong) {
+  // the spring of a contact that a step of 20 ms cannot follow in the stages of Runge and Kutta would be divided; a pendulum with
+  // 2.2 rad a step is not: its fourth order has nothing left
+  Model model = free_space(20, 0.2);
+  model.settings.gravity = {0, 0, -kGravity};
+  model.settings.record_interval = 0.2;
+  model.bodies = {inert(1, Vec3::Constant(1e-3), {0.12, 0, 0})};
+  model.joints = {joint_at(model, JointKind::revolute, -1, 0, Vec3::Zero())};
+  const Recording coarse = simulate(model);
+  EXPECT_THAT(coarse.diagnostics.warnings, testing::Contains(HasSubstr("that no effect explains")))
+      << coarse.diagnostics.max_unexplained;
+  model.settings.step = 1e-3;
+  EXPECT_THAT(simulate(model).diagnostics.warnings, IsEmpty());
+}
+
+// A clock of the test's own: each look takes a millisecond, but for one that takes long.
+int looks = 0;
+int slow_look = -1;
+double passed() {
+  ++looks;
+  return 1e-3 * looks + (slow_look >= 0 && looks > slow_look ? 2.5 : 0);
+}
+double computed() {
+  return 1e-3 * looks + (slow_look >= 0 && looks > slow_look ? 1.5 : 0);  // a second of those others had
+}
+
+TEST(StepWatch, NamesTheStepThatTookLongestAndItsBodies) {
+  looks = 0;
+  slow_look = 301;  // one look when the run begins, one a step
+  RunOptions options;
+  options.step_clocks = {passed, computed};
+  const Recording run = simulate(experiment(), options);
+  ASSERT_TRUE(run.longest_step.has_value());
+  EXPECT_NEAR(run.longest_step->processor_s, 1.5, 0.0121);  // and no more than 10 ms and a look too long
+  EXPECT_NEAR(run.longest_step->time, 0.301, 1.1e-3);
+  EXPECT_THAT(run.longest_step->bodies, testing::Contains("low"));
+  // and nothing of the run has changed
+  EXPECT_EQ(hash(run), hash(simulate(experiment())));
+}
+
+TEST(StepWatch, NeedsClocks) {
+  EXPECT_FALSE(simulate(experiment()).longest_step.has_value());
+}
+
+}  // namespace
