@@ -7,6 +7,7 @@
 
 #include "cli/inference/prior.h"
 #include "cli/inference/sequence.h"
+#include "engine/math/roots.h"
 
 namespace cli::inference {
 namespace {
@@ -148,12 +149,7 @@ std::vector<double> tempered(const std::vector<double>& log_ratios, const std::v
     return out;
   };
   if (normalised(at(1)).effective >= wanted) return at(1);
-  double low = 0, high = 1;
-  for (int k = 0; k < 40; ++k) {
-    const double middle = 0.5 * (low + high);
-    (normalised(at(middle)).effective >= wanted ? low : high) = middle;
-  }
-  return at(low);
+  return at(engine::math::bisect({0, 1}, 40, 0, [&](double t) { return normalised(at(t)).effective >= wanted; }).low);
 }
 
 }  // namespace cli::inference

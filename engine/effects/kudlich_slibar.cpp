@@ -10,6 +10,7 @@
 #include "engine/effects/words.h"
 #include "engine/geometry/mesh_overlap.h"
 #include "engine/math/functions.h"
+#include "engine/math/roots.h"
 #include "engine/solver/kudlich_slibar.h"
 
 namespace engine {
@@ -93,11 +94,7 @@ double touch_before(const World& world, const State& state, const ImpactPair& pa
     stride *= 2;
     low -= stride;
   }
-  while (high - low > kPlaced) {
-    const double middle = 0.5 * (low + high);
-    (touch(middle) ? high : low) = middle;
-  }
-  return high;
+  return math::bisect({low, high}, math::kToTheWidth, kPlaced, [&](double ahead) { return !touch(ahead); }).high;
 }
 
 Vec3 velocity_at(const State& state, int body, const Vec3& point) {

@@ -20,6 +20,7 @@
 
 #include "engine/geometry/face_corners.h"
 #include "engine/math/functions.h"
+#include "engine/math/roots.h"
 
 namespace engine {
 namespace {
@@ -94,22 +95,12 @@ bool point_contact(const Scene& s, const Vec3& p, SurfaceContact& c) {
 
 /// Parameter of the edge point with the least gauge: convex, so safeguarded Newton cannot fail.
 double least_gauge(const HyperEllipsoid& shape, const Vec3& from_A, const Vec3& along_A) {
-  double low = 0, high = 1;
   auto slope = [&](double t) { return gauge_gradient(shape, from_A + t * along_A).dot(along_A); };
   if (slope(0) >= 0) return 0;
   if (slope(1) <= 0) return 1;
-  double t = 0.5;
-  for (int k = 0; k < 40 && high - low > 1e-12; ++k) {
-    const double d = slope(t);
-    (d < 0 ? low : high) = t;
-    if (d == 0) break;
-    const double curvature = along_A.dot(gauge_hessian(shape, from_A + t * along_A) * along_A);
-    const double newton = curvature > 0 ? t - d / curvature : 0.5 * (low + high);
-    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
-    if (std::abs(next - t) < 1e-13) break;
-    t = next;
-  }
-  return t;
+  return math::newton({0, 1}, 0.5, 40, 1e-12, 1e-13, [&](double t) {
+    return std::pair(slope(t), along_A.dot(gauge_hessian(shape, from_A + t * along_A) * along_A));
+  });
 }
 
 /// Does the normal lean away from every edge at the vertex, by more than -slack [-], and from the back of no face? Of those
@@ -160,24 +151,11 @@ void touch_edge_round(Scene& s, int triangle, int edge, std::vector<VertexTouch>
     point = reached(s, normal).point;
     return (c * out - sn * n).dot(point - start);
   };
-  double low = 0, high = widest, f_low = beyond_this, f_high = slope(high);
-  if (f_high >= 0) return;
-  int side = 0;
-  for (int k = 0; k < 60 && high - low > kTight; ++k) {
-    double angle = (low * f_high - high * f_low) / (f_high - f_low);
-    if (!(angle > low && angle < high)) angle = 0.5 * (low + high);
-    const double f = slope(angle);
-    if (std::abs(f) < kTight) break;
-    if (f > 0) {
-      low = angle, f_low = f;
-      if (side == 1) f_high *= 0.5;
-      side = 1;
-    } else {
-      high = angle, f_high = f;
-      if (side == -1) f_low *= 0.5;
-      side = -1;
-    }
-  }
+  const double beyond_other = slope(widest);
+  if (beyond_other >= 0) return;
+  math::illinois(
+      {0, widest}, -beyond_this, -beyond_other, 60, kTight, [&](double angle) { return -slope(angle); },
+      [](double f) { return std::abs(f) < kTight; });
   const double at = along.dot(point - start) / along.squaredNorm();
   const double gap = normal.dot(point - start);
   if (gap >= s.margin) return;  // a vertex is no nearer

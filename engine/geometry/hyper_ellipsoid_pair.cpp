@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "engine/math/functions.h"
+#include "engine/math/roots.h"
 
 namespace engine {
 namespace {
@@ -86,11 +87,7 @@ double climb_about(const Pair& pair, const Vec3& w, double tolerance, Vec3& n) {
     if (high > kFarthest) break;
     high *= kGrowth;
   }
-  while (high - low > tolerance) {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) break;
-    (sense * slope(sense * middle) > 0 ? low : high) = middle;
-  }
+  low = math::bisect({low, high}, math::kToTheWidth, tolerance, [&](double angle) { return sense * slope(sense * angle) > 0; }).low;
   n = turned(sense * low).normalized();
   return low;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/math/functions.h"
+#include "engine/math/roots.h"
 
 namespace engine {
 namespace {
@@ -106,7 +107,7 @@ Grip tm_easy_grip(const TmEasyTyre& tyre, double load, double mu, double v_x, do
   if (speed < kSlowest) return {std::numeric_limits<double>::infinity(), mu};
   const double s_y = std::abs(v_y) / speed;
   // the longitudinal force rises with s_x to its maximum: bisect below it
-  double low = 0, high = combine(tyre, load, mu, 1, 0).curve.slip_max * combine(tyre, load, mu, 1, 0).scale_x;
+  double high = combine(tyre, load, mu, 1, 0).curve.slip_max * combine(tyre, load, mu, 1, 0).scale_x;
   high = std::min(kLockedSlip, 3 * high + s_y);
   double s_x = 0;
   if (asked > 0) {
@@ -114,10 +115,10 @@ Grip tm_easy_grip(const TmEasyTyre& tyre, double load, double mu, double v_x, do
         tm_easy_force(tyre, load, mu, 0.5 * high, s_y).longitudinal <= asked) {
       s_x = kLockedSlip;
     } else {
-      for (int k = 0; k < 30; ++k) {
-        s_x = 0.5 * (low + high);
-        (tm_easy_force(tyre, load, mu, s_x, s_y).longitudinal < asked ? low : high) = s_x;
-      }
+      math::bisect({0, high}, 30, 0, [&](double s) {
+        s_x = s;
+        return tm_easy_force(tyre, load, mu, s, s_y).longitudinal < asked;
+      });
     }
   }
   const Combined c = combine(tyre, load, mu, s_x, s_y);

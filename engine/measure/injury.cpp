@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/math/functions.h"
+#include "engine/math/roots.h"
 #include "engine/measure/metrics.h"
 #include "engine/measure/parties.h"
 
@@ -39,13 +40,9 @@ double three_ms_clip(const std::vector<double>& t, const std::vector<double>& a)
     if (above && !t.empty()) longest = std::max(longest, t.back() - begin);
     return longest;
   };
-  double low = 0, high = a.empty() ? 0 : *std::max_element(a.begin(), a.end());
-  if (longest_above(low) < kHeld) return 0;
-  for (int k = 0; k < 60; ++k) {
-    const double level = 0.5 * (low + high);
-    (longest_above(level) >= kHeld ? low : high) = level;
-  }
-  return low;
+  if (longest_above(0) < kHeld) return 0;
+  const double highest = a.empty() ? 0 : *std::max_element(a.begin(), a.end());
+  return math::bisect({0, highest}, 60, 0, [&](double level) { return longest_above(level) >= kHeld; }).low;
 }
 
 namespace {

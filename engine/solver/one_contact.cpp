@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "engine/math/roots.h"
+
 namespace engine {
 namespace {
 
@@ -14,7 +16,8 @@ namespace {
 /// kept inside the bracket. `most` returns the bound and its rate for a change of t.
 template <class Bound>
 Eigen::Vector2d slip_impulse(const Eigen::Matrix2d& S, const Eigen::Vector2d& q, double y, const Bound& most) {
-  double low = 0, high = std::numeric_limits<double>::infinity();
+  math::Bracket bracket{0, std::numeric_limits<double>::infinity()};
+  const double &low = bracket.low, &high = bracket.high;
   Eigen::Vector2d t = Eigen::Vector2d::Zero();
   for (int k = 0; k < 60; ++k) {
     const double s11 = S(0, 0) + y, s22 = S(1, 1) + y, det = s11 * s22 - S(0, 1) * S(0, 1);
@@ -23,16 +26,16 @@ Eigen::Vector2d slip_impulse(const Eigen::Matrix2d& S, const Eigen::Vector2d& q,
     const auto [bound, bound_rate] = most(t, slope);
     const double length = t.norm();
     if (std::abs(length - bound) <= 1e-12 * length) break;
-    (length > bound ? low : high) = y;
+    (length > bound ? bracket.low : bracket.high) = y;
     double next = -1;
     if (bound > 0 && length > 0) {
       const double value = 1 / length - 1 / bound;
       const double rate = -t.dot(slope) / (length * length * length) + bound_rate / (bound * bound);
       if (rate > 0) next = y - value / rate;
     }
-    if (!(next > low && next < high))
+    if (!bracket.contains(next))
       next = std::isfinite(high) ? std::sqrt(std::max(low, 1e-9 * high) * high) : 4 * std::max(y, S.trace());
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    next = bracket.inside(next);
     if (std::isfinite(high) && high - low <= 1e-14 * high) break;
     y = next;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/roots.h"
 #include "engine/step/bounds.h"
 #include "engine/step/islands.h"
 #include "engine/step/solve.h"
@@ -36,7 +37,7 @@ SolveReport solve(StepContext& s) {
 void take_out_gain(StepContext& s, SolveReport& report) {
   World& world = s.world;
   const std::vector<int>& members = s.buffers.members;
-  double energy_change = world.solver.kinetic_energy_change(s.constraints, members);
+  const double energy_change = world.solver.kinetic_energy_change(s.constraints, members);
   double energy_before = 0;
   for (const int i : members)
     for (int r = 0; r < s.constraints[i].rows; ++r)
@@ -45,14 +46,12 @@ void take_out_gain(StepContext& s, SolveReport& report) {
   std::vector<double>& targets = s.buffers.targets;
   targets.clear();
   for (const int i : members) targets.push_back(s.constraints[i].target);
-  double low = 0, high = 1;
-  for (int k = 0; k < 30; ++k) {
-    const double share = k == 29 ? low : 0.5 * (low + high);
+  const auto keeps_energy = [&](double share) {
     for (std::size_t i = 0; i < members.size(); ++i) s.constraints[members[i]].target = share * targets[i];
     report = solve(s);
-    energy_change = world.solver.kinetic_energy_change(s.constraints, members);
-    (energy_change > 0 ? high : low) = share;
-  }
+    return !(world.solver.kinetic_energy_change(s.constraints, members) > 0);
+  };
+  keeps_energy(math::bisect({0, 1}, 29, 0, keeps_energy).low);
   ++world.log.diagnostics.restitution_scaled;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/math/roots.h"
 #include "engine/step/bounds.h"
 #include "engine/step/step_control.h"
 
@@ -65,30 +66,12 @@ bool Integration::locate_contact_event(const State& state, const StepControl& co
   bool any = false;
   for (int event = 0; event < 8 && compliant->first_crossing(buffers_.end, crossing); ++event) {
     any = true;
-    double low = 0, high = length, f_low = crossing.start, f_high = crossing.end;
-    int side = 0;
-    for (int k = 0; k < 50 && high - low > kTight * length; ++k) {
-      double middle = f_low < 0 ? (low * f_high - high * f_low) / (f_high - f_low) : 0.5 * (low + high);
-      if (!(middle > low && middle < high)) middle = 0.5 * (low + high);
-      advance(state, control, middle);
-      const double f = compliant->crossing_at(buffers_.end, crossing);
-      if (!std::isfinite(f) || f <= 0) {
-        low = middle;
-        f_low = std::isfinite(f) ? f : f_low;
-        if (side == -1) f_high *= 0.5;
-        side = -1;
-        if (f > -1e-15 && f <= 0) {
-          high = middle;
-          break;
-        }
-      } else {
-        high = middle;
-        f_high = f;
-        if (side == 1) f_low *= 0.5;
-        side = 1;
-      }
-    }
-    length = high;
+    const auto crossed = [&](double part) {
+      advance(state, control, part);
+      return compliant->crossing_at(buffers_.end, crossing);
+    };
+    const auto met = [](double f) { return f > -1e-15 && f <= 0; };
+    length = math::illinois({0, length}, crossing.start, crossing.end, 50, kTight * length, crossed, met).high;
     advance(state, control, length);
     CompliantContacts::Crossing earlier;
     if (!compliant->first_crossing(buffers_.end, earlier) || (earlier.key == crossing.key && earlier.kind == crossing.kind)) break;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "render/frames.h"
 #include "render/matrix.h"
 
 namespace render::gl {
@@ -102,13 +103,9 @@ int near_rows(const Matrix4d& clip_to_world, const Vector3d& eye, double ground,
     }
     return farthest;
   };
-  int low = 0, high = sky_from;  // distance grows upwards: the row lies between
+  // distance grows upwards: the last row that is near
   if (distance(0) > kNear) return 0;
-  while (high - low > 1) {
-    const int middle = (low + high) / 2;
-    (distance(middle) < kNear ? low : high) = middle;
-  }
-  return low;
+  return first_without(1, sky_from, [&](int row) { return distance(row) < kNear; }) - 1;
 }
 
 // the ground rectangles that hold each caster's shadow and occlusion

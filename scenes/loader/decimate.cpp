@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "engine/geometry/point_mesh.h"
+#include "engine/math/roots.h"
 
 namespace scenes {
 namespace {
@@ -68,12 +69,8 @@ class Certificate {
   /// How much of the way from a near to a far point is well within the tolerance.
   double share_near(const Vec3& near, const Vec3& far, int triangle) const {
     const double limit = 0.5 * (distance(near, triangle) + tolerance_);
-    double inside = 0, outside = 1;
-    for (int i = 0; i < 12; ++i) {
-      const double middle = 0.5 * (inside + outside);
-      (distance(along(near, far, middle), triangle) <= limit ? inside : outside) = middle;
-    }
-    return inside;
+    return engine::math::bisect({0, 1}, 12, 0, [&](double share) { return distance(along(near, far, share), triangle) <= limit; })
+        .low;
   }
 
   /// Divided across its longest side.
