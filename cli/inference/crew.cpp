@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,10 +10,13 @@
 #include <csignal>
 #include <cstdint>
 #include <cstring>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "cli/exit.h"
 #include "cli/process.h"
+#include "render/workers.h"
 
 namespace cli::inference {
 namespace {
@@ -25,7 +27,7 @@ constexpr int kLookEvery = 200;  // [ms] at a signal that asks to stop
 
 /// One process: it reads a number, works, answers, and ends when there is nothing more to read.
 struct Member {
-  pid_t pid = -1;
+  std::optional<render::Worker> process;
   int to = -1, from = -1;
   bool busy = false;
   std::size_t piece = 0;
@@ -43,8 +45,8 @@ bool write_all(int file, const char* data, std::size_t size) {
   return true;
 }
 
-[[noreturn]] void serve(int in, int out, const Work& work) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
+/// The life of a member; its exit code.
+int serve(int in, int out, const Work& work) {
   // the terminal's Ctrl-C goes to all; the parent decides, and what runs is stopped by it
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_DFL);
@@ -52,31 +54,26 @@ bool write_all(int file, const char* data, std::size_t size) {
   for (;;) {
     const ssize_t n = read(in, &piece, sizeof piece);
     if (n < 0 && errno == EINTR) continue;
-    if (n != sizeof piece) _exit(0);
+    if (n != sizeof piece) return 0;
     std::string line;
     try {
       line = work(static_cast<std::size_t>(piece));
     } catch (const std::exception& error) {
       fmt::print(stderr, "crashreel: {}\n", error.what());
       std::fflush(stderr);
-      _exit(1);
+      return 1;
     }
-    if (!write_all(out, line.data(), line.size())) _exit(1);
+    if (!write_all(out, line.data(), line.size())) return 1;
   }
 }
 
 class Crew {
  public:
   Crew(int jobs, const Work& work) : members_(static_cast<std::size_t>(jobs)), work_(work) {
-    std::fflush(nullptr);
     for (Member& m : members_) start(m);
   }
   ~Crew() {
-    for (Member& m : members_) {
-      if (m.pid < 0) continue;
-      kill(m.pid, SIGKILL);
-      end(m);
-    }
+    for (Member& m : members_) close_pipes(m);
   }
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
@@ -84,17 +81,12 @@ class Crew {
   void start(Member& m) {
     int down[2], up[2];
     if (pipe(down) != 0 || pipe(up) != 0) throw MachineError(fmt::format("starting a run: {}", std::strerror(errno)));
-    m.pid = fork();
-    if (m.pid < 0) throw MachineError(fmt::format("starting a run: {}", std::strerror(errno)));
-    if (m.pid == 0) {
-      for (const Member& other : members_) {
-        if (other.to >= 0) close(other.to);
-        if (other.from >= 0) close(other.from);
-      }
+    m.process.emplace([&] {
+      for (Member& other : members_) close_pipes(other);
       close(down[1]);
       close(up[0]);
-      serve(down[0], up[1], work_);
-    }
+      return serve(down[0], up[1], work_);
+    });
     close(down[0]);
     close(up[1]);
     m.to = down[1];
@@ -105,14 +97,11 @@ class Crew {
 
   /// How it ended, in words.
   static std::string end(Member& m) {
-    close(m.to);
-    close(m.from);
-    int status = 0;
-    while (waitpid(m.pid, &status, 0) < 0 && errno == EINTR) {
-    }
+    close_pipes(m);
+    const int status = m.process->wait();
     m = Member{};
-    if (WIFSIGNALED(status)) return fmt::format("signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
-    return fmt::format("exit code {}", WEXITSTATUS(status));
+    if (WIFSIGNALED(status)) return fmt::format("signal {} ({})", WTERMSIG(status), render::ending(status));
+    return render::ending(status);
   }
 
   void give(Member& m, std::size_t piece) {
@@ -125,6 +114,11 @@ class Crew {
   std::vector<Member>& members() { return members_; }
 
  private:
+  static void close_pipes(Member& m) {
+    for (int* end : {&m.to, &m.from})
+      if (*end >= 0) close(std::exchange(*end, -1));
+  }
+
   std::vector<Member> members_;
   const Work& work_;
 };
