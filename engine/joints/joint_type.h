@@ -36,6 +36,11 @@ struct JointType {
 template <JointKind kind>
 JointType joint_type();
 
-const JointType& type_of(JointKind);
+/// In the order of JointKind; filled before main.
+extern const std::array<JointType, static_cast<std::size_t>(JointKind::count)> kJointTypes;
+
+inline const JointType& type_of(JointKind kind) {
+  return kJointTypes[static_cast<std::size_t>(kind)];
+}
 
 }  // namespace engine

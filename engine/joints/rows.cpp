@@ -12,13 +12,13 @@ void joint_rows(const Joint& joint, const Pose& X_WP, const Pose& X_WC, JointRow
   out.r_C = X_WC.q * joint.X_CF.p;
   out.count = type.rows();
   out.held_along = type.held_along;
-  const Vec3 open = X_WP.p + out.r_P - X_WC.p - out.r_C;
-  out.error.head<3>() = open;
+  out.error.head<3>() = X_WP.p + out.r_P - X_WC.p - out.r_C;
   if (out.count == 3 && out.held_along == 3) return;
 
   const Mat3 R_WFp = (X_WP.q * joint.X_PF.q).toRotationMatrix();
   const Mat3 R_WFc = (X_WC.q * joint.X_CF.q).toRotationMatrix();
   if (out.held_along < 3) {
+    const Vec3 open = out.error.head<3>();
     for (int k = 0; k < 3; ++k) out.d.col(k) = R_WFp.col(type.axes[k]);
     for (int k = 0; k < out.held_along; ++k) out.error[k] = out.d.col(k).dot(open);
     out.r_P -= open;
@@ -33,27 +33,28 @@ void joint_rows(const Joint& joint, const Pose& X_WP, const Pose& X_WC, JointRow
 
 namespace {
 
-/// A vector at the point as the amounts of the rows that hold it.
-void put_held(JointRows& rows, const Vec3& v) {
-  if (rows.held_along == 3)
-    rows.bias.head<3>() = v;
-  else
-    for (int k = 0; k < rows.held_along; ++k) rows.bias[k] = rows.d.col(k).dot(v);
+/// What stands in the bias as a vector at the point becomes the amounts of the rows that hold it along their directions.
+void resolve_held(JointRows& rows) {
+  const Vec3 v = rows.bias.head<3>();
+  for (int k = 0; k < rows.held_along; ++k) rows.bias[k] = rows.d.col(k).dot(v);
 }
 
 }  // namespace
 
 void joint_bias(const Twist& P, const Twist& C, JointRows& out) {
-  Vec3 g = C.w.cross(C.w.cross(out.r_C)) - P.w.cross(P.w.cross(out.r_P));
-  // along directions that turn with the parent: Coriolis
-  if (out.held_along < 3) g += 2 * P.w.cross(P.v + P.w.cross(out.r_P) - C.v - C.w.cross(out.r_C));
-  put_held(out, g);
+  out.bias.head<3>() = C.w.cross(C.w.cross(out.r_C)) - P.w.cross(P.w.cross(out.r_P));
+  if (out.held_along < 3) {
+    // along directions that turn with the parent: Coriolis
+    out.bias.head<3>() += 2 * P.w.cross(P.v + P.w.cross(out.r_P) - C.v - C.w.cross(out.r_C));
+    resolve_held(out);
+  }
   for (int k = 0; k < out.held_turns(); ++k)
     out.bias[out.held_along + k] = -(P.w.cross(out.t[k]).cross(out.u[k]) + out.t[k].cross(C.w.cross(out.u[k]))).dot(P.w - C.w);
 }
 
 void joint_velocity_error(const Twist& P, const Twist& C, JointRows& out) {
-  put_held(out, C.v + C.w.cross(out.r_C) - (P.v + P.w.cross(out.r_P)));
+  out.bias.head<3>() = C.v + C.w.cross(out.r_C) - (P.v + P.w.cross(out.r_P));
+  if (out.held_along < 3) resolve_held(out);
   for (int k = 0; k < out.held_turns(); ++k) out.bias[out.held_along + k] = -out.n[k].dot(P.w - C.w);
 }
 
@@ -86,10 +87,6 @@ Vec3 along_held(const JointRows& rows, const Vec6& amounts) {
   Vec3 out = Vec3::Zero();
   for (int k = 0; k < rows.held_along; ++k) out += amounts[k] * rows.d.col(k);
   return out;
-}
-
-double gap_of(const JointRows& rows) {
-  return along_held(rows, rows.error).norm();
 }
 
 }  // namespace engine

@@ -34,7 +34,10 @@ int row_count(JointKind);
 /// Fills all but the bias. A joint to the world passes an identity pose for the parent.
 void joint_rows(const Joint&, const Pose& X_WP, const Pose& X_WC, JointRows& out);
 
-/// Fills the bias with g for the velocities given; the world has none. Call after joint_rows.
+/// Of a parent that is the world.
+inline const Twist kStill{};
+
+/// Fills the bias with g for the velocities given. Call after joint_rows.
 void joint_bias(const Twist& V_WP, const Twist& V_WC, JointRows& out);
 
 /// Fills the bias with what would take out the velocity that the joint forbids.
@@ -48,7 +51,9 @@ Vec6 row_on_child(const JointRows&, int k);
 Vec3 along_held(const JointRows&, const Vec6& amounts);
 
 /// How far the joint is open [m].
-double gap_of(const JointRows&);
+inline double gap_of(const JointRows& rows) {
+  return rows.held_along == 3 ? rows.error.head<3>().norm() : rows.error.head(rows.held_along).norm();
+}
 
 /// Motion subspace: columns (v of the joint's point, w) of the child against the parent, slides before turns.
 template <int Freedoms>

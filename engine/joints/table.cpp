@@ -5,12 +5,10 @@
 
 namespace engine {
 
-const JointType& type_of(JointKind kind) {
-  static const auto kTypes = []<std::size_t... K>(std::index_sequence<K...>) {
-    return std::array{joint_type<static_cast<JointKind>(K)>()...};
-  }
-  (std::make_index_sequence<static_cast<std::size_t>(JointKind::count)>());
-  return kTypes[static_cast<std::size_t>(kind)];
+const std::array<JointType, static_cast<std::size_t>(JointKind::count)> kJointTypes =
+    []<std::size_t... K>(std::index_sequence<K...>) {
+  return std::array{joint_type<static_cast<JointKind>(K)>()...};
 }
+(std::make_index_sequence<static_cast<std::size_t>(JointKind::count)>());
 
 }  // namespace engine

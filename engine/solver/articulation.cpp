@@ -130,7 +130,7 @@ void Articulation::eliminate(Factor& f, const Hinge& hinge, const Mat6& H, Mat6*
 }
 
 /// By the size of the motion subspace: a free ball and a hinge, the joints of persons, have products of their own.
-void Articulation::eliminate_any(Factor& f, const Hinge& hinge, const Mat6& H, Mat6* H_parent) {
+[[gnu::always_inline]] inline void Articulation::eliminate_any(Factor& f, const Hinge& hinge, const Mat6& H, Mat6* H_parent) {
   const int slides = f.rows.slides(), turns = f.rows.turns();
   const bool damped = hinge.damper && hinge.damper->present;
   double* parent = H_parent ? H_parent->data() : nullptr;
@@ -208,7 +208,7 @@ void Articulation::set_bias(const Topology& topology, int tree, const std::vecto
     const Topology::Link& link = topology.links[l];
     if (link.joint < 0) continue;
     const Joint& joint = model_.joints[link.joint];
-    joint_bias(joint.parent < 0 ? Twist{} : V_WB[joint.parent], V_WB[joint.child], of_link(l).rows);
+    joint_bias(joint.parent < 0 ? kStill : V_WB[joint.parent], V_WB[joint.child], of_link(l).rows);
   }
 }
 

@@ -125,7 +125,7 @@ void LoopClosure::factor(const Topology& topology, const Articulation& articulat
 void LoopClosure::ask_for_acceleration(const std::vector<Twist>& V_WB) {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const Joint& joint = model_.joints[joints_[i]];
-    joint_bias(joint.parent < 0 ? Twist{} : V_WB[joint.parent], V_WB[joint.child], rows_[i]);
+    joint_bias(joint.parent < 0 ? kStill : V_WB[joint.parent], V_WB[joint.child], rows_[i]);
     wanted_.segment(first_row_[i], rows_[i].count) = rows_[i].bias.head(rows_[i].count);
   }
 }

@@ -175,7 +175,7 @@ double joint_velocity_errors(World& world, int tree, const std::vector<Twist>& V
     if (link.joint < 0) continue;
     const Joint& joint = world.model.joints[link.joint];
     JointRows& rows = world.smooth.of_link(l).rows;
-    joint_velocity_error(joint.parent < 0 ? Twist{} : V[joint.parent], V[joint.child], rows);
+    joint_velocity_error(joint.parent < 0 ? kStill : V[joint.parent], V[joint.child], rows);
     largest = std::max(largest, rows.bias.head(rows.count).cwiseAbs().maxCoeff());
   }
   return largest;
