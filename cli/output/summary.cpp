@@ -45,6 +45,7 @@ Json settings_json(const engine::Settings& s) {
           {"record_interval_s", s.record_interval},
           {"gravity_mps2", vector_json(s.gravity)},
           {"solver_tolerance_mps", s.solver_tolerance},
+          {"touch_distance_m", s.touch_distance},
           {"locate_events", s.locate_events},
           {"sleep", s.sleep},
           {"stop_at_rest", s.stop_at_rest}};

@@ -116,19 +116,9 @@ void settle_reference(Judgement& judgement, const std::vector<Level>& levels, co
   }
 }
 
-/// A solver that stops at a residual speed may leave that speed in every step, always the same way.
-double left_by_solver(const Study& study, const std::string& quantity) {
-  const SettingResult* own = study.own();
-  if (!own || study.solver_tolerance <= 0) return 0;
-  const std::string unit = unit_of(quantity);
-  if (unit == "m") return study.solver_tolerance * own->end_s;
-  return unit == "m/s" ? study.solver_tolerance : 0;
-}
-
-/// What the settings besides the step leave open: the change when the solver is asked for more, when more instants are recorded. A
-/// moment that is one of those recorded may as well be its neighbour.
+/// What the settings besides the step leave open: twice the change when the solver is asked for more, when more instants are
+/// recorded; twice, for the finest of them is not the last word.
 std::vector<Besides> besides_the_step(const Study& study, const std::string& quantity) {
-  const bool moment = quantity.starts_with("rest_s") || quantity.starts_with("head_impact_s") || quantity.starts_with("first_");
   std::vector<Besides> out;
   for (const SeriesResult& series : study.series) {
     if (series.series.own_fineness <= 0) continue;
@@ -137,9 +127,7 @@ std::vector<Besides> besides_the_step(const Study& study, const std::string& qua
     for (const SettingResult& result : series.settings)
       if (const Answer* a = answer_of(result, quantity);
           a && finest && result.setting.fineness <= 1.0001 * series.series.own_fineness)
-        most = std::max(most, std::abs(a->value - finest->value));
-    if (series.series.varies == "interval" && moment) most = std::max(most, study.interval);
-    if (series.series.name == kSolverSeries) most = std::max(most, left_by_solver(study, quantity));
+        most = std::max(most, 2 * std::abs(a->value - finest->value));
     if (most > 0) out.push_back({series.series.meaning, most});
   }
   std::stable_sort(out.begin(), out.end(), [](const Besides& a, const Besides& b) { return a.width > b.width; });

@@ -70,8 +70,7 @@ struct Study {
   std::vector<SeriesResult> series;   // the scene's own ladder first
   std::vector<Judgement> judgements;  // per quantity, measures first
   std::vector<InputRange> inputs;
-  double interval = 0;          // [s] between recorded instants in all runs but those that vary it
-  double solver_tolerance = 0;  // [m/s] of the scene where the contact solver decides, else 0
+  double interval = 0;  // [s] between recorded instants in all runs but those that vary it
   const Judgement* find(const std::string& quantity) const;
   const SettingResult* own() const;
   /// Half width of what all inputs together do, as independent errors add.

@@ -81,10 +81,9 @@ Convergence by_range(const std::vector<Level>& levels, double rounding) {
   out.trust = range_of(levels, 0) <= 10 * rounding ? Trust::exact : Trust::range;
   for (std::size_t i = 0; i < n; ++i) {
     out.error.push_back(levels[i].value - out.limit);
-    // the limit may lie on the far side of the finest answers: they get the range of the three finest twice
-    const std::size_t from = std::min(i, n > 3 ? n - 3 : 0);
-    const double finest = range_of(levels, n > 3 ? n - 3 : 0);
-    out.band.push_back(std::max({range_of(levels, from), 2 * finest, rounding}));
+    // the limit may lie beyond the finest answers: the range of the three finest once more
+    const std::size_t third = n > 3 ? n - 3 : 0;
+    out.band.push_back(std::max(range_of(levels, std::min(i, third)) + range_of(levels, third), rounding));
   }
   return out;
 }

@@ -90,11 +90,11 @@ double EffectsStudy::spread(const std::string& quantity) const {
 EffectsStudy study_effects(const scenes::Scene& scene, const RunWish& wish) {
   const engine::Plan plan = engine::compile(scene.model);
   EffectsStudy study;
-  std::vector<Setting> settings = {{"as it stands", {}, {}, 0, wish.options.members, true}};
+  std::vector<Setting> settings = {{"as it stands", {}, 0, wish.options.members, true}};
   for (const engine::PlanLine& line : plan.lines) {
     if (!line.active) continue;
     study.off.push_back({line.effect, line.reason, {}, {}, 0});
-    settings.push_back({"without " + line.effect, {fmt::format("simulation.effects.{}=off", line.effect)}, {}, 0, 0, false});
+    settings.push_back({"without " + line.effect, {fmt::format("simulation.effects.{}=off", line.effect)}, 0, 0, false});
   }
   std::vector<SettingResult> results = run_settings(scene, settings, wish);
   study.all = std::move(results.front());

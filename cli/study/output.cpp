@@ -29,7 +29,7 @@ double step_of(const SeriesResult& series, const SettingResult& result) {
 }
 
 Json setting_json(const SeriesResult& series, const SettingResult& result, const std::string& letter) {
-  Json out = {{"setting", result.setting.label},   {"overrides", runs_with(result.setting)},
+  Json out = {{"setting", result.setting.label},   {"overrides", result.setting.overrides},
               {"own", result.setting.own},         {"step_s", step_of(series, result)},
               {"wall_s", result.wall_s},           {"wall_quartiles_s", {result.wall_low, result.wall_high}},
               {"repetitions", result.repetitions}, {"steps", result.steps},

@@ -21,7 +21,7 @@ struct Batch {
 
   void add(const scenes::Scene& scene, const Setting& setting, double cost) {
     std::vector<std::string> overrides = scene.overrides;
-    for (const std::string& text : runs_with(setting)) overrides.push_back(text);
+    overrides.insert(overrides.end(), setting.overrides.begin(), setting.overrides.end());
     const scenes::Scene loaded = scenes::load(scene.file, overrides, meshes.get());
     for (int member = 0; member <= setting.members; ++member) {
       Trial trial{scene.file, overrides, member, cost, timed, "", loaded.assets_sha256, meshes};
@@ -79,8 +79,8 @@ bool accepted(const scenes::Scene& scene, const std::vector<std::string>& overri
 /// The formula's answer is that of the scene as its file has it. Only what changes how it is computed leaves it true.
 bool holds_closed_form(const scenes::Scene& scene) {
   constexpr const char* kHarmless[] = {
-      "step",          "record_interval", "scheme", "adaptive_tolerance", "solver_tolerance", "contacts_per_pair",
-      "locate_events", "stop_at_rest"};
+      "step",           "record_interval",   "scheme",        "adaptive_tolerance", "solver_tolerance",
+      "touch_distance", "contacts_per_pair", "locate_events", "stop_at_rest"};
   return std::all_of(scene.overrides.begin(), scene.overrides.end(), [&](const std::string& text) {
     if (text.starts_with("closed_form.")) return true;
     const std::string key = text.substr(0, text.find('='));
@@ -133,8 +133,7 @@ Study run_study(const scenes::Scene& scene, const RunWish& wish) {
   const std::vector<Series> series =
       series_for(scene, wish.options, [&scene](const std::vector<std::string>& overrides) { return accepted(scene, overrides); });
   Study study;
-  study.interval = study_interval(scene.model.settings);
-  if (solver_decides(scene)) study.solver_tolerance = scene.model.settings.solver_tolerance;
+  study.interval = scene.model.settings.record_interval;
   for (const std::string& input : wish.inputs) study.inputs.push_back(parse_input(input));
 
   Batch batch;
@@ -144,7 +143,7 @@ Study run_study(const scenes::Scene& scene, const RunWish& wish) {
   std::vector<Setting> ends;
   for (const InputRange& input : study.inputs)
     for (const std::string& end : {input.low, input.high})
-      ends.push_back({input.key + " " + end, {input.key + "=" + end}, {}, 0, std::min(4, wish.options.members), false});
+      ends.push_back({input.key + " " + end, {input.key + "=" + end}, 0, std::min(4, wish.options.members), false});
   for (const Setting& end : ends) batch.add(scene, end, scene.model.settings.duration / scene.model.settings.step);
 
   Results results(run_batch(batch, wish));

@@ -16,17 +16,41 @@ std::string in_ms(double seconds) {
   return fmt::format("{:.7g} ms", 1e3 * seconds);
 }
 
-/// Steps from four times the scene's own, halved; the finest two with fewer members, for they cost most of the study.
-std::vector<Setting> steps_of(const scenes::Scene& scene, const StudyOptions& options, const std::vector<std::string>& also,
-                              bool own) {
+/// Steps between two recorded instants.
+int instants_apart(const engine::Settings& s) {
+  return std::max(1, static_cast<int>(std::lround(s.record_interval / s.step)));
+}
+
+/// The scene's step for a second opinion: no multiple of it, nor of its halves, falls on those of the scene's own ladder within one
+/// recorded interval, and recorded instants are the same. A ladder of the same steps would share the phase of every touch.
+double other_step(const engine::Settings& s) {
+  const int apart = instants_apart(s);
+  return apart < 3 ? 0.7 * s.step : s.step * apart / std::round(1.4 * apart);
+}
+
+/// `halvings` of four times the step.
+double rung(double step, int halvings) {
+  return kCoarser * step / std::pow(2.0, halvings);
+}
+
+std::string step_override(double step) {
+  return "simulation.step=" + fmt::format("{:.12g} ms", 1e3 * step);
+}
+
+/// A scene cannot be recorded more often than it is computed.
+void keep_recordable(Setting& setting, const engine::Settings& s, double step) {
+  if (step > s.record_interval) setting.overrides.push_back("simulation.record_interval=" + fmt::format("{:.12g} ms", 1e3 * step));
+}
+
+/// Steps from four times the given one, halved; the finest two with fewer members, for they cost most of the study.
+std::vector<Setting> steps_of(const scenes::Scene& scene, const StudyOptions& options, double step,
+                              const std::vector<std::string>& also, bool own) {
   std::vector<Setting> out;
-  const double step = scene.model.settings.step;
   for (int k = 0; k <= options.halvings; ++k) {
-    const double h = kCoarser * step / std::pow(2.0, k);
-    Setting setting{"step " + in_ms(h), {"simulation.step=" + in_ms(h)}, {}, h, 0, false};
+    const double h = rung(step, k);
+    Setting setting{"step " + in_ms(h), {step_override(h)}, h, 0, false};
     setting.overrides.insert(setting.overrides.end(), also.begin(), also.end());
-    // a scene cannot be recorded more often than it is computed
-    if (h > scene.model.settings.record_interval) setting.overrides.push_back("simulation.record_interval=" + in_ms(h));
+    keep_recordable(setting, scene.model.settings, h);
     setting.members = k + 2 > options.halvings ? std::min(3, options.members) : options.members;
     setting.own = own && std::abs(h - step) < 1e-9 * step;
     out.push_back(setting);
@@ -54,20 +78,20 @@ bool has_contacts(const scenes::Scene& scene) {
 Series own_steps(const scenes::Scene& scene, const StudyOptions& options) {
   const engine::Settings& s = scene.model.settings;
   if (s.scheme == engine::Scheme::adaptive) {
-    // the step of this scheme is its tolerance
-    Series series{word(s.scheme), "tolerance", "tolerance of a step", true, false, {}};
+    Series series{word(s.scheme), "tolerance", "tolerance and longest step tightened", true, false, {}};
     for (int k = 0; k <= options.halvings; ++k) {
-      const double tolerance = 16 * s.adaptive_tolerance / std::pow(4.0, k);
-      series.settings.push_back({fmt::format("tolerance {:.3g} m", tolerance),
-                                 {fmt::format("simulation.adaptive_tolerance={:.9g} m", tolerance)},
-                                 {},
-                                 tolerance,
-                                 options.members,
-                                 k == 2});
+      const double tolerance = 16 * s.adaptive_tolerance / std::pow(4.0, k), longest = rung(s.step, k);
+      Setting setting{fmt::format("tolerance {:.3g} m", tolerance),
+                      {fmt::format("simulation.adaptive_tolerance={:.9g} m", tolerance), step_override(longest)},
+                      tolerance,
+                      options.members,
+                      k == 2};
+      keep_recordable(setting, s, longest);
+      series.settings.push_back(setting);
     }
     return series;
   }
-  return {word(s.scheme), "step", "the scene's own scheme, step halved", true, false, steps_of(scene, options, {}, true)};
+  return {word(s.scheme), "step", "the scene's own scheme, step halved", true, false, steps_of(scene, options, s.step, {}, true)};
 }
 
 Series other_events(const scenes::Scene& scene, const StudyOptions& options) {
@@ -81,7 +105,7 @@ Series other_events(const scenes::Scene& scene, const StudyOptions& options) {
           "impacts at the end of the step instead of inside it",
           false,
           false,
-          steps_of(scene, few, {fmt::format("simulation.locate_events={}", !located)}, false)};
+          steps_of(scene, few, scene.model.settings.step, {fmt::format("simulation.locate_events={}", !located)}, false)};
 }
 
 Series scheme_steps(const scenes::Scene& scene, const StudyOptions& options, engine::Scheme scheme, bool located) {
@@ -91,11 +115,11 @@ Series scheme_steps(const scenes::Scene& scene, const StudyOptions& options, eng
   return {
       std::string(word(scheme)) + (located ? "" : kNotLocated),
       "step",
-      "another scheme, step halved",
+      "another scheme at steps of its own, halved",
       located,
       false,
-      steps_of(scene, few, {fmt::format("simulation.scheme={}", word(scheme)), fmt::format("simulation.locate_events={}", located)},
-               false)};
+      steps_of(scene, few, other_step(scene.model.settings),
+               {fmt::format("simulation.scheme={}", word(scheme)), fmt::format("simulation.locate_events={}", located)}, false)};
 }
 
 Series stepping_steps(const scenes::Scene& scene, const StudyOptions& options) {
@@ -108,30 +132,53 @@ Series rk4_plain_steps(const scenes::Scene& scene, const StudyOptions& options) 
   return scheme_steps(scene, options, engine::Scheme::rk4, false);
 }
 
-Series adaptive_tolerances(const scenes::Scene& scene, const StudyOptions&) {
-  if (scene.model.settings.scheme == engine::Scheme::adaptive) return {};
-  Series series{"adaptive", "tolerance", "steps chosen by the program, tolerance tightened", true, false, {}};
-  for (int k = 3; k <= 9; ++k)
-    series.settings.push_back({fmt::format("tolerance 1e-{} m", k),
-                               {"simulation.scheme=adaptive", fmt::format("simulation.adaptive_tolerance=1e-{} m", k)},
-                               {},
-                               std::pow(10.0, -k),
-                               0,
-                               false});
+Series adaptive_tolerances(const scenes::Scene& scene, const StudyOptions& options) {
+  const engine::Settings& s = scene.model.settings;
+  if (s.scheme == engine::Scheme::adaptive) return {};
+  Series series{"adaptive", "tolerance", "steps chosen by the program, tolerance and longest step tightened", true, false, {}};
+  // a tolerance alone seldom binds: then all its levels take the longest step, and agree on that step's error
+  for (int k = 0; k <= options.halvings; ++k) {
+    const double longest = rung(other_step(s), k);
+    Setting setting{
+        fmt::format("tolerance 1e-{} m", k + 3),
+        {"simulation.scheme=adaptive", fmt::format("simulation.adaptive_tolerance=1e-{} m", k + 3), step_override(longest)},
+        std::pow(10.0, -k - 3),
+        0,
+        false};
+    keep_recordable(setting, s, longest);
+    series.settings.push_back(setting);
+  }
   return series;
 }
 
 Series solver_tolerances(const scenes::Scene& scene, const StudyOptions&) {
   if (!solver_decides(scene)) return {};
   Series series{kSolverSeries, "tolerance", "the residual at which the contact solver stops", false, false, {}};
-  for (int k = 2; k <= 7; ++k)
-    series.settings.push_back({fmt::format("solver tolerance 1e-{} m/s", k),
-                               {fmt::format("simulation.solver_tolerance=1e-{} m/s", k)},
-                               {},
-                               std::pow(10.0, -k),
+  const double own = scene.model.settings.solver_tolerance;
+  // to a hundredth of the scene's own: what that leaves is measured, not assumed
+  for (int k = 3; k >= -2; --k) {
+    const double tolerance = own * std::pow(10.0, k);
+    series.settings.push_back({fmt::format("solver tolerance {:.0e} m/s", tolerance),
+                               {fmt::format("simulation.solver_tolerance={:.9g} m/s", tolerance)},
+                               tolerance,
                                0,
                                false});
-  series.own_fineness = scene.model.settings.solver_tolerance;
+  }
+  series.own_fineness = own;
+  return series;
+}
+
+Series touch_distances(const scenes::Scene& scene, const StudyOptions&) {
+  const engine::Settings& s = scene.model.settings;
+  if (!has_contacts(scene) || s.contact_law == engine::ContactLaw::compliant) return {};
+  Series series{"touch distance", "bound", "how near rigid surfaces come before they exchange an impact", false, false, {}};
+  for (const double share : {4.0, 1.0, 0.25, 0.0625})
+    series.settings.push_back({fmt::format("touch distance {:.3g} mm", 1e3 * share * s.touch_distance),
+                               {fmt::format("simulation.touch_distance={:.9g} mm", 1e3 * share * s.touch_distance)},
+                               share * s.touch_distance,
+                               0,
+                               false});
+  series.own_fineness = s.touch_distance;
   return series;
 }
 
@@ -146,7 +193,7 @@ Series mesh_details(const scenes::Scene& scene, const StudyOptions&) {
   if (meshed.empty()) return {};
   Series series{"mesh detail", "bound", "the detail of the collision mesh", false, false, {}};
   for (const double bound : {0.04, 0.02, 0.01, 0.005, 0.0025, 0.0}) {
-    Setting setting{bound > 0 ? fmt::format("mesh within {:g} mm", 1e3 * bound) : "full mesh", {}, {}, bound, 0, false};
+    Setting setting{bound > 0 ? fmt::format("mesh within {:g} mm", 1e3 * bound) : "full mesh", {}, bound, 0, false};
     for (const std::string& name : meshed)
       setting.overrides.push_back(fmt::format("vehicle.{}.mesh_tolerance={:g} mm", name, 1e3 * bound));
     series.settings.push_back(setting);
@@ -166,7 +213,6 @@ Series contact_points(const scenes::Scene& scene, const StudyOptions&) {
   for (const int number : {4, 6, 10, 16, 24, 40})
     series.settings.push_back({fmt::format("{} points a pair", number),
                                {fmt::format("simulation.contacts_per_pair={}", number)},
-                               {},
                                1.0 / number,
                                0,
                                false});
@@ -176,11 +222,15 @@ Series contact_points(const scenes::Scene& scene, const StudyOptions&) {
 
 Series recorded_instants(const scenes::Scene& scene, const StudyOptions&) {
   const engine::Settings& s = scene.model.settings;
+  const int own = instants_apart(s);
   Series series{"recorded instants", "interval", "how often the motion is recorded", false, false, {}};
-  for (const int k : {16, 8, 4, 2, 1})
+  // finer ones that do not divide each other: a moment that is one of those recorded is then told from one that is not
+  for (const int k : {4 * own, 2 * own, own, 3, 2, 1}) {
+    if (!series.settings.empty() && k * s.step >= series.settings.back().fineness) continue;
     series.settings.push_back(
-        {"recorded every " + in_ms(k * s.step), {"simulation.record_interval=" + in_ms(k * s.step)}, {}, k * s.step, 0, false});
-  series.own_fineness = study_interval(s);
+        {"recorded every " + in_ms(k * s.step), {"simulation.record_interval=" + in_ms(k * s.step)}, k * s.step, 0, false});
+  }
+  series.own_fineness = own * s.step;
   return series;
 }
 
@@ -201,7 +251,6 @@ Series other_contact_law(const scenes::Scene& scene, const StudyOptions&) {
     const double h = scene.model.settings.step / (3 - k);
     series.settings.push_back({fmt::format("{} law, step {}", word(other), in_ms(h)),
                                {fmt::format("simulation.contact_law={}", word(other)), "simulation.step=" + in_ms(h)},
-                               {},
                                h,
                                0,
                                false});
@@ -211,8 +260,8 @@ Series other_contact_law(const scenes::Scene& scene, const StudyOptions&) {
 
 /// The table of series. One that does not mean anything for a scene comes back empty; one whose keys the scene refuses is left out.
 constexpr Make kSeries[] = {own_steps,       other_events,        stepping_steps,    rk4_steps,
-                            rk4_plain_steps, adaptive_tolerances, solver_tolerances, mesh_details,
-                            contact_points,  recorded_instants,   other_contact_law};
+                            rk4_plain_steps, adaptive_tolerances, solver_tolerances, touch_distances,
+                            mesh_details,    contact_points,      recorded_instants, other_contact_law};
 
 }  // namespace
 
@@ -222,26 +271,12 @@ bool solver_decides(const scenes::Scene& scene) {
   return has_contacts(scene) && !forces;
 }
 
-double study_interval(const engine::Settings& s) {
-  const double coarsest = kCoarser * s.step;
-  return coarsest * std::max(1.0, std::round(s.record_interval / coarsest));
-}
-
-std::vector<std::string> runs_with(const Setting& setting) {
-  std::vector<std::string> out = setting.overrides;
-  out.insert(out.end(), setting.reading.begin(), setting.reading.end());
-  return out;
-}
-
 std::vector<Series> series_for(const scenes::Scene& scene, const StudyOptions& options, const Accepts& accepts) {
   std::vector<Series> out;
-  const std::string interval = "simulation.record_interval=" + in_ms(study_interval(scene.model.settings));
   for (const Make make : kSeries) {
     Series series = make(scene, options);
     if (series.settings.empty()) continue;
-    for (Setting& setting : series.settings)
-      if (series.varies != "interval") setting.reading.push_back(interval);
-    if (accepts(runs_with(series.settings.front()))) out.push_back(std::move(series));
+    if (accepts(series.settings.front().overrides)) out.push_back(std::move(series));
   }
   return out;
 }

@@ -14,14 +14,10 @@ namespace cli::study {
 struct Setting {
   std::string label;                   // "step 0.5 ms"
   std::vector<std::string> overrides;  // "simulation.step=0.5 ms", on top of those of the command line
-  std::vector<std::string> reading;    // how the study reads its runs, alike for all: no part of the setting
   double fineness = 0;                 // falls towards 0 along the series: step [s], tolerance ...
   int members = 0;                     // perturbed runs besides the plain one
   bool own = false;                    // what the scene says now
 };
-
-/// All overrides of a run of the study.
-std::vector<std::string> runs_with(const Setting&);
 
 struct Series {
   std::string name;        // "stepping"
@@ -49,8 +45,5 @@ bool solver_decides(const scenes::Scene&);
 
 /// The series that mean something for the scene; the first is the ladder of its own scheme.
 std::vector<Series> series_for(const scenes::Scene&, const StudyOptions&, const Accepts&);
-
-/// Interval between recorded instants that every run of the study takes, so that measures are read alike [s].
-double study_interval(const engine::Settings&);
 
 }  // namespace cli::study

@@ -81,7 +81,7 @@ TargetAnswer search(const Study& study, const Target& target) {
   TargetAnswer out;
   double spread = 0, best_wall = 0;
   for (const SeriesResult& series : study.series) {
-    if (series.series.other_law) continue;
+    if (series.series.other_law || series.series.varies == "interval") continue;  // another law; a matter of reading, not of cost
     for (const SettingResult& r : series.settings) {
       const auto found = r.answers.find(judgement->quantity);
       if (found == r.answers.end() || !r.failure.empty()) continue;

@@ -102,6 +102,41 @@ std::string with_unit(double value, const std::string& unit) {
   return fmt::format("{:.3g} {}", value, unit);
 }
 
+namespace {
+
+/// "0.3 s of computing buys ± 0.3 m, 3 s ± 0.1 m.": levels of the scene's own ladder, each twice as sure as the one before.
+std::string price_in_words(const Study& study, const Judgement& j) {
+  const std::string unit = unit_of(j.quantity);
+  std::string out;
+  double last = 0, least = 0;
+  for (const SettingResult& r : study.series.front().settings) {
+    const Answer* a = answer_of(r, j.quantity);
+    if (!a || (!out.empty() && a->uncertainty > last / 2)) continue;
+    out += fmt::format("{}{}{} \u00b1 {}", out.empty() ? "" : ", ", with_unit(r.wall_s, "s"),
+                       out.empty() ? " of computing buys" : "", with_unit(a->uncertainty, unit));
+    last = a->uncertainty;
+    least = std::max(least, spread_of(*a));
+  }
+  if (least > last) out += fmt::format("; no time goes below \u00b1 {}, which minute changes do", with_unit(least, unit));
+  return out + ".";
+}
+
+/// What the answer of the scene as it stands hangs on, the largest share first.
+std::string shares_in_words(const Study& study, const Judgement& j, const Answer& own) {
+  std::vector<std::pair<double, std::string>> shares{{own.uncertainty, "numerics"}, {spread_of(own), "minute changes"}};
+  for (const InputRange& input : study.inputs)
+    if (const auto found = input.half_width.find(j.quantity); found != input.half_width.end())
+      shares.emplace_back(found->second, fmt::format("{} from {} to {}", input.key, input.low, input.high));
+  std::stable_sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string out = "What the answer hangs on:";
+  for (const auto& [width, source] : shares)
+    out +=
+        fmt::format("{} {} \u00b1 {}", &source == &shares.front().second ? "" : ",", source, with_unit(width, unit_of(j.quantity)));
+  return out + ".";
+}
+
+}  // namespace
+
 std::string provenance_of(const scenes::Scene& scene) {
   std::string warnings;
   for (const std::string& warning : scene.stage.warnings) warnings += "Warning: " + warning + " | ";
@@ -142,7 +177,7 @@ std::vector<std::string> findings(const Study& study, const Judgement& j) {
   if (!a) return {};
   const std::string unit = unit_of(j.quantity), words = words_of(j.quantity);
   const double spread = spread_of(*a);
-  std::vector<std::string> out;
+  std::vector<std::string> out{price_in_words(study, j), shares_in_words(study, j, *a)};
   out.push_back(
       fmt::format("The scene as it stands ({}, {} of computing) gives a {} of {} {}, numerically uncertain by about "
                   "\u00b1 {}. {}",

@@ -55,6 +55,7 @@ struct Settings {
   ContactLaw contact_law = ContactLaw::default_auto;
   Vec3 gravity{0, 0, -kGravity};         // [m/s^2]
   double solver_tolerance = 1e-5;        // [m/s] residual of the contact solver
+  double touch_distance = 2e-5;          // [m] surfaces nearer than this exchange impulses
   double adaptive_tolerance = 1e-5;      // [m] error of a step, scheme `adaptive`
   int contacts_per_pair = 10;            // points at which two meshes hold each other at a time
   bool locate_events = true;             // place restitution impacts inside the step

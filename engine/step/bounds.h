@@ -11,7 +11,6 @@ constexpr double kSlop = 2e-5;          // [m] penetration that is let be: pushi
 constexpr double kMayPenetrate = 9e-4;  // [m] more after a step than before: the step is halved
 constexpr double kMayExceed = 7e-3;     // [rad] the same of joint limits
 constexpr double kMayRise = 2;          // [J] that rigid contacts may give an island in a step: more, and it is halved
-constexpr double kTouching = 2e-5;      // [m] surfaces nearer than this exchange impulses
 
 /// Closing speed [m/s] above which restitution acts and a touch counts as an impact; below, things come to rest.
 inline double impact_speed(const StepContext& s) {

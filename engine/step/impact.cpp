@@ -13,12 +13,12 @@ namespace {
 
 /// What takes part in the impact of an island: all that touches. Their targets are those of Newton's rule. False if none rebounds.
 bool choose_members(StepContext& s, const std::vector<int>& island) {
-  const double v_impact = impact_speed(s);
+  const double v_impact = impact_speed(s), touching = s.world.model.settings.touch_distance;
   bool any = false;
   s.buffers.members.clear();
   for (const int i : island) {
     Constraint& c = s.constraints[i];
-    if (c.kind == ConstraintKind::wheel || c.gap > kTouching) continue;
+    if (c.kind == ConstraintKind::wheel || c.gap > touching) continue;
     s.buffers.members.push_back(i);
     const bool closing = is_contact(c) && c.u_before[0] < -v_impact;
     any = any || (closing && c.restitution > 0);
@@ -97,18 +97,18 @@ void exchange(StepContext& s) {
 
 double time_to_impact(const StepContext& s) {
   double first = s.length;
-  const double v_impact = impact_speed(s);
+  const double v_impact = impact_speed(s), touching = s.world.model.settings.touch_distance;
   for (const Constraint& c : s.constraints) {
-    if (!is_contact(c) || c.restitution <= 0 || c.gap <= kTouching || c.u_before[0] > -v_impact) continue;
-    first = std::min(first, (c.gap - 0.5 * kTouching) / -c.u_before[0]);
+    if (!is_contact(c) || c.restitution <= 0 || c.gap <= touching || c.u_before[0] > -v_impact) continue;
+    first = std::min(first, (c.gap - 0.5 * touching) / -c.u_before[0]);
   }
   return first;
 }
 
 bool exchange_impacts(StepContext& s, const OnImpulses& on_impulses) {
-  const double v_impact = impact_speed(s);
+  const double v_impact = impact_speed(s), touching = s.world.model.settings.touch_distance;
   const bool any = std::any_of(s.constraints.begin(), s.constraints.end(), [&](const Constraint& c) {
-    return is_contact(c) && c.restitution > 0 && c.gap <= kTouching && c.u_before[0] < -v_impact;
+    return is_contact(c) && c.restitution > 0 && c.gap <= touching && c.u_before[0] < -v_impact;
   });
   if (!any) return false;
   const Meter::Span span(s.world.meter, Phase::impulses);

@@ -45,6 +45,8 @@ const Key kKeys[] = {
      "Tilts the whole world: the ground stays z = height and gravity turns, so that +x runs downhill at this angle.",
      between(-kRightAngle, kRightAngle)},
     {"solver_tolerance", Type::number, Dimension::speed, "'0.01 mm/s'", "Residual at which the contact solver stops.", kPositive},
+    {"touch_distance", Type::number, Dimension::length, "'0.02 mm'",
+     "Rigid surfaces that close in exchange impulses from this distance on.", between(1e-9, 1e-3)},
     {"contacts_per_pair", Type::integer, Dimension::none, "10",
      "Points at most at which two meshes, or a mesh and the ground, hold each other at a time.", between(3, 100)},
     {"locate_events", Type::boolean, Dimension::none, "true",
@@ -85,6 +87,7 @@ void read_settings(Builder& builder, std::optional<Reader> reader) {
   if (slope == 0) s.gravity = {0, 0, -g};
   s.adaptive_tolerance = r.number("adaptive_tolerance");
   s.solver_tolerance = r.has("solver_tolerance") ? r.number("solver_tolerance") : profile.solver_tolerance;
+  s.touch_distance = r.number("touch_distance");
   s.contacts_per_pair = r.integer("contacts_per_pair");
   s.locate_events = r.boolean("locate_events");
   s.sleep = r.boolean("sleep");
