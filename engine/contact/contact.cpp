@@ -1,6 +1,7 @@
 #include "engine/contact/contact.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <variant>
 
@@ -39,15 +40,18 @@ bool is_part(const Model& model, int body) {
   return body >= 0 && model.bodies[body].person >= 0 && model.bodies[body].vehicle < 0;
 }
 
+bool is_head(const Model& model, int body) {
+  return is_part(model, body) && model.persons[model.bodies[body].person].head == body;
+}
+
 /// S of both surfaces [N/m]. To a head a vehicle is what the panel it meets is, unless the scene gives a stiffness of its own.
 std::pair<double, double> stiffnesses(const Model& model, const Motion& at, const SurfaceContact& touch, int a, int b) {
   const auto surface = [&](int body) -> const SurfaceProperties& {
     return body >= 0 ? model.bodies[body].surface : model.ground.surface;
   };
-  const auto head = [&](int body) { return is_part(model, body) && model.persons[model.bodies[body].person].head == body; };
   const auto own = [&](int body) { return surface(body).stiffness.at(at.time); };
   double S_b = own(b);
-  const auto* mesh = head(a) && b >= 0 ? std::get_if<MeshShape>(&model.bodies[b].shape) : nullptr;
+  const auto* mesh = is_head(model, a) && b >= 0 ? std::get_if<MeshShape>(&model.bodies[b].shape) : nullptr;
   if (mesh && mesh->panels && !surface(b).stiffness_given) {
     const Pose X_MW = (at.X_WB[b] * mesh->X_BM).inverse();
     S_b = head_stiffness_of(panel_at(*mesh->mesh, *mesh->panels, X_MW * touch.p_b, X_MW.q * touch.normal));
@@ -63,6 +67,19 @@ double set_stiffness(Constraint& c, const Model& model, const Motion& at, const 
   c.hysteresis = c.restitution;
   c.restitution = 0;
   return S_b / (S_a + S_b);
+}
+
+/// Half of the thinner part along the normal is what the two can give way by; into a panel a little less than by
+/// which its centre may pass before the part is taken for having gone through. Only where persons alone yield.
+void set_room(Constraint& c, const World& world, const Motion& at) {
+  if (world.model.settings.contact_law != ContactLaw::persons_yield) return;
+  c.room = std::numeric_limits<double>::infinity();
+  for (const int body : {c.record_a, c.record_b}) {
+    const auto* part = is_part(world.model, body) ? std::get_if<HyperEllipsoid>(&world.model.bodies[body].shape) : nullptr;
+    if (part) c.room = std::min(c.room, support_value(*part, at.X_WB[body].q.conjugate() * c.frame.col(0)));
+  }
+  if (c.contact_kind == ContactKind::vehicle) c.room *= 0.9 * (1 + may_pass(world.model, c.record_a));
+  c.struck_mass = 1 / c.free_response;
 }
 
 /// How the contact's bodies answer an impulse were they free, and were all that hangs on them one piece.
@@ -83,6 +100,11 @@ std::uint64_t key_of(const SurfaceContact& touch, int a, int b, int effect) {
 }
 
 }  // namespace
+
+double may_pass(const Model& model, int body) {
+  const bool into_panel = model.settings.contact_law == ContactLaw::persons_yield && is_head(model, body);
+  return into_panel ? 0.75 : 0.25;
+}
 
 void add_contact(ContactSearch& search, const SurfaceContact& touch, int a, int b, int effect, ContactKind kind,
                  SurfacePairing surfaces) {
@@ -112,6 +134,7 @@ void add_contact(ContactSearch& search, const SurfaceContact& touch, int a, int 
   c.key = key_of(touch, a, b, effect);
   c.effect = effect;
   c.contact_kind = kind;
+  if (compliant) set_room(c, world, search.at);
   search.found.push_back(c);
 }
 
@@ -123,7 +146,9 @@ void share_stiffness(ContactSearch& search, std::size_t first) {
     double sum = 0;
     for (std::size_t j = first; j < all.size(); ++j)
       sum += std::max(-all[j].gap, kLeast) * std::max(0.0, all[i].frame.col(0).dot(all[j].frame.col(0)));
-    all[i].stiffness *= std::max(-all[i].gap, kLeast) / sum;
+    const double share = std::max(-all[i].gap, kLeast) / sum;
+    all[i].stiffness *= share;
+    all[i].struck_mass *= share;
   }
 }
 

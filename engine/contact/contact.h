@@ -78,6 +78,11 @@ double friction_on_ground(const Body&, const Ground&, const Vec3& point, double 
 /// Appends a contact of body `a` with `b` (-1: the ground), rows and all. `b` may be a fixed body.
 void add_contact(ContactSearch&, const SurfaceContact&, int a, int b, int effect, ContactKind, SurfacePairing);
 
+/// By how much of its half thickness [-] the centre of a part may come to lie behind the panel it is pressed into. Mostly a
+/// quarter: it is the part that gives way. It is the panel that does under a head that yields hardly at all, by 12 to 19 cm at
+/// most.
+double may_pass(const Model&, int body);
+
 /// Compliant law: the points appended from `first` on, all of one surface on another, share its stiffness S by depth, so that a
 /// face that stands on four corners, or a limb on many small triangles, yields as one that touches at one point: S_i = S d_i /
 /// sum_j d_j max(0, n_i.n_j). Points that face different ways do not share.

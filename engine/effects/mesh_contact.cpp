@@ -30,7 +30,9 @@ Finding look_at(const Model& model) {
   if (pairs == 0) return {false, "no mesh but what the person rides", ""};
   std::string left_out = "pairs farther apart than they can travel in a step: exact";
   if (riding > 0) left_out += "; " + counted(riding, "pair") + " of a rider and its mount, whose joints hold them apart";
-  return {true, counted(pairs, "pair") + " of a segment or free body and " + listed(names), left_out};
+  const bool gives_way = !model.persons.empty() && yields(model.settings.contact_law, true);
+  return {true, counted(pairs, "pair") + " of a segment or free body and " + listed(names) + (gives_way ? "; persons yield" : ""),
+          left_out};
 }
 
 /// One more pair of these trees, the `at`-th of its list, joins the last run if it is of the same kind.
@@ -84,7 +86,7 @@ class MeshContact final : public Effect {
     Clearance& clearance = search.state.contact_memory.mesh[index];
     if (clearance.beyond(margin, X_MA, reach)) return;
     contacts_with_mesh(std::get<HyperEllipsoid>(round.shape), X, *pair.mesh, X_WM, margin, clearance.by_now(X_MA, reach),
-                       world.pairs.mesh_scratch, touches);
+                       world.pairs.mesh_scratch, touches, may_pass(world.model, pair.body));
     clearance.note(world.pairs.mesh_scratch.apart, X_MA, reach);
     const SurfacePairing surfaces = between_bodies(round, mesh, search.at.time);
     const std::size_t first = search.found.size();

@@ -27,7 +27,7 @@ namespace {
 
 constexpr double kLookAhead = 0.15;  // [m] how far beyond the margin a free neighbourhood is told
 
-constexpr double kPassed = 0.25;       // [-] of the body: farther through it is not this side that is met
+constexpr double kFromBehind = 0.25;   // [-] of the body: deeper than can be by so much is not this side
 constexpr double kBorder = 1e-6;       // [-] barycentric tolerance: on the border counts as inside
 constexpr double kCluster = 0.985;     // [-] cosine of 10 degrees
 constexpr int kKeep = 4;               // contacts of one body with one mesh; one more where a flat side's deepest point counts
@@ -302,7 +302,7 @@ void reserve(MeshContactScratch& scratch, const TriangleMesh& mesh) {
 }
 
 void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const TriangleMesh& mesh, const Pose& X_WM, double margin,
-                        double least, MeshContactScratch& scratch, ContactPoints& out) {
+                        double least, MeshContactScratch& scratch, ContactPoints& out, double passed_by) {
   out.clear();
   const Pose X_MA = X_WM.inverse() * X_WA;
   // the sphere around the body first: most pairs are far apart
@@ -314,7 +314,7 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
   // in the middle of a panel only the triangles count that one of the points lies above that touch_face will look at
   constexpr double kSlack = 1e-5;  // [m] for normals that agree to rounding
   bool passed = false;
-  Scene scene{shape, X_MA, mesh, margin, least - kPassed * shape.semi_axes.minCoeff(), scratch.candidates};
+  Scene scene{shape, X_MA, mesh, margin, least - kFromBehind * shape.semi_axes.minCoeff(), scratch.candidates};
   auto pass = [&](const Vec3& n, double offset, const Aabb& branch) {
     for (const Vec3& p : scene.points_against(n)) {
       const Vec3 at = X_MA.p + p, on_plane = at - (n.dot(at) - offset) * n;
@@ -347,7 +347,7 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
       last_normal = n;
       h = support_value(shape, R_AM * n);
     }
-    return height - h > margin || height < -kPassed * h;
+    return height - h > margin || height < -passed_by * h;
   });
   if (scratch.seen.size() < mesh.triangles().size()) scratch.seen.resize(mesh.triangles().size(), 0);
   if (++scratch.call == 0) {  // after four thousand million calls

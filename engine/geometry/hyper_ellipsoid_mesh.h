@@ -31,10 +31,10 @@ void reserve(MeshContactScratch&, const TriangleMesh&);
 
 /// Points with gap < margin [m] between the hyper-ellipsoid at X_WA and the mesh at X_WM; `out` is cleared first. Normals within
 /// 10 degrees are clustered; the deepest and up to three spread points stay. A part sliding over a flat sheet of many triangles
-/// gets the contacts of a plane. A triangle whose plane the centre has passed by more than a quarter of the body is its far side
+/// gets the contacts of a plane. A triangle whose plane the centre has passed by more than `passed` [-] of the body is its far side
 /// and not felt, nor is what lies deeper than `least` by a quarter of the body: `least` [m] is the smallest gap there can be, from
 /// what was seen before (Clearance::by_now), so a fold or the underside of a sill is not met from behind.
 void contacts_with_mesh(const HyperEllipsoid&, const Pose& X_WA, const TriangleMesh&, const Pose& X_WM, double margin, double least,
-                        MeshContactScratch&, ContactPoints& out);
+                        MeshContactScratch&, ContactPoints& out, double passed = 0.25);
 
 }  // namespace engine

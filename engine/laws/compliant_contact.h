@@ -29,6 +29,17 @@ inline double compliant_normal_force(double S, double e, double depth, double se
   return 0;
 }
 
+/// What a part that yields adds to its spring [N] because it cannot be pressed in by more than `room` [m]: the energy of `mass`
+/// [kg] closing at `closing` [m/s] that the spring cannot take up before, evenly over the way left. Nothing while it can. Tissue
+/// bottoms out on bone, a panel on what lies behind it, and blows faster than the spring bears meet a force that grows with speed
+/// and is not given back (R. W. G. Anderson, A. D. Long, T. Serre, Nonlinear Dynamics 58, 2009).
+inline double bottoming_force(double S, double depth, double closing, double mass, double room) {
+  constexpr double kLeastWay = 0.05;  // [-] of the room
+  if (!(closing > 0) || !(depth > 0)) return 0;
+  const double beyond = 0.5 * mass * closing * closing - 0.5 * S * (room * room - depth * depth);
+  return std::max(0.0, beyond / std::max(room - depth, kLeastWay * room));
+}
+
 /// Share of mu F_n that acts against a slip [m/s]: all of it from `regular` [m/s] on, in proportion below. Exact for any faster
 /// slip, and bounded in stiffness for the stages of Runge and Kutta; a body held on a slope creeps by less than `regular`.
 inline double regularised_friction(double slip, double regular) {

@@ -31,6 +31,8 @@ struct Constraint {
   double target = 0;              // [m/s] what u_0 + softness * impulse must reach
   double stiffness = 0;           // [N/m] compliant contact, both surfaces in series; [N m/rad] compliant stop; 0: rigid
   double hysteresis = 0;          // [-] compliant contact: share of the energy that comes back
+  double room = 0;                // [m] depth at which what yields bottoms out; 0: never
+  double struck_mass = 0;         // [kg] that a contact with room stops by itself: of its bodies were they free, its share of it
   double free_response = 0;       // [1/kg] contact or compliant stop: of its two bodies were they free of joints
   double whole_response = 0;      // [1/kg] contact: of all that hangs on its bodies, moving as one
   double rolling_bound = 0;       // [N s] wheel: most that brake can give along t1
@@ -52,8 +54,8 @@ struct Constraint {
   template <class S>
   static auto fields(S& s) {
     return std::tie(s.kind, s.rows, s.slides, s.body_a, s.body_b, s.J_a, s.J_b, s.point, s.frame, s.gap, s.friction, s.restitution,
-                    s.stiffness, s.hysteresis, s.free_response, s.whole_response, s.key, s.effect, s.contact_kind, s.record_a,
-                    s.record_b);
+                    s.stiffness, s.hysteresis, s.room, s.struck_mass, s.free_response, s.whole_response, s.key, s.effect,
+                    s.contact_kind, s.record_a, s.record_b);
   }
 };
 

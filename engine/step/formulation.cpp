@@ -48,16 +48,20 @@ double formulate_compliant_contact(Constraint& c, double h, double gravity) {
   const double S = c.gap >= 0 ? c.stiffness
                               : compliant_normal_force(c.stiffness, std::max(c.hysteresis, 1e-3), 1, c.u_before[0],
                                                        ContactPhase::resting, smoothing);
+  // no more than stops what it stops within the step
+  const double closing = std::max(0.0, -c.u_before[0]);
+  const double extra =
+      c.room > 0 ? std::min(bottoming_force(S, -c.gap, closing, c.struck_mass, c.room), c.struck_mass * closing / h) : 0;
   if (h * h * S * c.free_response < 1) {
     // the spring at the mean of its depths at both ends, which neither gains nor loses energy of itself:
     // L = -h S (gap + h (u_before + u_after) / 4)
     c.softness = 4 / (h * h * S);
-    c.target = -4 * c.gap / h - c.u_before[0];
+    c.target = -4 * c.gap / h - c.u_before[0] + h * extra * c.softness;
     return 0.5;
   }
   // a step too long to follow the spring: at its end, which is stable however stiff, L = -h S (gap + h u_after)
   c.softness = 1 / (h * h * S);
-  c.target = -c.gap / h;
+  c.target = -c.gap / h + h * extra * c.softness;
   return 1;
 }
 
@@ -100,6 +104,19 @@ void formulate(StepContext& s) {
         s.buffers.weight[i] = formulate_compliant_contact(c, h, s.world.model.settings.gravity.norm());
     }
   }
+}
+
+bool hold_spent_springs(StepContext& s) {
+  const double slow = 2 * impact_speed(s);
+  bool any = false;
+  for (Constraint& c : s.constraints) {
+    const bool turned = is_contact(c) && is_compliant(c) && c.u_before[0] < slow && c.u_after[0] > slow;
+    if (!turned || c.hysteresis >= 1) continue;
+    c.softness = 0;
+    c.target = c.hysteresis * c.u_after[0];
+    any = true;
+  }
+  return any;
 }
 
 }  // namespace engine

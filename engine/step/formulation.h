@@ -11,4 +11,9 @@ void drop_open_conditions(StepContext&);
 
 void formulate(StepContext&);
 
+/// A spring that turns its contact within the step gives back no more than its share from there on: without this the force of the
+/// approach would go on to the end of the step, and that of rest for one more, and throw off by S depth step / mass what ought to
+/// stay. True where any was held and the impulses are to be found again.
+bool hold_spent_springs(StepContext&);
+
 }  // namespace engine

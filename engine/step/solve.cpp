@@ -125,6 +125,7 @@ void exchange_over_step(StepContext& s) {
     if (pass == 0) build_islands(s);
     formulate(s);
     solve_islands(s);
+    if (hold_spent_springs(s)) solve_islands(s);
     apply(s);
     if (!s.any_damper) return;
     note_motion_after(s);

@@ -1,6 +1,7 @@
 // The compliant contact law against its closed forms, and what locating its events is worth.
 #include <gtest/gtest.h>
 
+#include "engine/laws/compliant_contact.h"
 #include "engine/measure/metrics.h"
 #include "tests/engine/experiment.h"
 
@@ -65,6 +66,36 @@ TEST(CompliantBall, SteppingConvergesToIt) {
   }
   EXPECT_LT(error[0], 0.05 * exact);
   EXPECT_LT(error[1], 0.4 * error[0]);
+}
+
+TEST(CompliantBall, WithoutRestitutionDoesNotSpringBackWithinItsLastStep) {
+  // the force of the approach must not go on past the turn: it would throw back by 0.3 to 4 m/s
+  for (const double S : {5e3, 20e3, 100e3, 1e6}) {
+    Model model = dropped(0, Scheme::stepping, 1e-3);
+    model.bodies[0].surface.stiffness = S;
+    model.ground.surface.stiffness = 1e13;
+    double fastest = 0;
+    for (const Snapshot& s : simulate(model).snapshots) fastest = std::max(fastest, s.bodies[0].V_WB.v.z());
+    EXPECT_LT(fastest, 0.2) << S;  // of the thousandth of its energy that it keeps, and 4 g h
+  }
+}
+
+TEST(Bottoming, StopsWhatItsSpringCannotWithinTheRoom) {
+  const double S = 200e3, mass = 3, room = 0.05, v_spring = room * std::sqrt(S / mass);
+  EXPECT_EQ(bottoming_force(S, 0.01, std::sqrt(v_spring * v_spring - S * 1e-4 / mass) - 1e-9, mass, room), 0) << "the spring can";
+  EXPECT_EQ(bottoming_force(S, 0.01, -30, mass, room), 0) << "parting";
+  for (const double v0 : {1.01 * v_spring, 2 * v_spring, 30.0}) {
+    // what the spring leaves over, evenly: F = (1/2 m v0^2 - 1/2 S room^2) / room all the way
+    const double even = (0.5 * mass * v0 * v0 - 0.5 * S * room * room) / room, h = 1e-7;
+    double depth = 1e-9, v = v0;
+    while (v > 0 && depth < 0.9 * room) {
+      const double force = bottoming_force(S, depth, v, mass, room);
+      EXPECT_NEAR(force, even, 1e-2 * even) << v0;
+      v -= h * (S * depth + force) / mass;
+      depth += h * v;
+    }
+    EXPECT_GT(v, 0) << "it stops just at the end of the room";
+  }
 }
 
 TEST(CompliantBall, ComesToRestUnderItsWeight) {
