@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/output/csv.h"
+#include "engine/geometry/panels.h"
 #include "engine/measure/definitions.h"
 #include "engine/measure/impacts.h"
 #include "engine/measure/phases.h"
@@ -37,10 +38,26 @@ Json vector_json(const engine::Vec3& v) {
   return Json::array({v.x(), v.y(), v.z()});
 }
 
-Json settings_json(const engine::Settings& s) {
+/// Stiffness of what yields, where anything does: of parts of persons by name, and of a vehicle's panels to a head.
+Json stiffness_json(const engine::Model& model) {
+  Json parts = Json::object(), panels = Json::object();
+  if (!engine::yields(model.settings.contact_law, true)) return {};
+  for (const engine::Person& person : model.persons)
+    for (const int b : person.bodies) {
+      const engine::Body& body = model.bodies[static_cast<std::size_t>(b)];
+      parts[body.name] = body.surface.stiffness.at(0);
+    }
+  for (int p = 0; p <= static_cast<int>(engine::Panel::underside); ++p)
+    panels[engine::name_of(static_cast<engine::Panel>(p))] = engine::head_stiffness_of(static_cast<engine::Panel>(p));
+  return {{"parts", parts}, {"panels_to_a_head", panels}};
+}
+
+Json settings_json(const engine::Model& model) {
+  const engine::Settings& s = model.settings;
   return {{"step_s", s.step},
           {"integrator", name_of(s.scheme)},
           {"contact_model", name_of(s.contact_law)},
+          {"stiffness_N_per_m", stiffness_json(model)},
           {"duration_s", s.duration},
           {"record_interval_s", s.record_interval},
           {"gravity_mps2", vector_json(s.gravity)},
@@ -226,7 +243,7 @@ Json summary_json(const scenes::Scene& scene, const engine::Recording& recording
   out["schema"] = 1;
   out["version"] = CRASHREEL_VERSION;
   out["scene"] = {{"title", scene.title}, {"path", scene.path.string()}, {"sha256", scene.sha256}, {"overrides", scene.overrides}};
-  out["settings"] = settings_json(scene.model.settings);
+  out["settings"] = settings_json(scene.model);
   out["plan"] = plan_json(recording.plan);
   out["events"] = events_json(recording);
   out["metrics"] = metrics_json(metrics);

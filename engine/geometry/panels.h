@@ -28,10 +28,6 @@ const char* name_of(Panel);
 /// Panel of each triangle of a collision mesh, in its order.
 using Panels = std::vector<Panel>;
 
-/// [N/m] Of a skull with its scalp against a hard surface: 1 MN/m, within the 0.4 to 6 MN/m measured on heads (N. Yoganandan et
-/// al., Biomechanics of skull fracture, J. Neurotrauma 12, 1995).
-constexpr double kHeadStiffness = 1e6;
-
 /// Stiffness [N/m] of a panel under a headform. Bonnet 50 to 150 kN/m and windscreen 30 to 80 kN/m, the middle taken: Exploration
 /// of the stiffness profiles of modern cars in pedestrian impacts, Proc. IMechE D 227, 2013, from 139 Euro NCAP headform and
 /// legform tests, and the studies it compares with. Pillars and edges, stiffer by some times in the same tests, and the other

@@ -12,7 +12,9 @@ constexpr const char* kPath =
     "chaotic beyond the landing: see the band of `crashreel study`; the centre of mass is exact to the step";
 constexpr const char* kNoHead = "no vehicle touched the head";
 constexpr const char* kNoForce = "the contact law is default_auto, which has no force histories; or the head touched nothing";
-constexpr const char* kHic = "as good as the stiffness of head and panel (engine/geometry/panels.h); grows as speed to the 2.5";
+constexpr const char* kHic =
+    "as good as the stiffness of head and panel (engine/geometry/panels.h); grows as speed to the 2.5, faster where the panel "
+    "bottoms out";
 constexpr const char* kPhase =
     "measured along the line from first touch to rest, so that the distances of all phases sum to throw_distance_m";
 constexpr const char* kNoImpact = "the vehicle touched no person, vehicle or object";

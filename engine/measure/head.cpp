@@ -22,8 +22,10 @@ void measure_place(const Model& model, const Recording& recording, const Event& 
   out.push_back({"head_impact_vehicle_x_m", name, point_M.x()});
   out.push_back({"head_impact_vehicle_y_m", name, point_M.y()});
   out.push_back({"head_impact_vehicle_z_m", name, point_M.z()});
-  // a tape from the front has a meaning only for a vehicle whose front runs against the person
-  const bool forwards = (X_WB.q.conjugate() * e.velocity).x() < 0;
+  // a tape from the front has a meaning only for a vehicle whose front runs against the person: who flies at its flank and comes
+  // down on the bonnet has none
+  const Vec3 velocity_B = X_WB.q.conjugate() * e.velocity;
+  const bool forwards = velocity_B.x() < 0 && -velocity_B.x() > std::abs(velocity_B.y());
   const auto tape = wrap_around_distance(model, e.body_b, point_B);
   if (forwards && tape) out.push_back({"wrap_around_distance_m", name, *tape});
 }

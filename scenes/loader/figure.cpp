@@ -22,6 +22,8 @@ const Key kSegmentKeys[] = {
     {"mass_female", Type::numbers, Dimension::none, "", "The same for women; left out: as for men."},
     {"mass_share", Type::number, Dimension::none, "", "Share of the person's mass, in place of a regression.", kPositive},
     {"lengthwise", Type::boolean, Dimension::none, "false", "Its x axis grows with stature, like a foot."},
+    {"stiffness", Type::number, Dimension::stiffness, "'400 kN/m'",
+     "What it yields by against whatever it touches, in series with it.", kPositive},
     {"cloth", Type::colour, Dimension::none, "'#808080'", "Colour."},
 };
 const Section kSegmentSection{"figure.segment", "[[segment]]", "In a person's library file: one part.", kSegmentKeys};
@@ -103,6 +105,7 @@ void read_segment(Reader& r, const Scaling& scale, std::vector<Segment>& out) {
   s.centre = r.vector("centre").cwiseProduct(grow);
   s.shape = {r.vector("axes").cwiseProduct(grow), std::max(2.0, r.number("exponent"))};
   s.mass = part_mass(r, scale.size);
+  s.stiffness = r.number("stiffness");
   const auto colour = r.colour("cloth");
   // bare parts are lit as skin: their red clearly above their blue, and light
   const bool bare = colour[0] > 0.4f && colour[0] > 1.6f * colour[2];

@@ -23,7 +23,8 @@ struct Segment {
   std::string name;     // "left_thigh"
   engine::Vec3 centre;  // [m] standing, soles at z = 0
   engine::HyperEllipsoid shape;
-  double mass = 0;  // [kg]
+  double mass = 0;       // [kg]
+  double stiffness = 0;  // [N/m]
   engine::Mat3 inertia = engine::Mat3::Zero();
   render::Material material;
 };

@@ -211,6 +211,10 @@ Scene load(const SceneFile& file, const std::vector<std::string>& overrides, Mes
   read_inputs_of_effects(builder, r);
   for (Reader& vehicle : r.tables("vehicle")) read_vehicle(builder, vehicle);
   for (Reader& person : r.tables("person")) read_person(builder, person);
+  // without persons nobody yields
+  engine::Settings& settings = builder.scene.model.settings;
+  if (builder.scene.model.persons.empty() && settings.contact_law == engine::ContactLaw::persons_yield)
+    settings.contact_law = engine::ContactLaw::default_auto;
   for (Reader& body : r.tables("body")) read_body(builder, body);
   for (Reader& joint : r.tables("joint")) read_joint(builder, joint);
   for (Reader& impact : r.tables("impact")) read_impact(builder, impact);

@@ -322,8 +322,7 @@ void read_person(Builder& builder, Reader r) {
     body.inertia_B = s.inertia;
     body.shape = s.shape;
     body.surface = surfaces[i];
-    // a head is harder than the rest of a person, unless the scene says otherwise
-    if (s.name == "head" && !surfaces[i].stiffness_given) body.surface.stiffness = engine::kHeadStiffness;
+    if (!surfaces[i].stiffness_given) body.surface.stiffness = s.stiffness;
     body.collision_model = collision;
     body.X_WB = X_WB[i];
     body.V_WB = {v + w.cross(X_WB[i].p - cg), w};

@@ -34,10 +34,10 @@ const Key kKeys[] = {
      kAny, "stepping|rk4|adaptive"},
     {"adaptive_tolerance", Type::number, Dimension::length, "'0.01 mm'",
      "Error of one step's smooth motion, and a tenth of the penetration it may leave; scheme adaptive.", kPositive},
-    {"contact_law", Type::choice, Dimension::none, "'default_auto'",
+    {"contact_law", Type::choice, Dimension::none, "'persons_yield'",
+     "persons_yield: a person's contacts and the ends of its joints' ranges by the compliant law, all else by default_auto. "
      "default_auto: surfaces do not give way; impulses at first touch, at all touching points at once, restitution is a ratio of "
-     "speeds. persons_yield: a person's contacts and the ends of its joints' ranges by the compliant law, all else by "
-     "default_auto. compliant: force = stiffness x depth while closing, restitution x stiffness x depth while parting, so that "
+     "speeds. compliant: force = stiffness x depth while closing, restitution x stiffness x depth while parting, so that "
      "restitution is the share of energy that comes back.",
      kAny, "default_auto|compliant|persons_yield"},
     {"gravity", Type::number, Dimension::acceleration, "'9.81 m/s^2'", "Acceleration of gravity; 0 for none.", kNotNegative},

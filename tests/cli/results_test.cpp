@@ -384,7 +384,8 @@ TEST(Help, GoesToStandardOutputAndIsNoError) {
 TEST(Simulate, HeadImpactWithoutCriterionGivesTheReason) {
   const Folder folder;
   const std::string scene = std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/sedan_pedestrian_40kmh.toml";
-  const Result result = run(folder, {"simulate", scene, "-q", "-o", "out", "--set", "simulation.duration=0.8 s"});
+  const Result result = run(folder, {"simulate", scene, "-q", "-o", "out", "--set", "simulation.duration=0.8 s", "--set",
+                                     "simulation.contact_law=default_auto"});
   ASSERT_EQ(result.code, 0) << result.err;
   const Json summary = Json::parse(contents(folder / "out/summary.json"));
   ASSERT_TRUE(summary.at("metrics").contains("head_impact_s")) << "40 km/h carry the head onto the car";

@@ -439,14 +439,16 @@ TEST(HeadMetrics, WrapAroundOfABoxIsHeightPlusLength) {
   EXPECT_NEAR(value_of(out, "wrap_around_distance_m").value(), 1.0 + 1.5, kAlmost);
 }
 
-TEST(HeadMetrics, WrapAroundIsAbsentWhenTheVehicleReverses) {
+TEST(HeadMetrics, WrapAroundIsAbsentWhenTheVehicleReversesOrIsMetFromTheSide) {
   const Model model = person_and_car();
-  Recording run = head_on_bonnet();
-  run.events[0].velocity = {15, 0, -5};
-  std::vector<Metric> out;
-  measure_head(model, run, 0, out);
-  EXPECT_TRUE(value_of(out, "head_impact_speed_mps"));
-  EXPECT_FALSE(value_of(out, "wrap_around_distance_m"));
+  for (const Vec3& velocity : {Vec3(15, 0, -5), Vec3(-4, 10, -3)}) {
+    Recording run = head_on_bonnet();
+    run.events[0].velocity = velocity;
+    std::vector<Metric> out;
+    measure_head(model, run, 0, out);
+    EXPECT_TRUE(value_of(out, "head_impact_speed_mps"));
+    EXPECT_FALSE(value_of(out, "wrap_around_distance_m"));
+  }
 }
 
 TEST(HeadMetrics, TapeBridgesHollowsAndStartsBeforeTheForemostPart) {

@@ -74,6 +74,17 @@ TEST_F(Flagship, IsTheSameToTheLastBitAgain) {
   EXPECT_EQ(engine::hash(*run_), engine::hash(engine::simulate(scene_->model)));
 }
 
+TEST(Flagship90, AnAdultIsThrownByABusNotPushedThroughIt) {
+  // forward projection: thrown at about the bus's speed and slid to rest, v^2 / 2 mu g = 53 m; run over it was 21 m
+  const auto scene = scenes::load(
+      kScenes + "cases/sedan_pedestrian_40kmh.toml",
+      {"vehicle.sedan.model=bus", "vehicle.sedan.speed=90 km/h", "vehicle.sedan.front=-2.5 -1.75 m", "simulation.duration=8 s"});
+  const engine::Recording run = engine::simulate(scene.model);
+  const double v = 25, slide = v * v / (2 * 0.6 * engine::kGravity);
+  EXPECT_NEAR(metric(engine::measure(scene.model, run), "throw_distance_m"), slide, 0.15 * slide);
+  for (const std::string& warning : run.diagnostics.warnings) EXPECT_EQ(warning.find("pressed"), std::string::npos) << warning;
+}
+
 TEST(SlidingPerson, StopsNearWhereAPuckDoes) {
   // lying down at 13.4112 m/s with mu = 0.6: the person rolls a little, limbs fly up and land (friction acts in each landing, but
   // rolling saves some), so it may differ from the puck's v^2 / (2 mu g) by a few per cent

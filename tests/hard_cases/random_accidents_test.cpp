@@ -58,7 +58,8 @@ std::string person(Dice& dice, const std::string& name, const char* pose, double
 /// The text of an accident: x > 0 is where the first vehicle goes.
 std::string accident(unsigned seed) {
   Dice dice(seed);
-  std::string text = fmt::format("[simulation]\nduration = \"1.5 s\"\nstep = \"{}\"\n", dice.one_of(kSteps));
+  std::string text =
+      fmt::format("[simulation]\nduration = \"1.5 s\"\ncontact_law = \"default_auto\"\nstep = \"{}\"\n", dice.one_of(kSteps));
   text += vehicle(dice, "car", dice.one_of(kVehicles).model, fmt::format("front = \"-1.3 {:.3f} m\"\n", dice.between(-0.9, 0.9)), 5,
                   100);
   const double kind = dice.between(0, 1);

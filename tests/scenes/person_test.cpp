@@ -76,6 +76,19 @@ TEST(Person14, OverridesOnePartAndLeavesTheOthers) {
   EXPECT_EQ(part(scene, "torso").mass, part(plain, "torso").mass);
 }
 
+TEST(Person14, YieldsUnlessTheSceneSaysOtherwise) {
+  const Scene scene = person("");
+  EXPECT_EQ(scene.model.settings.contact_law, engine::ContactLaw::persons_yield);
+  EXPECT_EQ(part(scene, "head").surface.stiffness.at(0), 1e6);
+  EXPECT_EQ(part(scene, "left_upper_arm").surface.stiffness.at(0), 60e3);
+  EXPECT_EQ(part(scene, "torso").surface.stiffness.at(0), 400e3);
+  const Scene given = person("stiffness = \"200 kN/m\"\n");
+  EXPECT_EQ(part(given, "head").surface.stiffness.at(0), 200e3) << "the scene's stands for all parts";
+  const SceneFolder folder;
+  const Scene nobody = folder.load("[[body]]\nname = \"b\"\nmass = \"1 kg\"\naxes = \"0.1 0.1 0.1 m\"\n");
+  EXPECT_EQ(nobody.model.settings.contact_law, engine::ContactLaw::default_auto);
+}
+
 TEST(Person14, WalksAlongItsHeading) {
   const Scene scene = person("heading = \"90 deg\"\nspeed = \"1.4 m/s\"\nposition = \"3 4 m\"\n");
   const engine::Body& hips = part(scene, "hips");
