@@ -153,7 +153,15 @@ void Recorder::sample(const World& world, const State& state, Recording& recordi
   keep(state);
   if (!yields(world.model.settings.contact_law, true) || world.model.persons.empty()) return;
   if (recording.heads.empty()) {
-    for (int p = 0; p < static_cast<int>(world.model.persons.size()); ++p) recording.heads.push_back({p, {}, {}});
+    // one sample a step, and more where steps are divided; a run longer than this grows
+    constexpr double kLeast = 4096, kMost = 1e6;
+    const Settings& settings = world.model.settings;
+    const auto room = static_cast<std::size_t>(std::clamp(1.2 * settings.duration / settings.step, kLeast, kMost));
+    for (int p = 0; p < static_cast<int>(world.model.persons.size()); ++p) {
+      recording.heads.push_back({p, {}, {}});
+      recording.heads.back().time.reserve(room);
+      recording.heads.back().acceleration.reserve(room);
+    }
     recording.peak_acceleration.assign(world.model.bodies.size(), 0);
     for (const Body& body : world.model.bodies) velocity_.push_back(body.fixed ? Vec3(Vec3::Zero()) : body.V_WB.v);
   }

@@ -61,6 +61,9 @@ class MeshContact final : public Effect {
           pairs.mesh.push_back({self, b, m, std::get<MeshShape>(bodies[m].shape).mesh.get()});
         }
     for (const MeshPair& pair : pairs.mesh) reserve(pairs.mesh_scratch, *pair.mesh);
+    for (const Body& body : bodies)  // asked once, a panel's search has its room before the first step
+      if (const auto* mesh = std::get_if<MeshShape>(&body.shape); mesh && mesh->panels)
+        panel_at(*mesh->mesh, *mesh->panels, Vec3::Zero(), Vec3::UnitZ());
   }
 
   void find_contacts(ContactSearch& search) override {

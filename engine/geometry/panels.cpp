@@ -50,9 +50,11 @@ double head_stiffness_of(Panel panel) {
 }
 
 Panel panel_at(const TriangleMesh& mesh, const Panels& panels, const Vec3& point, const Vec3& normal) {
-  constexpr double kNear = 0.1;     // [m]
-  constexpr double kFacing = 0.25;  // [-] a contact on an edge faces between its two sides
+  constexpr double kNear = 0.1;             // [m]
+  constexpr double kFacing = 0.25;          // [-] a contact on an edge faces between its two sides
+  constexpr std::size_t kTriangles = 4096;  // that near; no step allocates
   thread_local std::vector<int> near;
+  near.reserve(kTriangles);
   near.clear();
   mesh.query({(point.array() - kNear).matrix(), (point.array() + kNear).matrix()}, near);
   Panel best = Panel::unknown;
