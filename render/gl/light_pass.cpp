@@ -10,6 +10,19 @@ namespace {
 
 constexpr int kAlike = 4588;  // of 65535: normals within some 15 degrees
 
+/// Of some of a pixel's four samples: their share of it, and their middle, counted from the first sample [pixels].
+struct Middle {
+  float share, right, up;
+};
+constexpr std::array<Middle, 16> kMiddles = [] {
+  std::array<Middle, 16> out{};
+  for (unsigned set = 1; set < 16; ++set) {
+    const float count = static_cast<float>(std::popcount(set)), per = 0.5f / count;
+    out[set] = {count / 4, static_cast<float>(std::popcount(set & 10)) * per, static_cast<float>(std::popcount(set & 12)) * per};
+  }
+  return out;
+}();
+
 }  // namespace
 
 void LightPass::draw(const Lighting& lighting, ObjectPass& objects, const shade::Canvas& canvas) {
@@ -67,7 +80,6 @@ void LightPass::find(ObjectPass& objects, const Rectangle& r, int samples, const
 /// One surface: the same material, normals close to each other. At the octahedron's folds a surface may look like two; that costs
 /// time alone.
 bool LightPass::same(std::int32_t one, std::int32_t other) const {
-  if (one == other) return true;
   if (one == 0 || other == 0) return false;
   const shade::Triangle &a = triangles_[one], &b = triangles_[other];
   return a.row == b.row && std::abs((a.facing & 0xffff) - (b.facing & 0xffff)) < kAlike &&
@@ -78,25 +90,18 @@ bool LightPass::same(std::int32_t one, std::int32_t other) const {
 /// surface is looked at in the middle of those samples that show one and the same of its triangles, so the place lies within that
 /// triangle: beside it, where a surface is seen from its edge, the depth would be far off and the surface would shade itself.
 void LightPass::add_edge(const Seen& seen, int pixel, float x, float y) {
-  unsigned left = 0;
-  for (std::size_t k = 0; k < 4; ++k) left |= seen[k] != 0 ? 1u << k : 0u;
+  const auto those = [&seen](auto&& are) {
+    unsigned out = 0;
+    for (unsigned k = 0; k < 4; ++k) out |= are(seen[k]) ? 1u << k : 0u;
+    return out;
+  };
+  unsigned left = those([](std::int32_t name) { return name != 0; });
   for (int surface = 0; surface < 2 && left != 0; ++surface) {
-    const int first = std::countr_zero(left);
-    const std::int32_t name = seen[static_cast<std::size_t>(first)];
-    unsigned mine = 0;
-    int right = 0, up = 0, n = 0;  // n: samples of this very triangle
-    for (int k = first; k < 4; ++k) {
-      if (!(left >> k & 1) || !same(name, seen[static_cast<std::size_t>(k)])) continue;
-      mine |= 1u << k;
-      if (seen[static_cast<std::size_t>(k)] != name) continue;
-      ++n;
-      right += k & 1;
-      up += k >> 1;
-    }
-    const float per = 0.5f / static_cast<float>(n);
-    const int covered = std::popcount(surface == 0 ? mine : left);
-    add(static_cast<float>(covered) / 4, x + 0.25f + static_cast<float>(right) * per, y + 0.25f + static_cast<float>(up) * per,
-        pixel, name);
+    const std::int32_t name = seen[static_cast<std::size_t>(std::countr_zero(left))];
+    const unsigned exactly = those([name](std::int32_t other) { return other == name; });
+    const unsigned mine = those([&](std::int32_t other) { return other == name || same(name, other); }) & left;
+    const Middle& middle = kMiddles[exactly];
+    add(kMiddles[surface == 0 ? mine : left].share, x + 0.25f + middle.right, y + 0.25f + middle.up, pixel, name);
     left &= ~mine;
   }
 }
