@@ -18,15 +18,25 @@ void widen(Range& a, const Range& b) {
   a.largest = std::max(a.largest, b.largest);
 }
 
-// each element takes in its neighbours up to `reach` away along one axis; beyond the rim lies depth 1
-void dilate(const std::vector<Range>& in, int side, int reach, std::ptrdiff_t step, std::ptrdiff_t row, std::vector<Range>& out) {
+// in this form the compiler takes several at a time
+constexpr auto lesser = [](float a, float b) { return b < a ? b : a; };
+constexpr auto larger = [](float a, float b) { return b > a ? b : a; };
+
+/// Each block takes in its neighbours so many blocks away; beyond the rim lies depth 1.
+template <class Pick>
+void dilate(std::vector<float>& blocks, std::vector<float>& scratch, int side, int reach_x, int reach_y, Pick pick) {
+  const auto take_in = [&](float* row, const float* other) {
+    for (int i = 0; i < side; ++i) row[i] = pick(row[i], other[i]);
+  };
+  scratch.assign(static_cast<std::size_t>(side + 2 * reach_x), 1.0f);
+  for (float* row = blocks.data(); row < blocks.data() + blocks.size(); row += side) {
+    std::copy_n(row, side, scratch.begin() + reach_x);
+    for (int k = 0; k <= 2 * reach_x; ++k) take_in(row, scratch.data() + k);
+  }
+  scratch.assign(static_cast<std::size_t>(side * (side + 2 * reach_y)), 1.0f);
+  std::copy(blocks.begin(), blocks.end(), scratch.begin() + side * reach_y);
   for (int line = 0; line < side; ++line)
-    for (int i = 0; i < side; ++i) {
-      const Range* at = in.data() + line * row;
-      Range r = i < reach || i + reach >= side ? Range{} : at[i * step];
-      for (int k = std::max(i - reach, 0); k <= std::min(i + reach, side - 1); ++k) widen(r, at[k * step]);
-      out[static_cast<std::size_t>(line * row + i * step)] = r;
-    }
+    for (int k = 0; k <= 2 * reach_y; ++k) take_in(blocks.data() + line * side, scratch.data() + (line + k) * side);
 }
 
 }  // namespace
@@ -35,25 +45,35 @@ void DepthPyramid::clear() {
   levels_.assign(1, {});
 }
 
+/// Blocks without their neighbours.
+void DepthPyramid::pick_blocks(const float* depth, int side, std::ptrdiff_t pitch) {
+  const std::size_t size = static_cast<std::size_t>(side * kBlock);
+  std::vector<float> least(size), largest(size);  // of a row of blocks, by columns
+  least_.clear();
+  largest_.clear();
+  for (const float* row = depth; row < depth + side * kBlock * pitch; row += kBlock * pitch) {
+    std::copy_n(row, size, least.begin());
+    std::copy_n(row, size, largest.begin());
+    for (const float* other = row + pitch; other < row + kBlock * pitch; other += pitch)
+      for (std::size_t x = 0; x < size; ++x) {
+        least[x] = lesser(least[x], other[x]);
+        largest[x] = larger(largest[x], other[x]);
+      }
+    for (std::size_t x = 0; x < size; x += kBlock) {
+      least_.push_back(lesser(lesser(least[x], least[x + 1]), lesser(least[x + 2], least[x + 3])));
+      largest_.push_back(larger(larger(largest[x], largest[x + 1]), larger(largest[x + 2], largest[x + 3])));
+    }
+  }
+}
+
 void DepthPyramid::build(const float* depth, int size, std::ptrdiff_t pitch, int reach_x, int reach_y) {
   const int side = size / kBlock;
-  const std::size_t count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-  levels_.resize(1);
-  Level& finest = levels_.front();
-  finest.side = side;
-  finest.blocks.resize(count);
-  scratch_.resize(count);
-  for (int r = 0; r < side; ++r)
-    for (int c = 0; c < side; ++c) {
-      const float* texel = depth + r * kBlock * pitch + c * kBlock;
-      Range range{texel[0], texel[0]};
-      for (int y = 0; y < kBlock; ++y, texel += pitch)
-        for (int x = 0; x < kBlock; ++x) widen(range, {texel[x], texel[x]});
-      finest.blocks[static_cast<std::size_t>(r * side + c)] = range;
-    }
-  const auto blocks = [](int reach) { return (reach + kBlock - 1) / kBlock; };
-  dilate(finest.blocks, side, blocks(reach_x), 1, side, scratch_);
-  dilate(scratch_, side, blocks(reach_y), side, 1, finest.blocks);
+  pick_blocks(depth, side, pitch);
+  const auto in_blocks = [](int reach) { return (reach + kBlock - 1) / kBlock; };
+  dilate(least_, scratch_, side, in_blocks(reach_x), in_blocks(reach_y), lesser);
+  dilate(largest_, scratch_, side, in_blocks(reach_x), in_blocks(reach_y), larger);
+  levels_.assign(1, {side, {}});
+  for (std::size_t i = 0; i < least_.size(); ++i) levels_.front().blocks.push_back({least_[i], largest_[i]});
   while (levels_.back().side > kFold) {
     Level next{levels_.back().side / kFold, {}};
     const Level& last = levels_.back();

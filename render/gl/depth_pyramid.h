@@ -27,12 +27,14 @@ class DepthPyramid {
   const std::vector<Range>& blocks() const { return levels_.front().blocks; }
 
  private:
+  void pick_blocks(const float* depth, int side, std::ptrdiff_t pitch);
+
   struct Level {
     int side = 1;
     std::vector<Range> blocks{{}};
   };
   std::vector<Level> levels_{{}};
-  std::vector<Range> scratch_;
+  std::vector<float> least_, largest_, scratch_;
 };
 
 }  // namespace render::gl
