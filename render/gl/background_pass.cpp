@@ -25,10 +25,12 @@ void draw_tiles(const TileMap& tiles, const shade::FrameData& data, const shade:
 
 /// For pixels twice as wide.
 FrameSetup of_half_width(FrameSetup frame) {
-  FrameBlock& b = frame.block;
-  for (Float4* per_pixel : {&b.near_x, &b.far_x})
-    for (float& v : *per_pixel) v *= 2;
-  b.frame[0] *= 2;
+  shade::FrameData& f = frame.data;
+  for (int i = 0; i < 4; ++i) {
+    f.near_x[i] *= 2;
+    f.far_x[i] *= 2;
+  }
+  f.frame[0] *= 2;
   return frame;
 }
 
@@ -55,21 +57,21 @@ void BackgroundPass::begin(const DrawList& list, const FrameSetup& whole, const 
   if (half_) narrow_.resize(bytes);
   const shade::Canvas canvas = half_ ? shade::Canvas{narrow_.data(), width, height, width} : onto;
   const FrameSetup frame = half_ ? of_half_width(whole) : whole;
-  data_ = frame_data(frame.block);
+  data_ = frame.data;
   if (picture_ != list.road.picture) {
     picture_ = list.road.picture;
     kept_ = last_ = std::nullopt;
   }
   // kept from the second equal frame on: a moving camera pays for no copy
-  if (last_ && same_background(*last_, frame.block) && !(kept_ && same_background(*kept_, frame.block))) {
+  if (last_ && same_background(*last_, data_) && !(kept_ && same_background(*kept_, data_))) {
     bare_.resize(bytes);
     draw_tiles(lay_tiles(frame, list.road, depth, Shade::none, width, height), data_, maps, {bare_.data(), width, height, width}, 0,
                height, nullptr);
-    kept_ = frame.block;
+    kept_ = data_;
   }
-  last_ = frame.block;
+  last_ = data_;
   tiles_ = lay_tiles(frame, list.road, depth, Shade::cast, width, height);
-  if (kept_ && same_background(*kept_, frame.block)) {
+  if (kept_ && same_background(*kept_, data_)) {
     for (std::ptrdiff_t y = 0; y < height; ++y)
       std::copy_n(bare_.data() + 4 * y * width, 4 * width, canvas.pixels + 4 * y * canvas.pitch);
     std::erase_if(tiles_, [](const auto& t) { return t.first.sun == Sun::bare; });

@@ -26,7 +26,7 @@ class BackgroundPass {
   shade::FrameData data_{};
   TileMap tiles_;
   std::vector<std::uint8_t> bare_;                // a canvas, lowest row first
-  std::optional<FrameBlock> kept_, last_;         // whose background lies in bare_, and whose was drawn last
+  std::optional<shade::FrameData> kept_, last_;   // whose background lies in bare_, and whose was drawn last
   std::shared_ptr<const GroundPicture> picture_;  // that lay on it
 };
 

@@ -20,8 +20,12 @@ constexpr double kOcclusionReach = 1.2;  // [m] beyond a caster the occlusion on
 constexpr double kNear = 145;            // [m] where the kernel without horizon serves; it begins to fade in at 150
 constexpr double kShadowReach = 80;      // [m] from the eye; farther away a shadow is a few pixels
 
-Float4 four(const Vector3d& v, double w) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), static_cast<float>(w)};
+void put(const Vector3d& v, double w, float* out) {
+  for (const double number : {v[0], v[1], v[2], w}) *out++ = static_cast<float>(number);
+}
+
+void put(const Matrix4d& m, float* out) {
+  for (Eigen::Index i = 0; i < m.size(); ++i) *out++ = static_cast<float>(m.data()[i]);
 }
 
 std::vector<Vector3d> corners(const std::vector<CasterBox>& boxes) {
@@ -59,19 +63,19 @@ Rectangle seen(const std::vector<Vector3d>& points, std::size_t group, const Mat
 }
 
 // the ray of a pixel, linear in its place: from the near plane to one not at infinity, where a float has run out of digits
-void set_rays(const Matrix4d& clip_to_world, int width, int height, FrameBlock& b) {
-  const auto set = [&](double depth, Float4& at_0, Float4& per_x, Float4& per_y) {
+void set_rays(const Matrix4d& clip_to_world, int width, int height, shade::FrameData& f) {
+  const auto set = [&](double depth, float* at_0, float* per_x, float* per_y) {
     const auto at = [&](double x, double y) -> Vector3d {
       const Vector4d p = clip_to_world * Vector4d(x, y, depth, 1);
       return p.head<3>() / p[3];
     };
     const Vector3d corner = at(-1, -1);
-    at_0 = four(corner, 0);
-    per_x = four((at(1, -1) - corner) / width, 0);
-    per_y = four((at(-1, 1) - corner) / height, 0);
+    put(corner, 0, at_0);
+    put((at(1, -1) - corner) / width, 0, per_x);
+    put((at(-1, 1) - corner) / height, 0, per_y);
   };
-  set(-1, b.near_0, b.near_x, b.near_y);
-  set(0.9, b.far_0, b.far_x, b.far_y);
+  set(-1, f.near_0, f.near_x, f.near_y);
+  set(0.9, f.far_0, f.far_x, f.far_y);
 }
 
 // the horizon crosses the left and right edge of the picture at these rows; above both there is sky alone
@@ -152,14 +156,14 @@ void fit_shadow(const std::vector<CasterBox>& boxes, const Vector3d& to_sun, int
   out.world_to_shadow_clip = scale * clip;
   Matrix4d half = Matrix4d::Identity() * 0.5;
   half.col(3) = Vector4d(0.5, 0.5, 0.5, 1);
-  out.block.world_to_shadow = to_gl(half * out.world_to_shadow_clip);
+  put(half * out.world_to_shadow_clip, out.data.world_to_shadow);
   const Eigen::Array2d texel = size.head<2>() / map_size;
-  out.block.shadow = four({texel[0], texel[1], size[2]}, std::max(0.012, 1.3 * texel.maxCoeff()));
-  out.block.shadow_size = four({size[0], size[1], 0}, 0);
+  put({texel[0], texel[1], size[2]}, std::max(0.012, 1.3 * texel.maxCoeff()), out.data.shadow);
+  put({size[0], size[1], 0}, 0, out.data.shadow_size);
 }
 
 // where on the ground the occlusion map lies: around what stands low
-void fit_occlusion(const std::vector<const CasterBox*>& low, FrameBlock& block) {
+void fit_occlusion(const std::vector<const CasterBox*>& low, shade::FrameData& f) {
   Eigen::Array2d lower(1e9, 1e9), upper(-1e9, -1e9);
   for (const CasterBox* b : low)
     for (const Vector3d& c : corners({*b})) {
@@ -168,66 +172,47 @@ void fit_occlusion(const std::vector<const CasterBox*>& low, FrameBlock& block) 
     }
   lower -= kOcclusionReach;
   upper += kOcclusionReach;
-  block.occlusion = four({lower[0], lower[1], upper[0] - lower[0]}, upper[1] - lower[1]);
+  put({lower[0], lower[1], upper[0] - lower[0]}, upper[1] - lower[1], f.occlusion);
 }
 
 // rows of the map from world to the caster's own axes; `unit`: its surface at distance one
-void put_rows(const CasterBox& b, bool unit, Float4* rows) {
+void put_rows(const CasterBox& b, bool unit, float* rows) {
   for (int i = 0; i < 3; ++i) {
     const Vector3d edge = b.half_edges.col(i);
     const Vector3d row = edge / (unit ? edge.squaredNorm() : edge.norm());
-    rows[i] = four(row, -row.dot(b.centre));
+    put(row, -row.dot(b.centre), rows + 4 * i);
   }
 }
 
-void put_occluders(const std::vector<CasterBox>& boxes, double ground, FrameBlock& block) {
+void put_occluders(const std::vector<CasterBox>& boxes, double ground, FrameSetup& frame) {
+  OccluderRows& out = frame.occluders;
   // the round ones nearest to the ground hide most of it; stable order keeps equal scenes equal
   std::vector<const CasterBox*> low;
   for (const CasterBox& b : boxes)
     if (b.round && b.occludes && b.centre.z() - ground < 1.3) low.push_back(&b);
   std::stable_sort(low.begin(), low.end(), [](const CasterBox* a, const CasterBox* b) { return a->centre.z() < b->centre.z(); });
-  if (low.size() > kRoundOccluders) low.resize(kRoundOccluders);
-  const int count = static_cast<int>(low.size());
-  for (int i = 0; i < count; ++i)
-    put_rows(*low[static_cast<std::size_t>(i)], true, &block.round_rows[static_cast<std::size_t>(3 * i)]);
-  block.counts[0] = count;
+  out.rounds = std::min(low.size(), OccluderRows::kMostRound);
+  low.resize(out.rounds);
+  for (std::size_t i = 0; i < out.rounds; ++i) put_rows(*low[i], true, &out.round_rows[12 * i]);
   for (const CasterBox& b : boxes) {
-    if (b.round || block.counts[1] == static_cast<int>(kBoxOccluders)) continue;
-    const std::size_t i = static_cast<std::size_t>(block.counts[1]++);
-    put_rows(b, false, &block.box_rows[3 * i]);
-    block.box_half[i] = four(b.half_edges.colwise().norm().transpose(), 0);
+    if (b.round || out.boxes == OccluderRows::kMostBoxes) continue;
+    const std::size_t i = out.boxes++;
+    put_rows(b, false, &out.box_rows[12 * i]);
+    put(b.half_edges.colwise().norm().transpose(), 0, &out.box_half[4 * i]);
     low.push_back(&b);
   }
-  if (!low.empty()) fit_occlusion(low, block);
+  if (!low.empty()) fit_occlusion(low, frame.data);
 }
 
 }  // namespace
 
-shade::FrameData frame_data(const FrameBlock& b) {
-  shade::FrameData out;
-  const auto copy = [](const auto& from, float* to) { std::copy(from.begin(), from.end(), to); };
-  copy(b.clip_to_world, out.clip_to_world);
-  copy(b.eye, out.eye);
-  copy(b.forward, out.forward);
-  copy(b.sun, out.sun);
-  copy(b.ground, out.ground);
-  copy(b.road, out.road);
-  copy(b.frame, out.frame);
-  copy(b.near_0, out.near_0);
-  copy(b.near_x, out.near_x);
-  copy(b.near_y, out.near_y);
-  copy(b.far_0, out.far_0);
-  copy(b.far_x, out.far_x);
-  copy(b.far_y, out.far_y);
-  copy(b.world_to_shadow, out.world_to_shadow);
-  copy(b.shadow, out.shadow);
-  copy(b.shadow_size, out.shadow_size);
-  copy(b.occlusion, out.occlusion);
-  return out;
+Rectangle both(const Rectangle& a, const Rectangle& b) {
+  const int x = std::max(a.x, b.x), y = std::max(a.y, b.y);
+  return {x, y, std::max(0, std::min(a.x + a.width, b.x + b.width) - x), std::max(0, std::min(a.y + a.height, b.y + b.height) - y)};
 }
 
-bool same_background(const FrameBlock& a, const FrameBlock& b) {
-  return std::memcmp(&a, &b, offsetof(FrameBlock, world_to_shadow)) == 0;
+bool same_background(const shade::FrameData& a, const shade::FrameData& b) {
+  return std::memcmp(&a, &b, offsetof(shade::FrameData, world_to_shadow)) == 0;
 }
 
 FrameSetup set_up_frame(const DrawList& list, const std::vector<CasterBox>& boxes, int width, int height, int shadow_map_size) {
@@ -236,23 +221,22 @@ FrameSetup set_up_frame(const DrawList& list, const std::vector<CasterBox>& boxe
   out.world_to_clip = from_gl(list.view.eye_to_clip) * world_to_eye;
   const Vector3d to_sun(std::cos(list.sky.sun_elevation) * std::cos(list.sky.sun_azimuth),
                         std::cos(list.sky.sun_elevation) * std::sin(list.sky.sun_azimuth), std::sin(list.sky.sun_elevation));
-  FrameBlock& b = out.block;
-  b.world_to_clip = to_gl(out.world_to_clip);
-  b.clip_to_world = to_gl(out.world_to_clip.inverse());
-  b.eye = {list.view.eye[0], list.view.eye[1], list.view.eye[2], list.view.orthographic ? 1.0f : 0.0f};
-  b.forward = four(-world_to_eye.block<1, 3>(2, 0).transpose(), 0);
-  b.sun = four(to_sun, list.sky.haze);
-  b.ground = four({list.road.height, list.road.width / 2, list.road.centre_y}, list.road.lanes);
-  b.road = four({list.road.road ? 1.0 : 0.0, list.road.metre_grid ? 1.0 : 0.0, list.road.zebra ? 1.0 : 0.0}, list.road.zebra_x);
-  b.frame = four({2.0 / width, 2.0 / height, 0}, 0);
-  set_rays(out.world_to_clip.inverse(), width, height, b);
+  shade::FrameData& f = out.data;
+  const Vector3d eye(list.view.eye[0], list.view.eye[1], list.view.eye[2]);
+  put(out.world_to_clip.inverse(), f.clip_to_world);
+  put(eye, list.view.orthographic ? 1 : 0, f.eye);
+  put(-world_to_eye.block<1, 3>(2, 0).transpose(), 0, f.forward);
+  put(to_sun, list.sky.haze, f.sun);
+  put({list.road.height, list.road.width / 2, list.road.centre_y}, list.road.lanes, f.ground);
+  put({list.road.road ? 1.0 : 0.0, list.road.metre_grid ? 1.0 : 0.0, list.road.zebra ? 1.0 : 0.0}, list.road.zebra_x, f.road);
+  put({2.0 / width, 2.0 / height, 0}, 0, f.frame);
+  put({0, 0, 1}, 1, f.occlusion);
+  set_rays(out.world_to_clip.inverse(), width, height, f);
   out.sky_from = sky_rows(out.world_to_clip.inverse(), list.view.orthographic, height);
-  out.near_to = near_rows(out.world_to_clip.inverse(), Vector3d(b.eye[0], b.eye[1], b.eye[2]), list.road.height,
-                          list.view.orthographic, out.sky_from, height);
+  out.near_to = near_rows(out.world_to_clip.inverse(), eye, list.road.height, list.view.orthographic, out.sky_from, height);
   out.objects = seen(corners(boxes), 8, out.world_to_clip, width, height);
   // a shadow map stretched to the horizon would be coarse everywhere
   std::vector<CasterBox> near;
-  const Vector3d eye(b.eye[0], b.eye[1], b.eye[2]);
   for (const CasterBox& box : boxes)
     if (box.casts && (list.view.orthographic || (box.centre - eye).norm() - box.half_edges.norm() < kShadowReach))
       near.push_back(box);
@@ -260,7 +244,7 @@ FrameSetup set_up_frame(const DrawList& list, const std::vector<CasterBox>& boxe
   if (out.casts) {
     out.shade = seen(shaded_ground(near, to_sun, list.road.height), 4, out.world_to_clip, width, height);
     fit_shadow(near, to_sun, shadow_map_size, out);
-    put_occluders(near, list.road.height, b);
+    put_occluders(near, list.road.height, out);
   }
   return out;
 }

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 constexpr int kTile = 16;  // [pixels at 720 lines]
 
-Vector3d three(const Float4& v) {
+Vector3d three(const float* v) {
   return {v[0], v[1], v[2]};
 }
 
@@ -22,7 +22,7 @@ struct Field {  // a tile's ground
 };
 
 /// Where the ray of a corner of the tile grid meets the ground; nothing at or above the horizon.
-std::optional<Array2d> meet(const FrameBlock& b, double x, double y) {
+std::optional<Array2d> meet(const shade::FrameData& b, double x, double y) {
   const Vector3d a = three(b.near_0) + x * three(b.near_x) + y * three(b.near_y);
   const Vector3d d = three(b.far_0) + x * three(b.far_x) + y * three(b.far_y) - a;
   const double s = d.z() < -1e-6 ? (b.ground[0] - a.z()) / d.z() : -1;
@@ -51,7 +51,7 @@ Zone zone_of(const Field& f, const RoadLook& road) {
 
 Sun sun_of(const Field& f, const FrameSetup& frame, const DepthPyramid& depth) {
   if (!frame.casts) return Sun::bare;
-  const FrameBlock& b = frame.block;
+  const shade::FrameData& b = frame.data;
   Eigen::Array3d lower = Eigen::Array3d::Constant(1e9), upper = Eigen::Array3d::Constant(-1e9);
   const double lift = 1.5 * static_cast<double>(std::max(b.shadow[0], b.shadow[1]));  // as in shade/shadow.h
   for (int k = 0; k < 4; ++k) {
@@ -124,7 +124,7 @@ TileMap lay_tiles(const FrameSetup& frame, const RoadLook& road, const DepthPyra
   const auto corners = [&](int y) {
     std::vector<std::optional<Array2d>> out;
     if (y <= frame.sky_from)
-      for (int x = 0; x < width + tile; x += tile) out.push_back(meet(frame.block, std::min(x, width), y));
+      for (int x = 0; x < width + tile; x += tile) out.push_back(meet(frame.data, std::min(x, width), y));
     return out;
   };
   Mosaic mosaic;

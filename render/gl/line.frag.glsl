@@ -5,23 +5,12 @@ in float depth;
 flat in vec2 size;
 layout(location = 0) out vec4 premultiplied;
 
-#ifdef BEHIND_THINGS
-uniform sampler2D depth_map;  // of the samples
-uniform ivec3 band;           // its first sample; samples a side to a pixel
-bool hidden() {
-  ivec2 first = ivec2(gl_FragCoord.xy) * band.z - band.xy;
-  float nearest = 1.0;
-  for (int i = 0; i < band.z * band.z; ++i) nearest = min(nearest, texelFetch(depth_map, first + ivec2(i % band.z, i / band.z), 0).r);
-  return clamp(depth, 0.0, 1.0) > nearest;
-}
-#endif
-
 void main() {
   float beyond = max(-at.y, at.y - size.x);
   float d = size.y > 0.5 ? max(abs(at.x) - at.z, beyond) : length(vec2(at.x, max(beyond, 0.0))) - at.z;
   float alpha = colour.a * clamp(0.5 - d, 0.0, 1.0);
 #ifdef BEHIND_THINGS
-  if (hidden()) alpha = 0.0;
+  if (clamp(depth, 0.0, 1.0) > nearest_at(ivec2(gl_FragCoord.xy))) alpha = 0.0;
 #endif
   premultiplied = vec4(colour.rgb * alpha, alpha);
 }

@@ -4,17 +4,6 @@ in float scaled;
 uniform sampler2D noise_map;
 layout(location = 0) out float covers;
 
-#ifdef ON_TERRAIN
-uniform sampler2D depth_map;  // of the samples
-uniform ivec3 band;           // its first sample; samples a side to a pixel
-bool hidden(float depth) {
-  ivec2 at = ivec2(gl_FragCoord.xy) * band.z - band.xy;
-  float nearest = 1.0;
-  for (int i = 0; i < band.z * band.z; ++i) nearest = min(nearest, texelFetch(depth_map, at + ivec2(i % band.z, i / band.z), 0).r);
-  return depth > nearest;
-}
-#endif
-
 float grain(vec2 at, float footprint) {
   return (texture(noise_map, at / 1.07).r - 0.5) * clamp(1.4 - footprint * (0.4 * 256.0 / 1.07), 0.0, 1.0);
 }
@@ -29,6 +18,6 @@ void main() {
   covers = clamp(mark.y * edge * rough * ribs, 0.0, 1.0) * 0.8;
 #ifdef ON_TERRAIN
   float slope = max(abs(dFdx(gl_FragCoord.z)), abs(dFdy(gl_FragCoord.z)));
-  if (hidden(gl_FragCoord.z - slope - 2.0 / 16777216.0)) covers = 0.0;
+  if (gl_FragCoord.z - slope - 2.0 / 16777216.0 > nearest_at(ivec2(gl_FragCoord.xy))) covers = 0.0;
 #endif
 }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "render/gl/noise.h"
 #include "render/gl/shaders.h"
-#include "render/gl/target.h"
 #include "render/matrix.h"
 
 namespace render::gl {
@@ -20,10 +20,25 @@ void attribute(GLuint i, int size, std::size_t stride, std::size_t offset) {
                         reinterpret_cast<const void*>(offset * sizeof(float)));
 }
 
+/// Where corners lie, and what lies between them; the whole picture if one lies behind the eye or far aside.
+Rectangle reach_of(const std::vector<float>& records, std::size_t count, int width, int height) {
+  float x0 = 1e9f, x1 = -1e9f, y0 = 1e9f, y1 = -1e9f;
+  for (const float* r = records.data(); r < records.data() + kRecord * count; r += kRecord) {
+    if (r[3] != 1) return {0, 0, width, height};
+    x0 = std::min(x0, r[0]);
+    x1 = std::max(x1, r[0]);
+    y0 = std::min(y0, r[1]);
+    y1 = std::max(y1, r[1]);
+  }
+  const int x = static_cast<int>(std::floor(x0)), y = static_cast<int>(std::floor(y0));
+  return both({x, y, static_cast<int>(x1) + 1 - x, static_cast<int>(y1) + 1 - y}, {0, 0, width, height});
+}
+
 }  // namespace
 
 MarkPass::MarkPass()
-    : flat_("", glsl::mark_vert, glsl::mark_frag), on_terrain_("#define ON_TERRAIN\n", glsl::mark_vert, glsl::mark_frag) {
+    : flat_("", glsl::mark_vert, glsl::mark_frag),
+      on_terrain_(std::string("#define ON_TERRAIN\n") + glsl::nearest, glsl::mark_vert, glsl::mark_frag) {
   glBindVertexArray(*array_);
   glBindBuffer(GL_ARRAY_BUFFER, *records_buffer_);
   attribute(0, 4, kRecord, 0);
@@ -58,7 +73,8 @@ void MarkPass::begin(const DrawList& list, const FrameSetup& frame, int width, i
   for (std::vector<float>& one : places) one.resize(count + kRoom);
   std::vector<float> records(kRecord * (count + kRoom));
   shade::Projection p{};
-  std::copy(frame.block.world_to_clip.begin(), frame.block.world_to_clip.end(), p.model_to_clip);
+  const Matrix4 clip = to_gl(frame.world_to_clip);
+  std::copy(clip.begin(), clip.end(), p.model_to_clip);
   p.half_width = static_cast<float>(width) / 2;
   p.half_height = static_cast<float>(height) / 2;
   shade::kernels().project(
@@ -70,22 +86,18 @@ void MarkPass::begin(const DrawList& list, const FrameSetup& frame, int width, i
   };
   put(records_buffer_, records);
   put(marks_buffer_, marks);
-  glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
-  if (width_ != width || height_ != height) {
-    attach(cover_, GL_COLOR_ATTACHMENT0, {GL_R8, GL_RED, GL_UNSIGNED_BYTE}, width, height);
-    check_target("picture of the marks", width, height);
-  }
-  width_ = width;
-  height_ = height;
   side_ = viewport_side(width, height);
+  reach_ = reach_of(records, count, width, height);
 }
 
 /// Part of what lies under them: one is nothing, and each mark takes its share of what the others let through.
-void MarkPass::draw_strips(const Program& program) {
-  glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
-  glViewport(0, 0, side_, side_);
-  const float all[4] = {1, 1, 1, 1};
-  glClearBufferfv(GL_COLOR, 0, all);
+template <class Bind>
+void MarkPass::draw_strips(const Program& program, const Rectangle& r, Bind bind) {
+  read_ = both(reach_, r);
+  if (strips_.empty() || read_.width == 0 || read_.height == 0) return;
+  target_.begin(reach_, side_, side_);
+  target_.confine(read_);
+  bind();
   program.use();
   program.set("per_viewport", 2 / static_cast<float>(side_));
   glActiveTexture(GL_TEXTURE0);
@@ -95,29 +107,17 @@ void MarkPass::draw_strips(const Program& program) {
   glBlendFunc(GL_ZERO, GL_ONE_MINUS_SRC_COLOR);
   for (const Strip& strip : strips_) glDrawArrays(GL_TRIANGLE_STRIP, strip.first, strip.count);
   glDisable(GL_BLEND);
-}
-
-void MarkPass::read(const Rectangle& r) {
-  read_ = r;
-  through_.resize(static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height));
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(r.x, r.y, r.width, r.height, GL_RED, GL_UNSIGNED_BYTE, through_.data());
+  glDisable(GL_SCISSOR_TEST);
+  through_.resize(static_cast<std::size_t>(read_.width) * static_cast<std::size_t>(read_.height));
+  target_.read(read_, through_.data());
 }
 
 void MarkPass::draw() {
-  if (strips_.empty()) return;
-  draw_strips(flat_);
-  read({0, 0, width_, height_});
+  draw_strips(flat_, reach_, [] {});
 }
 
 void MarkPass::draw_on(const ObjectPass& objects, const Rectangle& r, int samples) {
-  if (strips_.empty() || r.height == 0) return;
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(r.x, r.y, r.width, r.height);
-  objects.bind_depth(on_terrain_, samples);
-  draw_strips(on_terrain_);
-  glDisable(GL_SCISSOR_TEST);
-  read(r);
+  draw_strips(on_terrain_, r, [&] { objects.bind_depth(on_terrain_, samples, reach_.x, reach_.y); });
 }
 
 void MarkPass::lay(int y0, int y1, const shade::Canvas& canvas) {

@@ -7,6 +7,7 @@
 #include "render/gl/frame_block.h"
 #include "render/gl/object_pass.h"
 #include "render/gl/program.h"
+#include "render/gl/target.h"
 #include "render/shade/kernels.h"
 
 namespace render::gl {
@@ -24,21 +25,22 @@ class MarkPass {
   void lay(int y0, int y1, const shade::Canvas&);
 
  private:
-  void draw_strips(const Program&);
-  void read(const Rectangle&);
+  template <class Bind>  // of what the program looks up beside the grain
+  void draw_strips(const Program&, const Rectangle&, Bind);
 
   struct Strip {
     GLint first;
     GLsizei count;
   };
   Program flat_, on_terrain_;
-  Texture noise_, cover_;
-  Framebuffer frame_;
+  Texture noise_;
+  Target target_{"picture of the marks", {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1}, false};
   VertexArray array_;
   Buffer records_buffer_, marks_buffer_;
-  int width_ = 0, height_ = 0, side_ = 0;
+  int side_ = 0;  // of the viewport
   std::vector<Strip> strips_;
-  Rectangle read_;  // what of the picture `through_` holds
+  Rectangle reach_;  // where they can be seen
+  Rectangle read_;   // what of the picture `through_` holds
   std::vector<std::uint8_t> through_;
 };
 

@@ -1,5 +1,5 @@
 // Visibility buffer: the number of the triangle that a sample sees.
-uniform int first;  // of the draw call's triangles
+flat in int name;
 layout(location = 0) out int triangle;
 
 #ifdef GLASS
@@ -30,5 +30,5 @@ void main() {
 #ifdef WIRES
   if (!on_wire()) discard;
 #endif
-  triangle = first + gl_PrimitiveID;
+  triangle = name;
 }

@@ -7,6 +7,7 @@
 #include "render/gl/frame_block.h"
 #include "render/gl/pieces.h"
 #include "render/gl/program.h"
+#include "render/gl/target.h"
 #include "render/gl/triangles.h"
 
 namespace render::gl {
@@ -20,18 +21,15 @@ class ObjectPass {
   /// Of the band, row by row, lowest first: numbers of triangles, 0 where nothing is seen.
   const std::int32_t* names() const { return names_.data(); }
   Triangles& triangles() { return triangles_; }
-  /// For a program that asks how near the things of the band are: its sampler `depth_map` and where the band lies.
-  void bind_depth(const Program&, int samples) const;
+  /// For a program that asks how near the things of the band are, and whose picture begins at x, y of the whole one: what
+  /// nearest.glsl wants to know.
+  void bind_depth(const Program&, int samples, int x, int y) const;
 
  private:
-  void fit(int width, int height);
-
   Triangles triangles_;
   Program plain_, glass_, wires_;
-  Texture name_, depth_;
-  Framebuffer frame_;
-  int width_ = 0, height_ = 0;  // [samples] of the textures
-  Rectangle drawn_;             // [samples]
+  Target target_{"visibility buffer", {GL_R32I, GL_RED_INTEGER, GL_INT, 0}, true};
+  Rectangle drawn_;  // [samples]
   std::vector<std::int32_t> names_;
 };
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "render/gl/shaders.h"
-#include "render/gl/target.h"
 #include "render/matrix.h"
 
 namespace render::gl {
@@ -19,7 +18,8 @@ constexpr std::size_t kFloats = 12;  // a vertex: corner 3, tint 4, shape 3, ext
 }  // namespace
 
 OverlayPass::OverlayPass()
-    : in_front_("", glsl::line_vert, glsl::line_frag), behind_("#define BEHIND_THINGS\n", glsl::line_vert, glsl::line_frag) {
+    : in_front_("", glsl::line_vert, glsl::line_frag),
+      behind_(std::string("#define BEHIND_THINGS\n") + glsl::nearest, glsl::line_vert, glsl::line_frag) {
   glBindVertexArray(*array_);
   glBindBuffer(GL_ARRAY_BUFFER, *buffer_);
   std::size_t offset = 0;
@@ -152,23 +152,15 @@ void OverlayPass::begin(const DrawList& list, int width, int height) {
   if (vertices_.empty()) return;
   glBindBuffer(GL_ARRAY_BUFFER, *buffer_);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices_.size() * sizeof(float)), vertices_.data(), GL_STREAM_DRAW);
-  glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
-  if (target_width_ != width || target_height_ != height) {
-    target_width_ = width;
-    target_height_ = height;
-    attach(colour_, GL_COLOR_ATTACHMENT0, {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE}, width, height);
-    check_target("picture of the lines", width, height);
-  }
-  const float nothing[4] = {};
-  glClearBufferfv(GL_COLOR, 0, nothing);
+  reach_ = around();
+  if (reach_.width > 0 && reach_.height > 0) target_.begin(reach_, width, height);
 }
 
 void OverlayPass::draw(const Program& program, const Rectangle& r, std::size_t first, std::size_t count) {
-  if (count == 0 || r.width <= 0 || r.height <= 0) return;
-  glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
-  glViewport(0, 0, width_, height_);
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(r.x, r.y, r.width, r.height);
+  const Rectangle seen = both(r, reach_);
+  if (count == 0 || seen.width == 0 || seen.height == 0) return;
+  target_.bind();
+  target_.confine(seen);
   program.use();
   program.set("frame", static_cast<float>(width_), static_cast<float>(height_));
   glEnable(GL_BLEND);
@@ -185,11 +177,10 @@ void OverlayPass::draw_behind(const Rectangle& r) {
 
 void OverlayPass::draw_behind(const ObjectPass& objects, const Rectangle& r, int samples) {
   if (behind_count_ == 0) return;
-  objects.bind_depth(behind_, samples);
+  objects.bind_depth(behind_, samples, reach_.x, reach_.y);
   draw(behind_, r, 0, behind_count_);
 }
 
-/// What the vertices reach, on the picture.
 Rectangle OverlayPass::around() const {
   float x0 = static_cast<float>(width_), y0 = static_cast<float>(height_), x1 = 0, y1 = 0;
   for (std::size_t i = 0; i < vertices_.size(); i += kFloats) {
@@ -204,17 +195,15 @@ Rectangle OverlayPass::around() const {
 }
 
 void OverlayPass::finish(const shade::Canvas& canvas) {
-  const Rectangle r = around();
-  if (vertices_.empty() || r.width <= 0 || r.height <= 0) return;
-  draw(in_front_, r, behind_count_, vertices_.size() / kFloats - behind_count_);
-  glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
-  lines_.resize(4 * static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height));
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glReadPixels(r.x, r.y, r.width, r.height, GL_RGBA, GL_UNSIGNED_BYTE, lines_.data());
-  lay(r, canvas);
+  if (vertices_.empty() || reach_.width == 0 || reach_.height == 0) return;
+  draw(in_front_, reach_, behind_count_, vertices_.size() / kFloats - behind_count_);
+  lines_.resize(4 * static_cast<std::size_t>(reach_.width) * static_cast<std::size_t>(reach_.height));
+  target_.read(reach_, lines_.data());
+  lay(canvas);
 }
 
-void OverlayPass::lay(const Rectangle& r, const shade::Canvas& canvas) {
+void OverlayPass::lay(const shade::Canvas& canvas) {
+  const Rectangle& r = reach_;
   const std::uint8_t* from = lines_.data();
   for (int y = r.y; y < r.y + r.height; ++y) {
     std::uint8_t* to = canvas.pixels + 4 * (y * canvas.pitch + r.x);

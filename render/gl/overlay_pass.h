@@ -8,6 +8,7 @@
 
 #include "render/gl/object_pass.h"
 #include "render/gl/program.h"
+#include "render/gl/target.h"
 #include "render/shade/kernels.h"
 
 namespace render::gl {
@@ -36,17 +37,17 @@ class OverlayPass {
   void arrow(const ArrowItem&, float extra, const Float4& colour);
   void draw(const Program&, const Rectangle&, std::size_t first, std::size_t count);
   Rectangle around() const;
-  void lay(const Rectangle&, const shade::Canvas&);
+  void lay(const shade::Canvas&);
 
   Program in_front_, behind_;
-  Texture colour_;
-  Framebuffer frame_;
+  Target target_{"picture of the lines", {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 0}, false};
+  Rectangle reach_;  // what the vertices reach, on the picture
   VertexArray array_;
   Buffer buffer_;
   std::vector<float> vertices_;
   std::size_t behind_count_ = 0;  // of the vertices, at their beginning
   std::array<float, 16> clip_{};
-  int width_ = 0, height_ = 0, target_width_ = 0, target_height_ = 0;
+  int width_ = 0, height_ = 0;
   float scale_ = 1;
   std::vector<std::uint8_t> lines_;  // premultiplied
 };

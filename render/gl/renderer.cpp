@@ -99,7 +99,6 @@ void Renderer::draw(const DrawList& list, Image& out) {
   watch.lap(Pass::set_up);
   r.shadow.draw(effort, pieces, frame);
   watch.lap(Pass::shadow);
-  const shade::FrameData data = frame_data(frame.block);
   const shade::Maps maps = r.shadow.maps(effort, list.road);
   r.background.begin(list, frame, r.shadow.bounds(), maps, canvas, effort.ground_step);
   r.marks.begin(list, frame, width, height);
@@ -126,7 +125,7 @@ void Renderer::draw(const DrawList& list, Image& out) {
     draw_ground(done, y, nullptr);
     done = y + band.height;
     draw_ground(y, done, r.covered.data());
-    r.light.draw({data, maps, r.materials.rows(), terrain, effort.samples}, r.objects, canvas);
+    r.light.draw({frame.data, maps, r.materials.rows(), terrain, effort.samples}, r.objects, canvas);
     if (terrain) r.marks.lay(y, done, canvas);
     watch.lap(Pass::light);
   }

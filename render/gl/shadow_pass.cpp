@@ -5,7 +5,6 @@
 
 #include "render/gl/noise.h"
 #include "render/gl/shaders.h"
-#include "render/gl/target.h"
 
 namespace render::gl {
 namespace {
@@ -53,34 +52,25 @@ void ShadowPass::draw(const Effort& cost, const std::vector<Piece>& pieces, cons
   if (!frame.casts) return;
   const int size = cost.shadow_map_size;
   draw_map(size, pieces, frame);
-  const FrameBlock& b = frame.block;
-  bounds_.build(depth_.data() + size + 3, size, size + 2, reach(cost, b.shadow[0]), reach(cost, b.shadow[1]));
+  const shade::FrameData& f = frame.data;
+  const OccluderRows& o = frame.occluders;
+  bounds_.build(depth_.data() + size + 3, size, size + 2, reach(cost, f.shadow[0]), reach(cost, f.shadow[1]));
   const int side = cost.occlusion_size;
   occlusion_.resize(static_cast<std::size_t>(side + 2) * static_cast<std::size_t>(side + 2));
-  shade::kernels().occlusion(frame_data(b),
-                             {b.counts[0], b.counts[1], b.round_rows[0].data(), b.box_rows[0].data(), b.box_half[0].data()}, side,
-                             occlusion_.data());
+  shade::kernels().occlusion(
+      f, {static_cast<int>(o.rounds), static_cast<int>(o.boxes), o.round_rows.data(), o.box_rows.data(), o.box_half.data()}, side,
+      occlusion_.data());
 }
 
 void ShadowPass::draw_map(int size, const std::vector<Piece>& pieces, const FrameSetup& frame) {
-  glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
-  if (size_ != size) {
-    size_ = size;
-    attach(map_, GL_DEPTH_ATTACHMENT, {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT}, size, size);
-    glDrawBuffer(GL_NONE);
-    glReadBuffer(GL_NONE);
-    check_target("shadow map", size, size);
-    const std::size_t pitch = static_cast<std::size_t>(size) + 2;
-    depth_.assign(pitch * pitch, 1.0f);
-  }
-  const double texel = static_cast<double>(std::max(frame.block.shadow[0], frame.block.shadow[1]));
-  triangles_.collect_casters({frame.world_to_shadow_clip, size, size, {0, 0, size, size}}, pieces, texel);
+  const Rectangle whole{0, 0, size, size};
+  depth_.resize(static_cast<std::size_t>(size + 2) * static_cast<std::size_t>(size + 2), 1.0f);
+  const double texel = static_cast<double>(std::max(frame.data.shadow[0], frame.data.shadow[1]));
+  triangles_.collect_casters({frame.world_to_shadow_clip, size, size, whole}, pieces, texel);
   triangles_.upload();
-  glViewport(0, 0, size, size);
+  target_.begin(whole, size, size);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
-  const float farthest = 1;
-  glClearBufferfv(GL_DEPTH, 0, &farthest);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.5f, 4.0f);
   program_.use();
@@ -88,9 +78,7 @@ void ShadowPass::draw_map(int size, const std::vector<Piece>& pieces, const Fram
   for (const Triangles::Batch& batch : triangles_.batches()) triangles_.draw(batch);
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_DEPTH_TEST);
-  glPixelStorei(GL_PACK_ROW_LENGTH, size + 2);
-  glReadPixels(0, 0, size, size, GL_DEPTH_COMPONENT, GL_FLOAT, depth_.data() + size + 3);
-  glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+  target_.read(whole, depth_.data() + size + 3, size + 2);
 }
 
 shade::Maps ShadowPass::maps(const Effort& cost, const RoadLook& road) const {

@@ -7,6 +7,7 @@
 #include "render/gl/depth_pyramid.h"
 #include "render/gl/pieces.h"
 #include "render/gl/program.h"
+#include "render/gl/target.h"
 #include "render/gl/triangles.h"
 #include "render/renderer.h"
 #include "render/shade/kernels.h"
@@ -27,9 +28,7 @@ class ShadowPass {
 
   Triangles triangles_;
   Program program_;
-  Texture map_;
-  Framebuffer frame_;
-  int size_ = 0;  // [texels] of the texture, a side
+  Target target_{"shadow map"};
   std::vector<std::int32_t> grain_;
   std::vector<float> depth_;      // of the map, with a rim of depth 1
   std::vector<float> occlusion_;  // likewise

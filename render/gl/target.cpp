@@ -5,7 +5,11 @@
 #include "render/error.h"
 
 namespace render::gl {
+namespace {
 
+constexpr TexelFormat kDepth{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 1};
+
+/// Gives the texture this size and hangs it into the bound framebuffer.
 void attach(const Texture& t, GLenum attachment, const TexelFormat& f, int width, int height) {
   glBindTexture(GL_TEXTURE_2D, *t);
   glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(f.internal), width, height, 0, f.format, f.type, nullptr);
@@ -14,14 +18,63 @@ void attach(const Texture& t, GLenum attachment, const TexelFormat& f, int width
   glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, *t, 0);
 }
 
-void check_target(const char* name, int width, int height) {
+}  // namespace
+
+/// Not smaller than asked, and not much larger: what is cleared and never seen costs time.
+void Target::fit(int width, int height) {
+  if (width <= width_ && height <= height_ && 4 * width > 3 * width_ && 4 * height > 3 * height_) return;
+  constexpr int kStep = 64;
+  width_ = (width + kStep - 1) / kStep * kStep;
+  height_ = (height + kStep - 1) / kStep * kStep;
+  if (deep_) attach(depth_, GL_DEPTH_ATTACHMENT, kDepth, width_, height_);
+  if (colour_format_.internal != 0) {
+    attach(colour_, GL_COLOR_ATTACHMENT0, colour_format_, width_, height_);
+  } else {
+    glDrawBuffer(GL_NONE);
+    glReadBuffer(GL_NONE);
+  }
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER), error = glGetError();
   if (status == GL_FRAMEBUFFER_COMPLETE && error == GL_NO_ERROR) return;
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   throw RenderError(
-      fmt::format("creating the {}: OpenGL refuses {} x {} samples (status 0x{:x}, error 0x{:x}; it allows {} a side)", name, width,
-                  height, status, error, largest));
+      fmt::format("creating the {}: OpenGL refuses {} x {} samples (status 0x{:x}, error 0x{:x}; it allows {} a side)", name_,
+                  width_, height_, status, error, largest));
+}
+
+void Target::begin(const Rectangle& r, int width, int height) {
+  glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
+  fit(r.width, r.height);
+  part_ = r;
+  viewport_width_ = width;
+  viewport_height_ = height;
+  bind();
+  const float farthest = kDepth.nothing, none = colour_format_.nothing, colour[] = {none, none, none, none};
+  const GLint nothing[4] = {};
+  if (deep_) glClearBufferfv(GL_DEPTH, 0, &farthest);
+  if (colour_format_.format == GL_RED_INTEGER)
+    glClearBufferiv(GL_COLOR, 0, nothing);
+  else if (colour_format_.internal != 0)
+    glClearBufferfv(GL_COLOR, 0, colour);
+}
+
+void Target::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
+  glViewport(-part_.x, -part_.y, viewport_width_, viewport_height_);
+}
+
+void Target::confine(const Rectangle& r) const {
+  const Rectangle common = both(r, part_);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(common.x - part_.x, common.y - part_.y, common.width, common.height);
+}
+
+void Target::read(const Rectangle& r, void* out, int pitch) const {
+  const TexelFormat& f = colour_format_.internal != 0 ? colour_format_ : kDepth;
+  glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glPixelStorei(GL_PACK_ROW_LENGTH, pitch);
+  glReadPixels(r.x - part_.x, r.y - part_.y, r.width, r.height, f.format, f.type, out);
 }
 
 }  // namespace render::gl

@@ -1,17 +1,45 @@
 // Textures that are drawn into.
 #pragma once
 
+#include "render/gl/frame_block.h"
 #include "render/gl/names.h"
 
 namespace render::gl {
 
 struct TexelFormat {
   GLenum internal, format, type;
+  float nothing;  // what a texel holds before anything is drawn
 };
 
-/// Gives the texture this size and hangs it into the bound framebuffer.
-void attach(const Texture&, GLenum attachment, const TexelFormat&, int width, int height);
-/// Throws RenderError if OpenGL refuses the bound framebuffer; says what was asked for.
-void check_target(const char* name, int width, int height);
+/// A framebuffer with a colour, a depth of 32 bits, or both, no larger than the part of the picture that is drawn asks for.
+class Target {
+ public:
+  /// Colour and perhaps depth. `name`: for messages.
+  Target(const char* name, const TexelFormat& colour, bool deep) : name_(name), colour_format_(colour), deep_(deep) {}
+  /// Depth alone.
+  explicit Target(const char* name) : name_(name), deep_(true) {}
+  /// Holds nothing in the part r of a picture that is drawn with a viewport of `width` by `height`, and is drawn into from here on.
+  /// Throws RenderError if OpenGL refuses the size; says what was asked for.
+  void begin(const Rectangle& r, int width, int height);
+  /// Is drawn into again.
+  void bind() const;
+  /// What was begun is drawn into where it lies in r, up to `glDisable(GL_SCISSOR_TEST)`.
+  void confine(const Rectangle& r) const;
+  /// What it holds of r, a part of what was begun; `pitch` texels from row to row, 0: no more than there are.
+  void read(const Rectangle& r, void* out, int pitch = 0) const;
+  const Texture& depth() const { return depth_; }
+
+ private:
+  void fit(int width, int height);
+
+  const char* name_;
+  TexelFormat colour_format_{};  // internal format 0: none
+  bool deep_;
+  Texture colour_, depth_;
+  Framebuffer frame_;
+  int width_ = 0, height_ = 0;  // of the textures
+  Rectangle part_;
+  int viewport_width_ = 0, viewport_height_ = 0;
+};
 
 }  // namespace render::gl

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 
 #include "render/matrix.h"
 
 namespace render::gl {
 namespace {
 
-constexpr std::size_t kRoom = 7, kRecord = 8, kPlace = 4;  // [numbers]
+constexpr std::size_t kRoom = 7, kRecord = 8, kPlace = 4, kWired = 3;  // [numbers]
 constexpr unsigned kAll = 15;
 
 /// Of four samples so many stay as the opacity says, spread evenly.
@@ -44,6 +45,11 @@ double area_of(const float* a, const float* b, const float* c) {
          product(c, a) * static_cast<double>(b[3]);
 }
 
+/// Of a corner's place, which is a multiple of 1/64 and within kFarthest of shade/project.h.
+int rounded_down(float x) {
+  return static_cast<int>(x + 32768) - 32768;
+}
+
 /// Whether the middle of a sample of the window can lie in the triangle.
 bool may_cover(const float* a, const float* b, const float* c, const Rectangle& window) {
   if (a[3] != 1 || b[3] != 1 || c[3] != 1) return true;  // OpenGL cuts it
@@ -52,7 +58,7 @@ bool may_cover(const float* a, const float* b, const float* c, const Rectangle& 
     const float from = static_cast<float>(i == 0 ? window.x : window.y);
     const float size = static_cast<float>(i == 0 ? window.width : window.height);
     if (largest < from || least > from + size) return false;
-    if (std::ceil(least - 0.5f) > std::floor(largest - 0.5f)) return false;
+    if (-rounded_down(0.5f - least) > rounded_down(largest - 0.5f)) return false;
   }
   return true;
 }
@@ -69,23 +75,21 @@ struct Triangles::Run {
 
 Triangles::Triangles() {
   glBindVertexArray(*array_);
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, *index_buffer_);
-  const auto attribute = [](GLuint i, int size, std::size_t stride, std::size_t offset) {
-    glEnableVertexAttribArray(i);
-    glVertexAttribPointer(i, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride * sizeof(float)),
-                          reinterpret_cast<const void*>(offset * sizeof(float)));
-  };
-  glBindBuffer(GL_ARRAY_BUFFER, *record_buffer_);
-  attribute(0, 4, kRecord, 0);
-  attribute(1, 1, kRecord, 4);
-  glBindBuffer(GL_ARRAY_BUFFER, *place_buffer_);
-  attribute(2, 4, kPlace, 0);
+  for (GLuint i = 0; i < 4; ++i) glEnableVertexAttribArray(i);
+  const auto at = [](std::size_t bytes) { return reinterpret_cast<const void*>(bytes); };
+  glBindBuffer(GL_ARRAY_BUFFER, *corner_buffer_);
+  glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(Corner), at(offsetof(Corner, x)));
+  glVertexAttribPointer(1, 1, GL_FLOAT, GL_FALSE, sizeof(Corner), at(offsetof(Corner, height)));
+  glVertexAttribIPointer(2, 1, GL_INT, sizeof(Corner), at(offsetof(Corner, name)));
+  glBindBuffer(GL_ARRAY_BUFFER, *wired_buffer_);
+  glVertexAttribPointer(3, kWired, GL_FLOAT, GL_FALSE, 0, nullptr);
 }
 
 void Triangles::clear() {
   vertex_count_ = first_vertex_ = 0;
   last_geometry_ = nullptr;
-  indices_.clear();
+  corners_.clear();
+  wired_.clear();
   batches_.clear();
   triangles_.assign(1, {});
 }
@@ -135,11 +139,22 @@ shade::Triangle Triangles::describe(const Piece& piece, const Run& run, const st
           side};
 }
 
+/// The last triangle that was described, or one that need not be.
+void Triangles::put(const std::uint32_t* v, bool described, bool wires) {
+  if (wires) wired_.resize(kWired * corners_.size());
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float *record = &records_[kRecord * v[k]], scale = record[4];
+    const float* place = described ? &places_[kPlace * v[k]] : nullptr;
+    corners_.push_back({record[0], record[1], record[2], record[3], place ? place[3] * scale : 0,
+                        static_cast<std::int32_t>(triangles_.size()) - 1});
+    for (std::size_t i = 0; wires && i < kWired; ++i) wired_.push_back(place[i] * scale);
+  }
+}
+
 void Triangles::add(const View& view, const Piece& piece, const Run& run) {
   const unsigned kept = run.describe ? kept_samples(piece) : kAll;
   const bool wires = run.describe && piece.kind == kWireKind;
-  const std::size_t before = indices_.size() / 3;
-  indices_.reserve(indices_.size() + run.count);
+  const std::size_t before = corners_.size() / 3;
   for (std::size_t t = 0; t + 2 < run.count; t += 3) {
     std::uint32_t v[3];
     const float* at[3];
@@ -154,9 +169,9 @@ void Triangles::add(const View& view, const Piece& piece, const Run& run) {
         continue;
       triangles_.push_back(describe(piece, run, v, area));
     }
-    indices_.insert(indices_.end(), v, v + 3);
+    put(v, run.describe, wires);
   }
-  const std::size_t more = indices_.size() / 3 - before;
+  const std::size_t more = corners_.size() / 3 - before;
   if (more == 0) return;
   if (!batches_.empty() && batches_.back().kept == kept && !wires && !batches_.back().wires)
     batches_.back().count += more;
@@ -186,20 +201,17 @@ void Triangles::collect_casters(const View& view, const std::vector<Piece>& piec
 }
 
 void Triangles::upload() {
-  const auto put = [](GLenum kind, const Buffer& buffer, const auto& list, std::size_t count) {
-    glBindBuffer(kind, *buffer);
-    glBufferData(kind, static_cast<GLsizeiptr>(count * sizeof list[0]), list.data(), GL_STREAM_DRAW);
+  const auto put = [](const Buffer& buffer, const auto& list) {
+    glBindBuffer(GL_ARRAY_BUFFER, *buffer);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.size() * sizeof list[0]), list.data(), GL_STREAM_DRAW);
   };
-  glBindVertexArray(*array_);
-  put(GL_ARRAY_BUFFER, record_buffer_, records_, std::min(records_.size(), kRecord * vertex_count_));
-  put(GL_ARRAY_BUFFER, place_buffer_, places_, std::min(places_.size(), kPlace * vertex_count_));
-  put(GL_ELEMENT_ARRAY_BUFFER, index_buffer_, indices_, indices_.size());
+  put(corner_buffer_, corners_);
+  if (!wired_.empty()) put(wired_buffer_, wired_);
 }
 
 void Triangles::draw(const Batch& batch) const {
   glBindVertexArray(*array_);
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * batch.count), GL_UNSIGNED_INT,
-                 reinterpret_cast<const void*>(3 * batch.first * sizeof(std::uint32_t)));
+  glDrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * batch.first), static_cast<GLsizei>(3 * batch.count));
 }
 
 int viewport_side(int width, int height) {

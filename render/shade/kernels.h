@@ -7,7 +7,8 @@
 
 namespace render::shade {
 
-/// What the whole frame shares; names and layout of the numbers as in FrameBlock.
+/// What the whole frame shares: camera, sun, ground, where the shadow map lies. What sky and bare ground depend on stands first:
+/// equal bytes up to `world_to_shadow` mean an equal background.
 struct FrameData {
   float clip_to_world[16];
   float eye[4], forward[4], sun[4], ground[4], road[4], frame[4];

@@ -15,10 +15,9 @@ using namespace render::gl;
 
 constexpr int kSamples = 4, kShadowSize = 2048;
 
-// the beginning of struct FrameBlock in render/gl/frame_block.h, std140
+// the beginning of shade::FrameData, std140
 const char* const kFrameBlock = R"(
 layout(std140) uniform Frame {
-  mat4 world_to_clip;
   mat4 clip_to_world;
   vec4 eye;               // xyz; w: 1 orthographic
   vec4 forward;           // xyz view direction
@@ -83,6 +82,7 @@ const char* const kThingVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 uniform mat4 model;
+uniform mat4 world_to_clip;
 out vec3 at_W;
 out vec3 normal_W;
 void main() {
@@ -188,12 +188,15 @@ void PlainRenderer::draw_scene(const std::vector<Piece>& pieces, const FrameSetu
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, *shadow_depth_);
+  Matrix4 world_to_shadow;
+  std::copy_n(frame.data.world_to_shadow, 16, world_to_shadow.begin());
   ground_->use();
-  ground_->set("world_to_shadow", frame.block.world_to_shadow);
+  ground_->set("world_to_shadow", world_to_shadow);
   glBindVertexArray(*nothing_);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   thing_->use();
-  thing_->set("world_to_shadow", frame.block.world_to_shadow);
+  thing_->set("world_to_shadow", world_to_shadow);
+  thing_->set("world_to_clip", to_gl(frame.world_to_clip));
   for (const Piece& piece : pieces) {
     const float* row = materials_.rows() + 16 * piece.row;
     thing_->set("model", piece.model);
@@ -208,7 +211,7 @@ void PlainRenderer::draw(const DrawList& list, Image& out) {
   const std::vector<Piece> pieces = collect(list, geometry_, materials_, 0.2, height_, boxes);
   const FrameSetup frame = set_up_frame(list, boxes, width_, height_, kShadowSize);
   glBindBuffer(GL_UNIFORM_BUFFER, *block_);
-  glBufferData(GL_UNIFORM_BUFFER, offsetof(FrameBlock, world_to_shadow), &frame.block, GL_STREAM_DRAW);
+  glBufferData(GL_UNIFORM_BUFFER, offsetof(shade::FrameData, world_to_shadow), &frame.data, GL_STREAM_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, *block_);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);

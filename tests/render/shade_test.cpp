@@ -10,6 +10,7 @@
 #include "render/gl/ground_tiles.h"
 #include "render/gl/materials.h"
 #include "render/gl/noise.h"
+#include "render/matrix.h"
 #include "render/shade/kernels.h"
 
 namespace render::shade {
@@ -34,7 +35,7 @@ struct Street {
     box.centre = {0, 1, 0.8};
     box.half_edges = Eigen::Matrix3d::Identity() * 0.8;
     frame = gl::set_up_frame(list, {box}, kWidth, kHeight, kMap);
-    data = gl::frame_data(frame.block);
+    data = frame.data;
   }
   Maps maps(int filter) const {
     return {grain.data(), depth.data(), kMap, bounds.data(), 16, open.data(), kOcclusion, 0.05f, filter};
@@ -82,7 +83,8 @@ struct Heap {
         }
     }
     for (auto& list : mesh) list.resize(kRoom);
-    std::copy(street.frame.block.world_to_clip.begin(), street.frame.block.world_to_clip.end(), projection.model_to_clip);
+    const Matrix4 clip = to_gl(street.frame.world_to_clip);
+    std::copy(clip.begin(), clip.end(), projection.model_to_clip);
     for (const int i : {0, 5, 10, 15}) projection.model_to_world[i] = 1;
     projection.half_width = kWidth * kSamples / 2.0f;
     projection.half_height = kHeight * kSamples / 2.0f;

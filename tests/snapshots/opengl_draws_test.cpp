@@ -14,30 +14,20 @@ namespace {
 enum class Kind { none, things, shadows, marks, lines };
 Kind lost = Kind::none;
 
-/// What the shaders in use draw, by what they want to know.
-Kind kind_of_call(bool indexed) {
+/// What the shaders in use draw, by what they are told of a corner.
+Kind kind_of_call() {
   GLint program = 0;
   glGetIntegerv(GL_CURRENT_PROGRAM, &program);
-  const auto knows = [program](const char* uniform) { return glGetUniformLocation(static_cast<GLuint>(program), uniform) >= 0; };
-  if (indexed) return knows("first") ? Kind::things : Kind::shadows;
-  return knows("noise_map") ? Kind::marks : Kind::lines;
-}
-
-template <class Function>
-Function* next(const char* name) {
-  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+  const auto told = [program](const char* attribute) { return glGetAttribLocation(static_cast<GLuint>(program), attribute) >= 0; };
+  return told("number") ? Kind::things : told("mark") ? Kind::marks : told("tint") ? Kind::lines : Kind::shadows;
 }
 
 }  // namespace
 
-extern "C" void glDrawElements(GLenum mode, GLsizei count, GLenum type, const void* indices) {
-  if (kind_of_call(true) == lost) return;
-  next<void(GLenum, GLsizei, GLenum, const void*)>("glDrawElements")(mode, count, type, indices);
-}
-
 extern "C" void glDrawArrays(GLenum mode, GLint first, GLsizei count) {
-  if (kind_of_call(false) == lost) return;
-  next<void(GLenum, GLint, GLsizei)>("glDrawArrays")(mode, first, count);
+  if (kind_of_call() == lost) return;
+  static const auto next = reinterpret_cast<void (*)(GLenum, GLint, GLsizei)>(dlsym(RTLD_NEXT, "glDrawArrays"));
+  next(mode, first, count);
 }
 
 namespace {
