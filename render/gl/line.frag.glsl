@@ -1,7 +1,7 @@
 // The distance to a capsule, or to a taper cut square, tells how much of a pixel is covered.
-in vec4 colour;
-in vec3 at;
-in float depth;
+flat in vec4 colour;
+noperspective in vec3 at;
+noperspective in float depth;
 flat in vec2 size;
 layout(location = 0) out vec4 premultiplied;
 

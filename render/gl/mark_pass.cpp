@@ -86,7 +86,8 @@ void MarkPass::begin(const DrawList& list, const FrameSetup& frame, int width, i
   };
   put(records_buffer_, records);
   put(marks_buffer_, marks);
-  side_ = viewport_side(width, height);
+  width_ = width;
+  height_ = height;
   reach_ = reach_of(records, count, width, height);
 }
 
@@ -95,11 +96,11 @@ template <class Bind>
 void MarkPass::draw_strips(const Program& program, const Rectangle& r, Bind bind) {
   read_ = both(reach_, r);
   if (strips_.empty() || read_.width == 0 || read_.height == 0) return;
-  target_.begin(reach_, side_, side_);
+  target_.begin(reach_, width_, height_);
   target_.confine(read_);
   bind();
   program.use();
-  program.set("per_viewport", 2 / static_cast<float>(side_));
+  program.set("per_viewport", target_.per_viewport());
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, *noise_);
   glBindVertexArray(*array_);

@@ -37,7 +37,7 @@ class MarkPass {
   Target target_{"picture of the marks", {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1}, false};
   VertexArray array_;
   Buffer records_buffer_, marks_buffer_;
-  int side_ = 0;  // of the viewport
+  int width_ = 0, height_ = 0;
   std::vector<Strip> strips_;
   Rectangle reach_;  // where they can be seen
   Rectangle read_;   // what of the picture `through_` holds

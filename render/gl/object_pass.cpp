@@ -31,15 +31,14 @@ void ObjectPass::draw(const DrawList& list, const std::vector<Piece>& pieces, co
   const bool above = list.view.eye[2] > ground && !list.road.terrain;
   triangles_.collect({frame.world_to_clip, width * samples, height * samples, drawn_, ground, above}, pieces);
   triangles_.upload();
-  const int side = viewport_side(width * samples, height * samples);
-  target_.begin(drawn_, side, side);
+  target_.begin(drawn_, width * samples, height * samples);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   if (above) glEnable(GL_CLIP_DISTANCE0);
   for (const Triangles::Batch& batch : triangles_.batches()) {
     const Program& p = batch.wires ? wires_ : batch.kept != 15 ? glass_ : plain_;
     p.use();
-    p.set("per_viewport", 2 / static_cast<float>(side));
+    p.set("per_viewport", target_.per_viewport());
     if (batch.wires) p.set("axes", batch.axes);
     if (batch.kept != 15) p.set("kept", static_cast<int>(batch.kept));
     triangles_.draw(batch);

@@ -162,7 +162,7 @@ void OverlayPass::draw(const Program& program, const Rectangle& r, std::size_t f
   target_.bind();
   target_.confine(seen);
   program.use();
-  program.set("frame", static_cast<float>(width_), static_cast<float>(height_));
+  program.set("per_viewport", target_.per_viewport());
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glBindVertexArray(*array_);

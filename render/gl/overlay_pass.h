@@ -19,7 +19,7 @@ class OverlayPass {
   void begin(const DrawList&, int width, int height);
   /// Lines that pass behind things, in a part of the picture without things.
   void draw_behind(const Rectangle&);
-  /// In a band that the object pass holds.
+  /// In a part whose things the object pass holds.
   void draw_behind(const ObjectPass&, const Rectangle&, int samples);
   /// What is in front of everything, and all of it onto the canvas.
   void finish(const shade::Canvas&);

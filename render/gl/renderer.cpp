@@ -3,7 +3,6 @@
 #include "render/renderer.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "render/gl/background_pass.h"
@@ -22,12 +21,6 @@ namespace {
 using namespace gl;
 
 constexpr int kBandSamples = 8'500'000;  // that the object pass holds: 1080p at four samples in one band, 70 MB
-
-/// The four rectangles of a picture beside, below and above a fifth.
-std::array<Rectangle, 4> around(const Rectangle& r, int width, int height) {
-  const int right = r.x + r.width, top = r.y + r.height;
-  return {{{0, 0, width, r.y}, {0, r.y, r.x, r.height}, {right, r.y, width - right, r.height}, {0, top, width, height - top}}};
-}
 
 }  // namespace
 
@@ -118,7 +111,7 @@ void Renderer::draw(const DrawList& list, Image& out) {
   for (int y = objects.y; y < objects.y + objects.height; y += band_height) {
     const Rectangle band{objects.x, y, objects.width, std::min(band_height, objects.y + objects.height - y)};
     r.objects.draw(list, pieces, frame, width, height, effort.samples, band);
-    r.overlays.draw_behind(r.objects, band, effort.samples);
+    r.overlays.draw_behind(r.objects, {0, y, width, band.height}, effort.samples);
     if (terrain) r.marks.draw_on(r.objects, band, effort.samples);
     r.light.find(r.objects, band, effort.samples, canvas, r.covered.data());
     watch.lap(Pass::objects);
@@ -130,7 +123,9 @@ void Renderer::draw(const DrawList& list, Image& out) {
     watch.lap(Pass::light);
   }
   draw_ground(done, height, nullptr);
-  for (const Rectangle& free : around(objects, width, height)) r.overlays.draw_behind(free);
+  const int top = objects.y + objects.height;
+  r.overlays.draw_behind({0, 0, width, objects.y});
+  r.overlays.draw_behind({0, top, width, height - top});
   r.overlays.finish(canvas);
   watch.lap(Pass::lines);
   if (effort.scale > 1) r.reduce(out);

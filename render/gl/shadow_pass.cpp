@@ -74,7 +74,7 @@ void ShadowPass::draw_map(int size, const std::vector<Piece>& pieces, const Fram
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.5f, 4.0f);
   program_.use();
-  program_.set("per_viewport", 2 / static_cast<float>(size));
+  program_.set("per_viewport", target_.per_viewport());
   for (const Triangles::Batch& batch : triangles_.batches()) triangles_.draw(batch);
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_DEPTH_TEST);

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
+
 #include "render/error.h"
 
 namespace render::gl {
@@ -20,12 +23,12 @@ void attach(const Texture& t, GLenum attachment, const TexelFormat& f, int width
 
 }  // namespace
 
-/// Not smaller than asked, and not much larger: what is cleared and never seen costs time.
-void Target::fit(int width, int height) {
-  if (width <= width_ && height <= height_ && 4 * width > 3 * width_ && 4 * height > 3 * height_) return;
-  constexpr int kStep = 64;
-  width_ = (width + kStep - 1) / kStep * kStep;
-  height_ = (height + kStep - 1) / kStep * kStep;
+/// Not smaller than asked, and not much larger: what is cleared and never seen costs time. With some room to grow: so does a new
+/// one.
+void Target::fit(int width, int height, int most_width, int most_height) {
+  if (width <= width_ && height <= height_ && 3 * width > 2 * width_ && 3 * height > 2 * height_) return;
+  width_ = std::min(width + width / 6 + 32, most_width);
+  height_ = std::min(height + height / 6 + 32, most_height);
   if (deep_) attach(depth_, GL_DEPTH_ATTACHMENT, kDepth, width_, height_);
   if (colour_format_.internal != 0) {
     attach(colour_, GL_COLOR_ATTACHMENT0, colour_format_, width_, height_);
@@ -44,10 +47,9 @@ void Target::fit(int width, int height) {
 
 void Target::begin(const Rectangle& r, int width, int height) {
   glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
-  fit(r.width, r.height);
+  fit(r.width, r.height, width, height);
   part_ = r;
-  viewport_width_ = width;
-  viewport_height_ = height;
+  side_ = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(width, height))));
   bind();
   const float farthest = kDepth.nothing, none = colour_format_.nothing, colour[] = {none, none, none, none};
   const GLint nothing[4] = {};
@@ -60,7 +62,7 @@ void Target::begin(const Rectangle& r, int width, int height) {
 
 void Target::bind() const {
   glBindFramebuffer(GL_FRAMEBUFFER, *frame_);
-  glViewport(-part_.x, -part_.y, viewport_width_, viewport_height_);
+  glViewport(-part_.x, -part_.y, side_, side_);
 }
 
 void Target::confine(const Rectangle& r) const {

@@ -18,9 +18,11 @@ class Target {
   Target(const char* name, const TexelFormat& colour, bool deep) : name_(name), colour_format_(colour), deep_(deep) {}
   /// Depth alone.
   explicit Target(const char* name) : name_(name), deep_(true) {}
-  /// Holds nothing in the part r of a picture that is drawn with a viewport of `width` by `height`, and is drawn into from here on.
-  /// Throws RenderError if OpenGL refuses the size; says what was asked for.
+  /// Holds nothing in the part r of a picture of this size, and is drawn into from here on. Throws RenderError if OpenGL refuses
+  /// the size; says what was asked for.
   void begin(const Rectangle& r, int width, int height);
+  /// Two over the viewport's side, a power of two: what brings a pixel of the picture to clip space, but for 1.
+  float per_viewport() const { return 2 / static_cast<float>(side_); }
   /// Is drawn into again.
   void bind() const;
   /// What was begun is drawn into where it lies in r, up to `glDisable(GL_SCISSOR_TEST)`.
@@ -30,7 +32,7 @@ class Target {
   const Texture& depth() const { return depth_; }
 
  private:
-  void fit(int width, int height);
+  void fit(int width, int height, int most_width, int most_height);
 
   const char* name_;
   TexelFormat colour_format_{};  // internal format 0: none
@@ -39,7 +41,7 @@ class Target {
   Framebuffer frame_;
   int width_ = 0, height_ = 0;  // of the textures
   Rectangle part_;
-  int viewport_width_ = 0, viewport_height_ = 0;
+  int side_ = 0;  // of the viewport
 };
 
 }  // namespace render::gl

@@ -1,7 +1,6 @@
 #include "render/gl/triangles.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 
@@ -212,10 +211,6 @@ void Triangles::upload() {
 void Triangles::draw(const Batch& batch) const {
   glBindVertexArray(*array_);
   glDrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * batch.first), static_cast<GLsizei>(3 * batch.count));
-}
-
-int viewport_side(int width, int height) {
-  return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(width, height))));
 }
 
 }  // namespace render::gl

@@ -71,7 +71,4 @@ class Triangles {
   Buffer corner_buffer_, wired_buffer_;
 };
 
-/// Side of the square viewport of a picture of so many samples: a power of two.
-int viewport_side(int width, int height);
-
 }  // namespace render::gl
