@@ -9,18 +9,24 @@
 namespace render::gl {
 namespace {
 
+/// Throws with the driver's words unless the shader or program `id` came out well.
+template <class Status, class Words>
+void check(const char* what, GLuint id, GLenum asked, Status status, Words words) {
+  GLint good = 0;
+  status(id, asked, &good);
+  if (good) return;
+  std::array<char, 2000> log{};
+  words(id, static_cast<GLsizei>(log.size()), nullptr, log.data());
+  throw RenderError(fmt::format("{}: {}", what, log.data()));
+}
+
 GLuint compile(GLenum kind, const std::string& source) {
   const GLuint id = glCreateShader(kind);
   const char* text = source.c_str();
   glShaderSource(id, 1, &text, nullptr);
   glCompileShader(id);
-  GLint good = 0;
-  glGetShaderiv(id, GL_COMPILE_STATUS, &good);
-  if (!good) {
-    std::array<char, 2000> log{};
-    glGetShaderInfoLog(id, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw RenderError(fmt::format("compiling a {} shader: {}", kind == GL_VERTEX_SHADER ? "vertex" : "fragment", log.data()));
-  }
+  check(kind == GL_VERTEX_SHADER ? "compiling a vertex shader" : "compiling a fragment shader", id, GL_COMPILE_STATUS,
+        glGetShaderiv, glGetShaderInfoLog);
   return id;
 }
 
@@ -36,13 +42,7 @@ Program::Program(const std::string& defines, const std::string& vertex, const st
   glLinkProgram(id_);
   glDeleteShader(v);
   glDeleteShader(f);
-  GLint good = 0;
-  glGetProgramiv(id_, GL_LINK_STATUS, &good);
-  if (!good) {
-    std::array<char, 2000> log{};
-    glGetProgramInfoLog(id_, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw RenderError(fmt::format("linking shaders: {}", log.data()));
-  }
+  check("linking shaders", id_, GL_LINK_STATUS, glGetProgramiv, glGetProgramInfoLog);
   const GLuint block = glGetUniformBlockIndex(id_, "Frame");
   if (block != GL_INVALID_INDEX) glUniformBlockBinding(id_, block, 0);
   glUseProgram(id_);
@@ -65,14 +65,8 @@ void Program::set(const char* uniform, int x, int y, int z) const {
 void Program::set(const char* uniform, float value) const {
   glUniform1f(at(uniform), value);
 }
-void Program::set(const char* uniform, float x, float y) const {
-  glUniform2f(at(uniform), x, y);
-}
 void Program::set(const char* uniform, const Float3& v) const {
   glUniform3f(at(uniform), v[0], v[1], v[2]);
-}
-void Program::set(const char* uniform, const Float4& v) const {
-  glUniform4f(at(uniform), v[0], v[1], v[2], v[3]);
 }
 void Program::set(const char* uniform, const Matrix4& m) const {
   glUniformMatrix4fv(at(uniform), 1, GL_FALSE, m.data());

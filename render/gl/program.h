@@ -26,9 +26,7 @@ class Program {
   void set(const char* uniform, int value) const;
   void set(const char* uniform, int x, int y, int z) const;
   void set(const char* uniform, float value) const;
-  void set(const char* uniform, float x, float y) const;
   void set(const char* uniform, const Float3& value) const;
-  void set(const char* uniform, const Float4& value) const;
   void set(const char* uniform, const Matrix4& value) const;
 
  private:
