@@ -27,8 +27,8 @@ void attach(const Texture& t, GLenum attachment, const TexelFormat& f, int width
 /// one.
 void Target::fit(int width, int height, int most_width, int most_height) {
   if (width <= width_ && height <= height_ && 3 * width > 2 * width_ && 3 * height > 2 * height_) return;
-  width_ = std::min(width + width / 6 + 32, most_width);
-  height_ = std::min(height + height / 6 + 32, most_height);
+  width_ = std::min(width + width / 16 + 32, most_width);
+  height_ = std::min(height + height / 16 + 32, most_height);
   if (deep_) attach(depth_, GL_DEPTH_ATTACHMENT, kDepth, width_, height_);
   if (colour_format_.internal != 0) {
     attach(colour_, GL_COLOR_ATTACHMENT0, colour_format_, width_, height_);

@@ -154,6 +154,9 @@ void Triangles::add(const View& view, const Piece& piece, const Run& run) {
   const unsigned kept = run.describe ? kept_samples(piece) : kAll;
   const bool wires = run.describe && piece.kind == kWireKind;
   const std::size_t before = corners_.size() / 3;
+  // of a body with an inside, half is seen: room for that, for twice as much would be tens of megabytes
+  const std::size_t seen = run.facing == 0 ? run.count : run.count * 5 / 8, wanted = corners_.size() + seen;
+  if (corners_.capacity() < wanted) corners_.reserve(std::max(wanted, corners_.capacity() * 5 / 4));
   for (std::size_t t = 0; t + 2 < run.count; t += 3) {
     std::uint32_t v[3];
     const float* at[3];
