@@ -208,6 +208,8 @@ void Triangles::upload() {
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.size() * sizeof list[0]), list.data(), GL_STREAM_DRAW);
   };
   put(corner_buffer_, corners_);
+  constexpr std::size_t kKept = 1'000'000;
+  if (corners_.size() > kKept) std::vector<Corner>().swap(corners_);  // OpenGL has them
   if (!wired_.empty()) put(wired_buffer_, wired_);
 }
 
