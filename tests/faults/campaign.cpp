@@ -67,6 +67,8 @@ Files files_in(const fs::path& folder) {
         bool timed = false;
         for (const char* key : {"\"wall_s\"", "\"steps_per_s\"", "\"realtime_factor\""})
           timed = timed || line.find(key) != std::string::npos;
+        if (line.find("\"longest_step\": {") != std::string::npos)
+          while (std::getline(lines, line) && line.find('}') == std::string::npos) timed = true;
         if (!timed) bytes += line + "\n";
       }
     }
