@@ -56,10 +56,10 @@ std::string person(Dice& dice, const std::string& name, const char* pose, double
 }
 
 /// The text of an accident: x > 0 is where the first vehicle goes.
-std::string accident(unsigned seed) {
+std::string accident(unsigned seed, const char* law) {
   Dice dice(seed);
   std::string text =
-      fmt::format("[simulation]\nduration = \"1.5 s\"\ncontact_law = \"default_auto\"\nstep = \"{}\"\n", dice.one_of(kSteps));
+      fmt::format("[simulation]\nduration = \"1.5 s\"\ncontact_law = \"{}\"\nstep = \"{}\"\n", law, dice.one_of(kSteps));
   text += vehicle(dice, "car", dice.one_of(kVehicles).model, fmt::format("front = \"-1.3 {:.3f} m\"\n", dice.between(-0.9, 0.9)), 5,
                   100);
   const double kind = dice.between(0, 1);
@@ -93,30 +93,41 @@ double deepest(const engine::Recording& recording, bool of_vehicles) {
   return depth;
 }
 
-class RandomAccidents : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Group, RandomAccidents, testing::Range(0, kGroups));
+/// How deep a run may leave anything. Where nothing yields: as asked of a struck person. Where persons do, a panel is pressed in by
+/// 19 cm at most under a head, and by a limb's own thickness beside it; what goes beyond a part's thickness is told.
+struct Law {
+  const char* name;
+  double depth;  // [m]
+  const char* may_warn;
+};
+constexpr Law kLaws[] = {{"default_auto", 2e-3, "nothing"}, {"persons_yield", 0.25, "more than its thickness"}};
+
+class RandomAccidents : public testing::TestWithParam<std::tuple<int, Law>> {};
+INSTANTIATE_TEST_SUITE_P(Group, RandomAccidents, testing::Combine(testing::Range(0, kGroups), testing::ValuesIn(kLaws)),
+                         [](const auto& p) { return fmt::format("{}_{}", std::get<1>(p.param).name, std::get<0>(p.param)); });
 
 TEST_P(RandomAccidents, SayThatTheyAreRight) {
+  const auto [group, law] = GetParam();
   const char* many = std::getenv("CRASHREEL_ACCIDENTS");
   const char* alone = std::getenv("CRASHREEL_ACCIDENT");
   const int in_group = many ? (std::atoi(many) + kGroups - 1) / kGroups : kInGroup;
   double unexplained = 0, depth = 0, crush = 0, gap = 0, residual = 0, angle = 0;
   for (int k = 0; k < in_group; ++k) {
-    const auto seed = static_cast<unsigned>(k * kGroups + GetParam());
+    const auto seed = static_cast<unsigned>(k * kGroups + group);
     if (alone && static_cast<int>(seed) != std::atoi(alone)) continue;
     const scenes::testing::SceneFolder folder;
-    const scenes::Scene scene = folder.load(accident(seed));
+    const scenes::Scene scene = folder.load(accident(seed, law.name));
     const engine::Recording it = engine::simulate(scene.model);
-    ASSERT_FALSE(it.failure) << seed << ": " << it.failure->message << "\n" << accident(seed);
+    ASSERT_FALSE(it.failure) << seed << ": " << it.failure->message << "\n" << accident(seed, law.name);
     const auto& d = it.diagnostics;
     const double share = std::abs(it.snapshots.back().energies.residual) / (1e4 + energy(it.snapshots.front()));
-    const std::string which = fmt::format("accident {}:\n{}", seed, accident(seed));
-    EXPECT_TRUE(d.warnings.empty()) << which << d.warnings.front();
-    EXPECT_LT(share, 1e-3) << which;               // as of the crushed child; at a walk 10 J of what the limbs themselves carry
-    EXPECT_LT(deepest(it, false), 2e-3) << which;  // depth and angle: as asked of a struck person
-    EXPECT_LT(d.max_joint_gap, 1e-9) << which;     // a thousand times what rounding leaves
-    EXPECT_LT(degrees(d.max_joint_angle_error), 0.5) << which;
-    EXPECT_LT(d.max_solver_residual, 1e-3) << which;  // where limbs are wedged a problem or two stop short of 1e-5
+    const std::string which = fmt::format("accident {}:\n{}", seed, accident(seed, law.name));
+    for (const std::string& warning : d.warnings) EXPECT_NE(warning.find(law.may_warn), std::string::npos) << which << warning;
+    EXPECT_LT(share, 1e-3) << which;  // as of the crushed child; at a walk 10 J of what the limbs themselves carry
+    EXPECT_LT(deepest(it, false), law.depth) << which;
+    EXPECT_LT(d.max_joint_gap, 1e-9) << which;                  // a thousand times what rounding leaves
+    EXPECT_LT(degrees(d.max_joint_angle_error), 0.5) << which;  // as asked of a struck person
+    EXPECT_LT(d.max_solver_residual, 1e-3) << which;            // where limbs are wedged a problem or two stop short of 1e-5
     unexplained = std::max(unexplained, share);
     depth = std::max(depth, deepest(it, false));
     crush = std::max(crush, deepest(it, true));
@@ -124,7 +135,7 @@ TEST_P(RandomAccidents, SayThatTheyAreRight) {
     angle = std::max(angle, degrees(d.max_joint_angle_error));
     residual = std::max(residual, d.max_solver_residual);
   }
-  row("random accidents", fmt::format("{} of group {}", in_group, GetParam()),
+  row("random accidents", fmt::format("{} of group {}, {}", in_group, group, law.name),
       "%.4f %% of the energy unexplained, penetration %.2f mm (of vehicles %.0f), drift %.1e m, limits %.2f deg, residual %.1e m/s",
       100 * unexplained, 1e3 * depth, 1e3 * crush, gap, angle, residual);
 }
@@ -133,7 +144,7 @@ TEST_P(RandomAccidents, SayThatTheyAreRight) {
 TEST(RandomAccident, SaysWhereItFallsShort) {
   for (const unsigned seed : {533U, 1038U, 1416U}) {
     const scenes::testing::SceneFolder folder;
-    const engine::Recording it = engine::simulate(folder.load(accident(seed)).model);
+    const engine::Recording it = engine::simulate(folder.load(accident(seed, kLaws[0].name)).model);
     const auto& d = it.diagnostics;
     const auto told = [&](const char* words) {
       return std::any_of(d.warnings.begin(), d.warnings.end(),
