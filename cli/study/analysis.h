@@ -70,7 +70,8 @@ struct Study {
   std::vector<SeriesResult> series;   // the scene's own ladder first
   std::vector<Judgement> judgements;  // per quantity, measures first
   std::vector<InputRange> inputs;
-  double interval = 0;  // [s] between recorded instants in all runs but those that vary it
+  bool rigid_contacts = false;  // the contact solver decides what contacts do
+  double interval = 0;          // [s] between recorded instants in all runs but those that vary it
   const Judgement* find(const std::string& quantity) const;
   const SettingResult* own() const;
   /// Half width of what all inputs together do, as independent errors add.

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "cli/study/words.h"
 
 namespace cli::study {
 namespace {
@@ -148,6 +151,11 @@ std::string study_text(const scenes::Scene& scene, const Study& study) {
                     j.error_kind == "closed_form" ? fmt::format("closed form, error {:.3g}", a.error) : j.error_kind);
   }
   out += inputs_text(study);
+  if (const Judgement* j = study.find(main_quantity(study))) {
+    const std::vector<std::string> sentences = findings(study, *j);  // what time buys, what the answer hangs on, then more
+    for (std::size_t i = 0; i < std::min<std::size_t>(2, sentences.size()); ++i)
+      out += fmt::format("  {}: {}\n", words_of(j->quantity), sentences[i]);
+  }
   return out;
 }
 

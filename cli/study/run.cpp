@@ -133,6 +133,7 @@ Study run_study(const scenes::Scene& scene, const RunWish& wish) {
   const std::vector<Series> series =
       series_for(scene, wish.options, [&scene](const std::vector<std::string>& overrides) { return accepted(scene, overrides); });
   Study study;
+  study.rigid_contacts = solver_decides(scene);
   study.interval = scene.model.settings.record_interval;
   for (const std::string& input : wish.inputs) study.inputs.push_back(parse_input(input));
 

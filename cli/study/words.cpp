@@ -104,20 +104,21 @@ std::string with_unit(double value, const std::string& unit) {
 
 namespace {
 
-/// "0.3 s of computing buys ± 0.3 m, 3 s ± 0.1 m.": levels of the scene's own ladder, each twice as sure as the one before.
+/// "0.3 s of computing buys ± 0.3 m, 3 s ± 0.1 m.": levels of the scene's own ladder, each twice as sure as the one before,
+/// down to what minute changes do.
 std::string price_in_words(const Study& study, const Judgement& j) {
   const std::string unit = unit_of(j.quantity);
   std::string out;
-  double last = 0, least = 0;
+  double last = 0;
   for (const SettingResult& r : study.series.front().settings) {
     const Answer* a = answer_of(r, j.quantity);
     if (!a || (!out.empty() && a->uncertainty > last / 2)) continue;
-    out += fmt::format("{}{}{} \u00b1 {}", out.empty() ? "" : ", ", with_unit(r.wall_s, "s"),
-                       out.empty() ? " of computing buys" : "", with_unit(a->uncertainty, unit));
     last = a->uncertainty;
-    least = std::max(least, spread_of(*a));
+    out += fmt::format("{}{}{} \u00b1 {}", out.empty() ? "" : ", ", with_unit(r.wall_s, "s"),
+                       out.empty() ? " of computing buys" : "", with_unit(last, unit));
+    if (last > spread_of(*a)) continue;
+    return out + fmt::format(". More buys nothing: minute changes move it by \u00b1 {}.", with_unit(spread_of(*a), unit));
   }
-  if (least > last) out += fmt::format("; no time goes below \u00b1 {}, which minute changes do", with_unit(least, unit));
   return out + ".";
 }
 

@@ -1,4 +1,5 @@
 // `crashreel study` from outside: files, columns, errors against closed forms, and that finished runs are not run again.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -34,6 +35,8 @@ TEST(Study, WritesColumnsAndErrorsAgainstTheClosedForm) {
     EXPECT_LT(std::abs(setting["answers"]["travel_m"]["error"].get<double>()), 0.6 * 9.81 * step);
     EXPECT_GT(setting["wall_s"].get<double>(), 0);
   }
+  EXPECT_THAT(result.out, ::testing::ContainsRegex("travel: [0-9.]+ m?s of computing buys"));
+  EXPECT_THAT(result.out, ::testing::ContainsRegex("travel: What the answer hangs on: [a-z ]+ .+ [0-9.]+ "));
 }
 
 TEST(Study, UsesFinishedRunsAgain) {
