@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "cli/progress.h"
 #include "cli/film_plan.h"
+#include "cli/progress.h"
 #include "cli/study/statistics.h"
 #include "cli/study/trial.h"
 #include "cli/study/words.h"
