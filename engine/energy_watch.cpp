@@ -2,22 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 #include "engine/effects/effect.h"
+#include "engine/effects/words.h"
 
 namespace engine {
 namespace {
 
 constexpr double kTold = 0.01;   // [-] of what was turned over
 constexpr double kLeast = 1e-3;  // [-] of what the scene's masses have a metre up: what only rests turns nothing over
-
-std::string joules(double energy) {
-  std::ostringstream text;
-  text << std::setprecision(3) << energy << " J";
-  return text.str();
-}
 
 std::string moment(double time) {
   return std::to_string(std::lround(1e3 * time)) + " ms";
@@ -48,14 +41,15 @@ void EnergyWatch::close(const World& world, Diagnostics& out) const {
   const double worth = kTold * std::max(turned_over_, kLeast * scale_);
   constexpr const char* kCompare = "; see whether a smaller step says the same";
   if (unexplained_ > worth)
-    out.warnings.push_back("energy: " + joules(unexplained_) + " at " + moment(at_) +
-                           " that no effect explains, more than 1 % of the " + joules(turned_over_) + " turned over" + kCompare);
+    out.warnings.push_back("energy: " + number(unexplained_) + " J at " + moment(at_) +
+                           " that no effect explains, more than 1 % of the " + number(turned_over_) + " J turned over" + kCompare);
   if (gain.amount <= worth) return;
   const auto name = [&](int b) { return b >= 0 ? world.model.bodies[b].name : std::string("the world"); };
   const bool known = gain.body_a >= 0 || gain.body_b >= 0;
   out.warnings.push_back("energy: " + std::string(world.plan.active[static_cast<std::size_t>(world.log.gained_by)]->name) +
-                         " gave " + joules(gain.amount) + (known ? " to " + name(gain.body_a) + " and " + name(gain.body_b) : "") +
-                         " in the step to " + moment(gain.time) + ", and has none to give" + kCompare);
+                         " gave " + number(gain.amount) + " J" +
+                         (known ? " to " + name(gain.body_a) + " and " + name(gain.body_b) : "") + " in the step to " +
+                         moment(gain.time) + ", and has none to give" + kCompare);
 }
 
 }  // namespace engine

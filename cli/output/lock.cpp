@@ -78,8 +78,8 @@ void OutputLock::take() {
 
 OutputLock::~OutputLock() {
   clear();
+  keep_when_stopped(file_.c_str());  // before it is gone: then the name may be another run's
   unlink(file_.c_str());
-  keep_when_stopped(file_.c_str());
   close(handle_);
 }
 

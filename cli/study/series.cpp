@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "engine/plan.h"
 
@@ -21,11 +22,14 @@ int instants_apart(const engine::Settings& s) {
   return std::max(1, static_cast<int>(std::lround(s.record_interval / s.step)));
 }
 
-/// The scene's step for a second opinion: no multiple of it, nor of its halves, falls on those of the scene's own ladder within one
-/// recorded interval, and recorded instants are the same. A ladder of the same steps would share the phase of every touch.
+/// The scene's step for a second opinion. Recorded instants are the same, and between two of them no step ends where one of the
+/// scene's own does: a ladder of the same steps would share the phase of every touch.
 double other_step(const engine::Settings& s) {
   const int apart = instants_apart(s);
-  return apart < 3 ? 0.7 * s.step : s.step * apart / std::round(1.4 * apart);
+  if (apart < 3) return 0.7 * s.step;
+  int steps = static_cast<int>(std::lround(1.4 * apart));
+  while (std::gcd(steps, apart) > 1) ++steps;
+  return s.step * apart / steps;
 }
 
 /// `halvings` of four times the step.

@@ -80,7 +80,6 @@ TEST_F(Disturbed, WithoutAFontNoPictureIsMade) {
 }
 
 TEST_F(Disturbed, TooFewDescriptorsAreToldAndNothingIsLeft) {
-  if (sanitized_program()) GTEST_SKIP() << "the sanitizers want descriptors of their own";
   // 3 is closed first: what runs the tests in parallel leaves descriptors open
   EXPECT_EQ(under_shell(folder, "(exec 3>&-; ulimit -n 4; exec $P render ball.toml --size 64x64 -j 1 -o a.mp4) 2>message"), 3);
   EXPECT_THAT(contents(folder / "message"), HasSubstr("a.mp4"));

@@ -102,7 +102,6 @@ TEST_F(Estimate, RefusesWhatDoesNotFitBeforeAnythingIsWritten) {
 }
 
 TEST_F(Estimate, DrawsWithFewerProcessesWhereAllDoNotFit) {
-  if (sanitized_program()) GTEST_SKIP() << "the sanitizers take many times the memory";
   const Json told = Json::parse(run(folder, film({"-o", "a.mp4", "--dry-run", "--json"})).out);
   // room for one process and a half
   const double one = (told.at("memory_bytes").get<double>() - 60e6) / 2;

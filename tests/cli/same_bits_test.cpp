@@ -48,7 +48,6 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SameBits,
                          [](const auto& tried) { return fs::path(tried.param.scene).stem().string(); });
 
 TEST(SameBitsEmulated, AProcessorOf2008FindsTheSameRecording) {
-  if (cli_tests::sanitized_program()) GTEST_SKIP() << "an emulator has no room for the sanitizers' shadow memory";
   const Folder folder;
   const Case collision{"cases/sedan_pedestrian_40kmh.toml", "'0.25 s'"};
   EXPECT_EQ(hash_of(folder, collision, ""), hash_of(folder, collision, "qemu-x86_64 -cpu Nehalem"));

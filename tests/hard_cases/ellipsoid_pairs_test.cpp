@@ -110,14 +110,15 @@ Pair make(Kind kind, std::mt19937_64& random) {
   return pair;
 }
 
+std::string in_words(const testing::TestParamInfo<Kind>& tried) {
+  std::string name = name_of(tried.param);
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
 class EllipsoidPairs : public testing::TestWithParam<Kind> {};
 INSTANTIATE_TEST_SUITE_P(In, EllipsoidPairs,
-                         testing::Values(Kind::any, Kind::parallel_faces, Kind::corner_to_corner, Kind::concentric),
-                         [](const auto& tuple) {
-                           std::string name = name_of(tuple.param);
-                           std::replace(name.begin(), name.end(), ' ', '_');
-                           return name;
-                         });
+                         testing::Values(Kind::any, Kind::parallel_faces, Kind::corner_to_corner, Kind::concentric), in_words);
 
 TEST_P(EllipsoidPairs, HaveTheDepthOfAMultistartSearch) {
   constexpr int kPairs = 1000;
@@ -138,9 +139,13 @@ TEST_P(EllipsoidPairs, HaveTheDepthOfAMultistartSearch) {
   EXPECT_LE(wrong, kPairs / 1000);
 }
 
+/// All but concentric ones: which way is out of the middle is not continuous.
+class SlidingEllipsoidPairs : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(In, SlidingEllipsoidPairs, testing::Values(Kind::any, Kind::parallel_faces, Kind::corner_to_corner),
+                         in_words);
+
 /// One part slides past another by a tenth of a millimetre a look: the normal may not jump.
-TEST_P(EllipsoidPairs, HaveNormalsThatDoNotJump) {
-  if (GetParam() == Kind::concentric) GTEST_SKIP() << "which way is out of the middle is not continuous";
+TEST_P(SlidingEllipsoidPairs, HaveNormalsThatDoNotJump) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
   int jumps = 0, looks = 0;

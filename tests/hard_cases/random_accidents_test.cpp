@@ -93,8 +93,9 @@ double deepest(const engine::Recording& recording, bool of_vehicles) {
   return depth;
 }
 
-/// How deep a run may leave anything. Where nothing yields: as asked of a struck person. Where persons do, a panel is pressed in by
-/// 19 cm at most under a head, and by a limb's own thickness beside it; what goes beyond a part's thickness is told.
+/// How deep a run may leave anything. Where nothing yields: as asked of a struck person. Where persons do: an adult's trunk is 23
+/// to 25 cm from front to back, and what is pressed in further has gone through it. Each part that goes beyond its own thickness is
+/// told.
 struct Law {
   const char* name;
   double depth;  // [m]

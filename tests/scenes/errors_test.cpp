@@ -7,13 +7,8 @@
 namespace scenes {
 namespace {
 
-using scenes::testing::SceneFolder;
+using scenes::testing::folder;
 using ::testing::ElementsAre;
-
-const SceneFolder& folder() {
-  static const SceneFolder one;
-  return one;
-}
 
 const std::string kBall = "[[body]]\nname = \"ball\"\nmass = \"1 kg\"\naxes = \"0.1 0.1 0.1 m\"\n";
 
@@ -185,7 +180,7 @@ TEST(SceneHash, IsThatOfTheFileAndItsOverrides) {
 }
 
 TEST(Library, IsNotHiddenByASceneOfTheSameName) {
-  const SceneFolder own;
+  const scenes::testing::SceneFolder own;
   const std::string scene = "[[person]]\nname = \"rider\"\npose = \"cyclist\"\nposition = \"0 0 m\"\n";
   own.write("cyclist.toml", scene);  // a case of that name beside the scene
   EXPECT_THAT(own.errors(scene), ElementsAre());

@@ -9,14 +9,9 @@
 namespace scenes {
 namespace {
 
-using scenes::testing::SceneFolder;
+using scenes::testing::folder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-const SceneFolder& folder() {
-  static const SceneFolder one;
-  return one;
-}
 
 const std::string kPuck = "[[body]]\nname = \"puck\"\nmass = \"1 kg\"\naxes = \"0.1 0.1 0.1 m\"\n";
 

@@ -9,14 +9,9 @@
 namespace scenes {
 namespace {
 
-using scenes::testing::SceneFolder;
+using scenes::testing::folder;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-const SceneFolder& folder() {
-  static const SceneFolder one;
-  return one;
-}
 
 const std::string kBall = "[[body]]\nname = \"ball\"\nmass = \"1 kg\"\naxes = \"0.1 0.1 0.1 m\"\n[[joint]]\nchild = \"ball\"\n";
 

@@ -54,4 +54,10 @@ class SceneFolder {
   std::filesystem::path folder_;
 };
 
+/// One for all tests of a program that write no other file than the scene.
+inline const SceneFolder& folder() {
+  static const SceneFolder one;
+  return one;
+}
+
 }  // namespace scenes::testing

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "../program.h"
@@ -35,6 +36,12 @@ TEST(Study, WritesColumnsAndErrorsAgainstTheClosedForm) {
     EXPECT_LT(std::abs(setting["answers"]["travel_m"]["error"].get<double>()), 0.6 * 9.81 * step);
     EXPECT_GT(setting["wall_s"].get<double>(), 0);
   }
+  // a second opinion takes no step of the scene's own ladder
+  for (const auto& series : json["series"])
+    if (series["series"] == "rk4")
+      for (const auto& other : series["settings"])
+        for (const auto& own : ladder)
+          EXPECT_GT(std::abs(std::log(other["step_s"].get<double>() / own["step_s"].get<double>())), 0.2);
   EXPECT_THAT(result.out, ::testing::ContainsRegex("travel: [0-9.]+ m?s of computing buys"));
   EXPECT_THAT(result.out, ::testing::ContainsRegex("travel: What the answer hangs on: [a-z ]+ .+ [0-9.]+ "));
 }

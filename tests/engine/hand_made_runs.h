@@ -1,0 +1,105 @@
+// Runs made by hand of a person and a car: every figure a test asks for can be read off the numbers written into them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/measure/metrics.h"
+#include "engine/simulate.h"
+
+namespace engine {
+
+constexpr int kHead = 0, kHips = 1, kCar = 2;
+constexpr double kAlmost = 1e-12;  // sums and roots of a few numbers of order one
+
+inline std::shared_ptr<const TriangleMesh> box(const Vec3& lower, const Vec3& upper) {
+  std::vector<Vec3> v;
+  for (int i = 0; i < 8; ++i)
+    v.push_back({i & 1 ? upper.x() : lower.x(), i & 2 ? upper.y() : lower.y(), i & 4 ? upper.z() : lower.z()});
+  return std::make_shared<TriangleMesh>(v, std::vector<Triangle>{{0, 2, 1},
+                                                                 {1, 2, 3},
+                                                                 {4, 5, 6},
+                                                                 {5, 7, 6},
+                                                                 {0, 1, 4},
+                                                                 {1, 5, 4},
+                                                                 {2, 6, 3},
+                                                                 {3, 6, 7},
+                                                                 {0, 4, 2},
+                                                                 {2, 4, 6},
+                                                                 {1, 3, 5},
+                                                                 {3, 7, 5}});
+}
+
+/// A person of two bodies and a car: a box 4 m long and 1.6 m wide from 0.3 m to 1.0 m above the ground, origin 0.5 m above it.
+inline Model person_and_car() {
+  Model model;
+  model.bodies.resize(3);
+  for (const int b : {kHead, kHips}) {
+    model.bodies[b].person = 0;
+    model.bodies[b].shape = HyperEllipsoid{};
+  }
+  model.bodies[kHead].mass = 10;
+  model.bodies[kHips].mass = 30;
+  model.bodies[kCar].mass = 1000;
+  model.bodies[kCar].vehicle = 0;
+  model.bodies[kCar].shape = MeshShape{box({-2, -0.8, -0.2}, {2, 0.8, 0.5}), Pose{}};
+  Person person;
+  person.name = "pedestrian";
+  person.bodies = {kHips, kHead};
+  person.head = kHead;
+  model.persons.push_back(person);
+  Vehicle car;
+  car.name = "car";
+  car.body = kCar;
+  Wheel wheel;
+  wheel.hub_B = {1.2, 0.7, -0.2};
+  wheel.radius = 0.3;
+  car.wheels = {wheel};
+  model.vehicles.push_back(car);
+  return model;
+}
+
+inline Snapshot still(double time) {
+  Snapshot s;
+  s.time = time;
+  s.bodies.resize(3);
+  s.bodies[kCar].X_WB.p = {0, 0, 0.5};
+  return s;
+}
+
+inline std::optional<double> value_of(const std::vector<Metric>& metrics, const std::string& key) {
+  for (const Metric& m : metrics)
+    if (m.key == key) return m.value;
+  return std::nullopt;
+}
+
+inline ContactRecord push(int a, int b, ContactKind kind, const Vec3& impulse) {
+  ContactRecord c;
+  c.kind = kind;
+  c.body_a = a;
+  c.body_b = b;
+  c.impulse = impulse;
+  c.normal_impulse = impulse.norm();
+  return c;
+}
+
+/// A car at 12 m/s strikes a falling head at 0.2 s, on the top of the box 1.5 m behind its front and 0.4 m beside the middle.
+inline Recording head_on_bonnet() {
+  Recording run;
+  run.interval = 0.1;
+  for (int i = 0; i < 4; ++i) {
+    Snapshot s = still(0.1 * i);
+    s.bodies[kCar].X_WB.p.x() = 1.2 * i;
+    s.bodies[kCar].V_WB.v = {12, 0, 0};
+    s.bodies[kHead].X_WB.p = {2.9, 0.4, 1.1};
+    s.bodies[kHead].V_WB.v = i < 2 ? Vec3(3, 0, -5) : Vec3(12, 0, 1);
+    s.bodies[kHead].V_WB.w = {0, 40, 0};  // the centre of the head counts, not its surface
+    run.snapshots.push_back(s);
+  }
+  run.events = {{run.snapshots[2].time, "head_impact", kHead, kCar, {2.9, 0.4, 1.0}, std::hypot(9, 5), {0, 0, 1}, {-9, 0, -5}}};
+  return run;
+}
+
+}  // namespace engine

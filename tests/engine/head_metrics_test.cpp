@@ -1,0 +1,195 @@
+// What is measured of a head: criteria, speed and place of its impact, wrap-around.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/measure/phases.h"
+#include "tests/engine/hand_made_runs.h"
+
+namespace engine {
+namespace {
+
+struct Pulse {
+  std::vector<double> times, acceleration;
+};
+
+Pulse half_sine(double peak_g, double duration) {
+  Pulse pulse;
+  const int samples = 2000;
+  for (int i = 0; i <= samples; ++i) {
+    pulse.times.push_back(duration * i / samples);
+    pulse.acceleration.push_back(peak_g * std::sin(std::numbers::pi * i / samples));
+  }
+  return pulse;
+}
+
+TEST(HeadInjury, HalfSinesHaveTheirTabulatedValues) {
+  const Pulse short_pulse = half_sine(100, 0.010), long_pulse = half_sine(100, 0.020);
+  // 2000 samples: windows end within 1/4000 of the optimum, where the criterion is flat; the trapezium rule errs by 1e-6
+  EXPECT_NEAR(hic(short_pulse.times, short_pulse.acceleration, 0.015), 414.65, 0.01);
+  EXPECT_NEAR(hic(long_pulse.times, long_pulse.acceleration, 0.015), 829.29, 0.02);
+  EXPECT_NEAR(three_ms_clip(short_pulse.times, short_pulse.acceleration), 89.10, 0.005);
+}
+
+TEST(HeadInjury, RigidImpactsSayWhyTheyHaveNone) {
+  Model model;
+  EXPECT_NE(why_no_head_injury(model), "");
+  model.settings.contact_law = ContactLaw::compliant;
+  EXPECT_EQ(why_no_head_injury(model), "");
+}
+
+TEST(HeadMetrics, SpeedIsThatOfTheEventWithItsPartsAndPlace) {
+  const Model model = person_and_car();
+  std::vector<Metric> out;
+  measure_head(model, head_on_bonnet(), 0, out);
+  EXPECT_NEAR(value_of(out, "head_impact_s").value(), 0.2, kAlmost);
+  EXPECT_NEAR(value_of(out, "head_impact_speed_mps").value(), std::hypot(9, 5), kAlmost);
+  EXPECT_NEAR(value_of(out, "head_impact_normal_mps").value(), 5, kAlmost);
+  EXPECT_NEAR(value_of(out, "head_impact_tangential_mps").value(), 9, kAlmost);
+  // the car stands at (2.4, 0, 0.5) then
+  EXPECT_NEAR(value_of(out, "head_impact_vehicle_x_m").value(), 0.5, kAlmost);
+  EXPECT_NEAR(value_of(out, "head_impact_vehicle_y_m").value(), 0.4, kAlmost);
+  EXPECT_NEAR(value_of(out, "head_impact_vehicle_z_m").value(), 0.5, kAlmost);
+}
+
+TEST(HeadMetrics, RecorderTakesTheCentreOfTheHeadAgainstTheTurningSurface) {
+  Model model = person_and_car();
+  model.ground.plane = false;
+  model.vehicles[0].wheels.clear();
+  model.settings.gravity.setZero();
+  model.settings.duration = 0.1;
+  HyperEllipsoid ball;
+  ball.semi_axes = {0.1, 0.1, 0.1};
+  ball.exponent = 2;
+  for (const int b : {kHead, kHips}) model.bodies[b].shape = ball;
+  model.bodies[kHips].X_WB.p = {0, 0, 20};
+  model.bodies[kHead].X_WB.p = {1.0, 0.4, 0.7};  // 0.1 m over the box, comes down on it at (1, 0.4) but for what 20 ms move it
+  model.bodies[kHead].V_WB = {Vec3(3, 0, -5), Vec3(0, 40, 0)};
+  model.bodies[kCar].mass = 1e6;
+  model.bodies[kCar].inertia_B = 1e6 * Mat3::Identity();
+  model.bodies[kCar].V_WB.w = {0, 0, 2};
+  model.persons[0].zero_condition = false;
+  const Recording run = simulate(model);
+  std::vector<Metric> out;
+  measure_head(model, run, 0, out);
+  // surface at arm (1.06, 0.4): (-0.8, 2.1); a step before the touch is the touch, nothing accelerates
+  EXPECT_NEAR(value_of(out, "head_impact_speed_mps").value(), Vec3(3.8, -2.1, -5).norm(), 0.1);
+  for (const Event& e : run.events)
+    if (e.kind == "head_impact") {
+      EXPECT_EQ(e.value, value_of(out, "head_impact_speed_mps")) << "event and measure are one value";
+    }
+}
+
+TEST(HeadMetrics, WrapAroundOfABoxIsHeightPlusLength) {
+  const Model model = person_and_car();
+  std::vector<Metric> out;
+  measure_head(model, head_on_bonnet(), 0, out);
+  // foremost part 2.0 m before the origin, head 0.5 m before it; the top is 1.0 m above the ground
+  EXPECT_NEAR(value_of(out, "wrap_around_distance_m").value(), 1.0 + 1.5, kAlmost);
+}
+
+TEST(HeadMetrics, WrapAroundIsAbsentWhenTheVehicleReversesOrIsMetFromTheSide) {
+  const Model model = person_and_car();
+  for (const Vec3& velocity : {Vec3(15, 0, -5), Vec3(-4, 10, -3)}) {
+    Recording run = head_on_bonnet();
+    run.events[0].velocity = velocity;
+    std::vector<Metric> out;
+    measure_head(model, run, 0, out);
+    EXPECT_TRUE(value_of(out, "head_impact_speed_mps"));
+    EXPECT_FALSE(value_of(out, "wrap_around_distance_m"));
+  }
+}
+
+TEST(HeadMetrics, TapeBridgesHollowsAndStartsBeforeTheForemostPart) {
+  Model model = person_and_car();
+  // from the side: foot (2.0, -0.2), edge (1.6, 0.3), hollow (0.8, 0.2), screen (0, 0.9), down to the rear; 1 m either side
+  const std::vector<Vec3> side{{2, 0, -0.2}, {1.6, 0, 0.3}, {0.8, 0, 0.2}, {0, 0, 0.9}, {-2, 0, -0.2}};
+  std::vector<Vec3> v;
+  std::vector<Triangle> t;
+  for (const Vec3& p : side)
+    for (const double y : {-1.0, 1.0}) v.push_back(p + y * Vec3::UnitY());
+  for (int i = 0; i < 4; ++i) {
+    t.push_back({2 * i, 2 * i + 1, 2 * i + 2});
+    t.push_back({2 * i + 1, 2 * i + 3, 2 * i + 2});
+  }
+  model.bodies[kCar].shape = MeshShape{std::make_shared<TriangleMesh>(v, t), Pose{}};
+  const auto tape = wrap_around_distance(model, kCar, {0, 0, 0.9});
+  ASSERT_TRUE(tape);
+  // ground 0.5 m below the origin: up 0.3 m to the foot, straight to the edge, straight over the hollow to the screen's top
+  EXPECT_NEAR(*tape, 0.3 + std::hypot(0.4, 0.5) + std::hypot(1.6, 0.6), kAlmost);
+  model.bodies[kCar].vehicle = -1;
+  EXPECT_FALSE(wrap_around_distance(model, kCar, {0, 0, 0.9}));
+}
+
+TEST(HeadMetrics, TapeGoesOverNothingThatLiesAboveTheHead) {
+  Model model = person_and_car();
+  // a flat front 2.5 m high with a mirror half a metre before it and above
+  model.bodies[kCar].shape = MeshShape{box({-2, -0.8, -0.2}, {2, 0.8, 2.0}), Pose{}};
+  const auto plain = wrap_around_distance(model, kCar, {2, 0, 0.5});
+  ASSERT_TRUE(plain);
+  EXPECT_NEAR(*plain, 1.0, kAlmost) << "straight up a flat front: the height of the head";
+  EXPECT_FALSE(wrap_around_distance(model, kCar, {0, 0, -0.19})) << "no tape reaches the underside";
+  std::vector<Vec3> v{{-2, -0.8, -0.2}, {-2, 0.8, -0.2}, {2, -0.8, -0.2},  {2, 0.8, -0.2},
+                      {2, -0.8, 2.0},   {2, 0.8, 2.0},   {2.5, -0.8, 1.5}, {2.5, 0.8, 1.5}};
+  model.bodies[kCar].shape = MeshShape{
+      std::make_shared<TriangleMesh>(v, std::vector<Triangle>{{2, 3, 4}, {3, 5, 4}, {4, 6, 5}, {5, 6, 7}, {0, 2, 1}, {1, 2, 3}}),
+      Pose{}};
+  const auto under_mirror = wrap_around_distance(model, kCar, {2, 0, 0.5});
+  ASSERT_TRUE(under_mirror);
+  EXPECT_NEAR(*under_mirror, 1.0, kAlmost);
+}
+
+TEST(HeadMetrics, CriteriaAreToldApartByPartner) {
+  Model model = person_and_car();
+  model.settings.contact_law = ContactLaw::compliant;
+  Recording run;
+  run.interval = 0.005;
+  HeadMotion head{0, {}, {}};
+  for (int i = 0; i <= 200; ++i) {
+    Snapshot s = still(0.005 * i);
+    if (i >= 41 && i <= 44) s.contacts = {push(kHead, kCar, ContactKind::vehicle, {0, 0, 1})};
+    if (i >= 121 && i <= 122) s.contacts = {push(kHead, -1, ContactKind::ground, {0, 0, 1})};
+    run.snapshots.push_back(s);
+  }
+  const auto pulse = [](double t, double from, double peak_g, double lasts) {
+    return t > from && t < from + lasts ? peak_g * kGravity * std::sin(std::numbers::pi * (t - from) / lasts) : 0;
+  };
+  for (int i = 0; i <= 10000; ++i) {
+    const double t = 1e-4 * i;
+    head.time.push_back(t);
+    head.acceleration.push_back(pulse(t, 0.2, 100, 0.02) + pulse(t, 0.6, 100, 0.01));
+  }
+  run.heads = {head};
+  std::vector<Metric> out;
+  measure_injury(model, run, 0, out);
+  // the half sines of HalfSinesHaveTheirTabulatedValues, at 100 to 200 samples each
+  EXPECT_NEAR(value_of(out, "hic15_vehicle").value(), 829.3, 1);
+  EXPECT_NEAR(value_of(out, "hic15_ground").value(), 414.6, 1);
+  EXPECT_EQ(value_of(out, "hic15"), value_of(out, "hic15_vehicle"));
+  run.snapshots[41].contacts.clear();
+  for (Snapshot& s : run.snapshots)
+    std::erase_if(s.contacts, [](const ContactRecord& c) { return c.kind == ContactKind::vehicle; });
+  out.clear();
+  measure_injury(model, run, 0, out);
+  EXPECT_FALSE(value_of(out, "hic15_vehicle"));
+  EXPECT_TRUE(value_of(out, "hic15")) << "a head that meets only the road has a criterion too";
+}
+
+TEST(HeadMetrics, StruckHeadSaysWhyItHasNoCriterion) {
+  Model model = person_and_car();
+  Recording run = head_on_bonnet();
+  const auto reason_of = [&](const std::string& key) {
+    for (const AbsentMetric& a : absent_metrics(model, run, measure(model, run)))
+      if (a.key == key && a.object == "pedestrian") return a.reason;
+    return std::string();
+  };
+  for (const char* key : {"hic15", "hic36", "three_ms_g", "peak_acceleration_mps2"})
+    EXPECT_EQ(reason_of(key), why_no_head_injury(model)) << key;
+  EXPECT_EQ(reason_of("head_impact_s"), "");
+  run.events.clear();
+  EXPECT_NE(reason_of("head_impact_s"), "");
+}
+
+}  // namespace
+}  // namespace engine

@@ -1,0 +1,122 @@
+// What is measured of vehicles, and the table of impacts.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/measure/phases.h"
+#include "tests/engine/hand_made_runs.h"
+
+namespace engine {
+namespace {
+
+TEST(VehicleMetrics, DeltaVIsTheChangeOfVelocityOfTheCollisionAndNotOfTheRun) {
+  Model model = person_and_car();
+  model.settings.gravity.setZero();
+  Recording run;
+  run.interval = 0.01;
+  for (int i = 0; i < 60; ++i) run.snapshots.push_back(still(0.01 * i));
+  // the car heads along +y when it is struck and turns afterwards, which must not matter
+  const Vec3 after(-3, -3, 0);
+  for (int i = 0; i < 60; ++i) {
+    Snapshot& s = run.snapshots[i];
+    if (i < 5) s.bodies[kCar].X_WB.q = Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitZ()));
+    s.bodies[kCar].V_WB.v = i < 5 ? Vec3(0, 20, 0) : Vec3(Vec3(0, 20, 0) + after);
+    s.tyre_impulse = {Vec3::Zero()};
+  }
+  // it brakes with 100 N s meanwhile, which is no collision
+  run.snapshots[5].tyre_impulse = {Vec3(0, -100, 0)};
+  for (Snapshot& s : run.snapshots)
+    if (s.time > 0.045) s.bodies[kCar].V_WB.v.y() -= 0.1;
+  run.snapshots[5].contacts = {push(kHips, kCar, ContactKind::vehicle, {3000, 3000, 0}),
+                               push(kCar, -1, ContactKind::ground, {0, 0, 1e6})};
+  // and drags on for half a second, pressed and held: that adds nothing
+  for (int i = 6; i < 60; ++i) run.snapshots[i].contacts = {push(kHips, kCar, ContactKind::vehicle, {2, 0, 0})};
+  std::vector<Metric> out;
+  measure_vehicle(model, run, impacts_of(model, run), 0, out);
+  EXPECT_NEAR(value_of(out, "delta_v_mps").value(), 3 * std::sqrt(2.0), 1e-9);
+  // pushed backwards and to the left: from the right front
+  EXPECT_NEAR(value_of(out, "pdof_deg").value(), 45, 1e-9);
+  EXPECT_FALSE(value_of(out, "ees_mps")) << "a person takes up no energy that would deform a car";
+}
+
+TEST(VehicleMetrics, UntouchedVehicleHasNone) {
+  const Model model = person_and_car();
+  Recording run;
+  run.snapshots = {still(0), still(1)};
+  std::vector<Metric> out;
+  measure_vehicle(model, run, impacts_of(model, run), 0, out);
+  for (const char* key : {"delta_v_mps", "pdof_deg", "ees_mps", "rest_x_m"}) EXPECT_FALSE(value_of(out, key)) << key;
+  EXPECT_EQ(value_of(out, "path_m"), 0.0);
+}
+
+TEST(VehicleMetrics, RestIsPlaceHeadingAndLengthOfThePath) {
+  const Model model = person_and_car();
+  Recording run;
+  run.interval = 1;
+  for (int i = 0; i < 3; ++i) {
+    run.snapshots.push_back(still(i));
+    run.snapshots.back().bodies[kCar].X_WB = {Vec3(3.0 * i, 4.0 * i, 0.5),
+                                              Quat(Eigen::AngleAxisd(-std::numbers::pi / 2 * i, Vec3::UnitZ()))};
+  }
+  run.events = {{1, "rest", kCar, -1, Vec3::Zero(), 0}};
+  std::vector<Metric> out;
+  measure_vehicle(model, run, {}, 0, out);
+  EXPECT_NEAR(value_of(out, "rest_x_m").value(), 3, kAlmost);
+  EXPECT_NEAR(value_of(out, "rest_y_m").value(), 4, kAlmost);
+  EXPECT_NEAR(value_of(out, "rest_heading_deg").value(), -90, 1e-9);
+  EXPECT_NEAR(value_of(out, "path_m").value(), 10, kAlmost);
+}
+
+/// A car of 1000 kg at 10 m/s and a block of a given mass that stands; they lose `energy` at 0.05 s.
+std::vector<Impact> car_against_block(double mass, double energy, double stiffness = 400e3, bool fixed = false) {
+  Model model = person_and_car();
+  Body& block = model.bodies[kHips];
+  block.person = -1;
+  block.mass = mass;
+  block.fixed = fixed;
+  block.surface.stiffness = stiffness;
+  block.shape = model.bodies[kCar].shape;
+  Recording run;
+  run.interval = 0.01;
+  for (int i = 0; i < 20; ++i) {
+    run.snapshots.push_back(still(0.01 * i));
+    run.snapshots.back().bodies[kCar].V_WB.v = {i < 5 ? 10.0 : 4.0, 0, 0};
+  }
+  ContactRecord c = push(kCar, kHips, ContactKind::vehicle_pair, {-6000, 0, 0});
+  c.normal = {-1, 0, 0};
+  c.energy_lost = energy;
+  c.begun = 0.043;
+  run.snapshots[5].contacts = {c};
+  return impacts_of(model, run);
+}
+
+TEST(ImpactTable, EnergyGoesToTheSofterOrLighterAndNotByHalves) {
+  // what is 4532 times as heavy takes a 4533rd
+  const Impact by_mass = car_against_block(4.532e6, 20e3).at(0);
+  EXPECT_NEAR(by_mass.a.ees, std::sqrt(2 * 20e3 / 1000 * 4532.0 / 4533), 1e-9);
+  EXPECT_STREQ(by_mass.ees_rule, "by mass");
+  const Impact by_stiffness = car_against_block(1000, 20e3, 1200e3).at(0);
+  EXPECT_NEAR(by_stiffness.a.ees, std::sqrt(2 * 20e3 / 1000 * 0.75), 1e-9);
+  EXPECT_STREQ(by_stiffness.ees_rule, "by stiffness");
+  const Impact barrier = car_against_block(1000, 20e3, 400e3, true).at(0);
+  EXPECT_NEAR(barrier.a.ees, std::sqrt(2 * 20e3 / 1000), 1e-9);
+  EXPECT_STREQ(barrier.ees_rule, "all to the one that moves");
+}
+
+TEST(ImpactTable, ARowHasTheCollisionFromBothSides) {
+  const std::vector<Impact> all = car_against_block(500, 0);
+  ASSERT_EQ(all.size(), 1u);
+  const Impact& i = all[0];
+  EXPECT_EQ(i.time, 0.043);
+  EXPECT_NEAR(i.duration, 0.05 - 0.043, 1e-12);
+  EXPECT_NEAR(i.closing_speed, 10, kAlmost);
+  EXPECT_NEAR(i.impulse.x(), -6000, kAlmost);
+  EXPECT_NEAR(i.a.speed_before, 10, kAlmost);
+  EXPECT_NEAR(i.a.speed_after, 4, kAlmost);
+  EXPECT_NEAR(i.friction_used, 0, kAlmost);
+  EXPECT_NEAR(i.friction_limit, 0.3, kAlmost);
+  EXPECT_STREQ(i.law, "default_auto");
+}
+
+}  // namespace
+}  // namespace engine
