@@ -15,7 +15,7 @@ enum class Quality { draft, standard, fine };
 /// What a quality level spends.
 struct Effort {
   int scale = 1;               // pictures are drawn so many times larger a side
-  int samples = 2;             // a side to a pixel
+  int samples = 2;             // a side to a pixel, 1 or 2
   int shadow_map_size = 1024;  // [pixels] a side
   int shadow_filter = 1;       // 1 plain, 2 soft
   double shadow_reach = 0.05;  // [m] radius of the widest penumbra

@@ -21,10 +21,10 @@ using Json = nlohmann::ordered_json;
 namespace charts = render::charts;
 using render::Effort;
 
-constexpr int kRepetitions = 5;                                      // after one that warms up
-constexpr Effort kReference{4, 2, 4096, 2, 0.10, 256, 0.02};         // 4 x 4 times the pixels, each with 2 x 2 samples
-constexpr double kTessellations[] = {4, 2, 1, 0.5, 0.2, 0.1, 0.05};  // [pixels]
-constexpr int kSamples[] = {1, 2, 3, 4};                             // a side
+constexpr int kRepetitions = 5;                                               // after one that warms up
+constexpr Effort kReference{4, 2, 4096, 2, 0.10, 256, 0.02};                  // 4 x 4 times the pixels, each with 2 x 2 samples
+constexpr double kTessellations[] = {4, 2, 1, 0.5, 0.2, 0.1, 0.05};           // [pixels]
+constexpr std::pair<int, int> kSamples[] = {{1, 1}, {1, 2}, {2, 2}, {3, 2}};  // Effort's scale and samples
 constexpr int kShadowMaps[] = {128, 256, 512, 1024, 2048, 4096};
 
 std::vector<PictureSetting> settings_of(const scenes::Scene& scene, int width, int height) {
@@ -41,10 +41,11 @@ std::vector<PictureSetting> settings_of(const scenes::Scene& scene, int width, i
     effort.pixel_share = share;
     add("tessellation", fmt::format("within {:g} pixel", share), effort, false);
   }
-  for (const int samples : kSamples) {
+  for (const auto& [scale, samples] : kSamples) {
     Effort effort = own;
+    effort.scale = scale;
     effort.samples = samples;
-    add("samples", fmt::format("{} x {} a pixel", samples * own.scale, samples * own.scale), effort, false);
+    add("samples", fmt::format("{0} x {0} a pixel", samples * scale), effort, false);
   }
   for (const int size : kShadowMaps) {
     Effort effort = own;

@@ -58,15 +58,20 @@ shade::Canvas Renderer::Impl::canvas_on(Image& out) {
   return {large.data(), width * effort.scale, height * effort.scale, width * effort.scale};
 }
 
-/// Two by two pixels of the canvas become one.
+/// A square of the canvas, `scale` pixels a side, becomes one pixel: its mean.
 void Renderer::Impl::reduce(Image& out) const {
-  const std::size_t pitch = 8 * static_cast<std::size_t>(width);
+  const std::size_t side = static_cast<std::size_t>(effort.scale), row = 4 * static_cast<std::size_t>(width), pitch = side * row;
+  const unsigned count = static_cast<unsigned>(side * side);
   for (std::size_t y = 0, rows = static_cast<std::size_t>(height); y < rows; ++y) {
-    std::uint8_t* to = out.rgba.data() + pitch / 2 * (rows - 1 - y);
-    const std::uint8_t* from = large.data() + 2 * pitch * y;
-    for (int x = 0; x < width; ++x, to += 4, from += 8) {
-      const std::uint8_t* above = from + pitch;
-      for (int c = 0; c < 3; ++c) to[c] = static_cast<std::uint8_t>((from[c] + from[c + 4] + above[c] + above[c + 4] + 2) / 4);
+    std::uint8_t* to = out.rgba.data() + row * (rows - 1 - y);
+    const std::uint8_t* from = large.data() + side * pitch * y;
+    for (int x = 0; x < width; ++x, to += 4, from += 4 * side) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        unsigned sum = count / 2;
+        for (std::size_t j = 0; j < side; ++j)
+          for (std::size_t i = 0; i < side; ++i) sum += from[j * pitch + 4 * i + c];
+        to[c] = static_cast<std::uint8_t>(sum / count);
+      }
       to[3] = 255;
     }
   }

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "../program.h"
@@ -84,13 +86,18 @@ TEST(Study, TellsWhatAPictureCosts) {
   const Result result = study_puck(folder, {"--picture", "--set", "output.width=160", "--set", "output.height=90"});
   ASSERT_EQ(result.code, 0) << result.err;
   const auto json = nlohmann::json::parse(contents(folder / "out/picture.json"));
-  double draft = 0, fine = 0;
+  std::map<std::string, std::vector<double>> errors, likeness;  // by series, with rising effort
   for (const auto& setting : json["settings"]) {
     EXPECT_GT(setting["frame_ms"].get<double>(), 0);
-    if (setting["setting"] == "draft") draft = setting["rms_255"];
-    if (setting["setting"] == "fine") fine = setting["rms_255"];
+    errors[setting["series"]].push_back(setting["rms_255"]);
+    likeness[setting["series"]].push_back(setting["ssim"]);
   }
-  EXPECT_LT(fine, draft);  // four times the samples
+  for (const char* series : {"quality", "samples"}) {
+    EXPECT_THAT(errors[series], ::testing::SizeIs(::testing::Ge(3)));
+    EXPECT_TRUE(std::is_sorted(errors[series].rbegin(), errors[series].rend())) << series;
+  }
+  // standard: a reference of other things than this picture shows has had two thirds
+  EXPECT_GT(likeness["quality"][1], 0.95);
 }
 
 TEST(Study, ForgetsAFormulaThatIsNoLongerThatOfTheScene) {
