@@ -93,6 +93,10 @@ struct PlanLine {
   bool forced = false;
   std::string reason;
   std::string left_out;  // what is not computed, with its bound
+  bool called_for = false;
+
+  bool forced_off() const { return forced && !active; }
+  bool idle() const { return active && !called_for; }  // switched on by the author
 };
 
 struct EffectCost {

@@ -69,10 +69,16 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
   return recording;
 }
 
-void bound_what_is_left_out(const Model& model, Recording& recording) {
+void tell_what_is_left_out(const Model& model, Recording& recording) {
   for (const EffectKind* effect : effect_table())
     for (PlanLine& line : recording.plan)
-      if (effect->left_out && !line.active && line.effect == effect->name) line.left_out = effect->left_out(model, recording);
+      if (effect->left_out && line.effect == effect->name && !line.forced_off()) {
+        const LeftOut left_out = effect->left_out(model, recording, line.active);
+        if (!left_out.text.empty()) line.left_out = left_out.text;
+        if (left_out.matters) recording.diagnostics.warnings.push_back(line.effect + ": " + left_out.text);
+      }
+  for (const PlanLine& line : recording.plan)
+    if (line.idle()) recording.diagnostics.warnings.push_back(line.effect + " was " + line.reason);
 }
 
 }  // namespace
@@ -81,7 +87,7 @@ Recording simulate(const Model& model, const Plan& plan, const RunOptions& optio
   const LocalFrame frame(model);
   Recording recording = run(frame.inwards(model), plan, options);
   frame.outwards(model, recording);
-  bound_what_is_left_out(model, recording);
+  tell_what_is_left_out(model, recording);
   return recording;
 }
 

@@ -6,8 +6,9 @@
 // 2002, chapter 14; vans 0.35 to 0.5, buses 0.4 to 0.8, rigid trucks 0.7 to 0.9) on 85 % of the box, as much as a car fills of it;
 // from the side and from above those of blocks with rounded and with sharp edges, 0.8 and 1.0 (Hoerner: a cube 1.05).
 //
-// A scene without [air] has none. What that leaves out is bounded: drag takes no more than 1/2 rho D v^2/m from the speed in a unit
-// of time, and never more than there is.
+// A scene without [air] has still air of the usual density round its vehicles and persons, unless what it is worth is below kShare.
+// Its free bodies have none: nobody knows what they are meant to be. What that leaves out is told as the speed that drag would
+// take: 1/2 rho A v^2/m in a unit of time. Before the run v is bounded by the energy there is, after it v is that of the run.
 #include <algorithm>
 #include <cmath>
 
@@ -66,107 +67,168 @@ Vec3 force_on(const Air& air, std::size_t body, const Quat& q, const Vec3& v) {
   return q * Vec3(-0.5 * air.density * u.norm() * air.drag_area[body].cwiseProduct(q.conjugate() * u));
 }
 
+bool is_vehicle(const Model& model, int body) {
+  return std::any_of(model.vehicles.begin(), model.vehicles.end(), [body](const Vehicle& v) { return v.body == body; });
+}
+
 // What is left out.
+
+constexpr double kShare = 0.01;  // [-] of a speed, above which it matters
+constexpr double kPush = 0.1;    // [-] of a weight, above which who waits would not stand as he does
 
 /// Bodies that keep together: a person, or one body.
 struct Group {
   std::string name;
   std::vector<int> bodies;
   double mass = 0;
+  bool usual = false;  // a person or vehicle
 };
 
 std::vector<Group> groups_of(const Model& model) {
   std::vector<Group> out;
-  for (const Person& person : model.persons) out.push_back({person.name, person.bodies, 0});
-  for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (!model.bodies[b].fixed && model.bodies[b].person < 0) out.push_back({model.bodies[b].name, {static_cast<int>(b)}, 0});
+  for (const Person& person : model.persons) out.push_back({person.name, person.bodies, 0, true});
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const int body = static_cast<int>(b);
+    if (!model.bodies[b].fixed && model.bodies[b].person < 0)
+      out.push_back({model.bodies[b].name, {body}, 0, is_vehicle(model, body)});
+  }
   for (Group& group : out)
     for (const int b : group.bodies) group.mass += model.bodies[b].mass;
   return out;
 }
 
-struct Bound {
-  double speed = 0, way = 0;  // [m/s], [m]
+/// What drag would take from somebody.
+struct Loss {
+  double speed = 0;  // [m/s]
+  double share = 0;  // [-] of the greatest speed it has
   std::string of;
 };
 
-std::string in_words(const Bound& worst, const char* when) {
-  if (worst.way == 0) return "air drag: nothing moves";
-  return "air drag" + std::string(when) + ": at most " + number(worst.speed) + " m/s and " + number(worst.way) + " m (" + worst.of +
-         "); [air] has it computed";
+/// What may give a scene energy that it does not have at the start; empty: nothing.
+std::string source_of_energy(const Model& model) {
+  for (const EffectKind* effect : effect_table())
+    if (effect->gives && effect->gives(model)) return effect->name;
+  for (const Vehicle& vehicle : model.vehicles) {
+    const auto drives = [](const DriverPhase& phase) { return phase.drives; };
+    const auto& knots = vehicle.drive_force.knots();
+    if (std::any_of(knots.begin(), knots.end(), [](const Schedule::Knot& knot) { return knot.value != 0; }) ||
+        std::any_of(vehicle.sequence.begin(), vehicle.sequence.end(), drives))
+      return "the drive of " + vehicle.name;
+  }
+  return {};
 }
 
-/// Speed [m/s] nothing in the scene exceeds: the fastest body, thrown on with the largest restitution, and what it can fall.
-double greatest_speed(const Model& model) {
+/// Energy [J] that all bodies together can have at any time, where nothing gives any: that of the start and of falling. Onto a
+/// level plane nothing falls deeper than to its centre; else it falls all the time.
+double greatest_energy(const Model& model) {
   const double T = model.settings.duration, g = model.settings.gravity.norm();
-  double fastest = 0, restitution = 0, high = 0;
+  const bool level = model.ground.plane && model.settings.gravity.head<2>().isZero(0);
+  double energy = 0;
   for (const Body& body : model.bodies) {
     if (body.fixed) continue;
-    fastest = std::max(fastest, body.V_WB.v.norm());
-    restitution = std::max({restitution, body.surface.restitution_body.at(0), body.surface.restitution_ground.at(0)});
-    if (model.ground.plane) high = std::max(high, body.X_WB.p.z() - model.ground.height);
+    const Vec3 w = body.X_WB.q.conjugate() * body.V_WB.w;
+    const double v = body.V_WB.v.norm(), height = std::max(0.0, body.X_WB.p.z() - model.ground.height);
+    const double falls = level ? height : v * T + 0.5 * g * T * T;
+    energy += 0.5 * body.mass * v * v + 0.5 * w.dot(body.inertia_B * w) + body.mass * g * falls;
   }
-  if (!model.ground.plane) high = 0.5 * g * T * T;
-  return math::hypot((1 + restitution) * fastest, std::sqrt(2 * g * high));
+  for (const Vehicle& vehicle : model.vehicles)
+    for (const Wheel& wheel : vehicle.wheels) energy += 0.5 * wheel.spring * wheel.travel * wheel.travel;
+  return energy;
 }
 
-Bound bound_before(const Model& model) {
+/// The greatest loss before the run. Of bodies with masses m and areas A that share an energy E the drag is rho E max(A/m) at most.
+Loss loss_before(const Model& model, const std::vector<Group>& groups) {
   const std::vector<Vec3> areas = drag_areas(model, kDrag, kVehicleDrag);
-  const double v = greatest_speed(model), T = model.settings.duration;
-  Bound worst;
-  for (const Group& group : groups_of(model)) {
-    double area = 0;
-    for (const int b : group.bodies) area += areas[b].maxCoeff();
-    const double a = 0.5 * kDensity * area * v * v / group.mass;  // [m/s^2]
-    if (a == 0) continue;
-    const double t = std::min(T, v / a);  // until it would stand
-    const Bound bound{a * t, 0.5 * a * t * t + v * (T - t), group.name};
-    if (bound.way > worst.way) worst = bound;
+  const double energy = greatest_energy(model), T = model.settings.duration;
+  Loss worst;
+  for (const Group& group : groups) {
+    double area = 0;  // [m^2/kg]
+    for (const int b : group.bodies) area = std::max(area, areas[b].maxCoeff() / model.bodies[b].mass);
+    const double speed = std::sqrt(2 * energy / group.mass), taken = kDensity * energy * area / group.mass * T;
+    if (speed > 0 && taken / speed > worst.share) worst = {taken, taken / speed, group.name};
   }
   return worst;
 }
 
-Bound bound_along(const Model& model, const Recording& run) {
+/// The greatest loss of those the air of a run, if it had any, does not act on.
+Loss loss_along(const Model& model, const Recording& run, bool had_air) {
   const std::vector<Vec3> areas = drag_areas(model, kDrag, kVehicleDrag);
-  Bound worst;
+  Loss worst;
   for (const Group& group : groups_of(model)) {
-    Bound bound;
-    bound.of = group.name;
-    double lost = 0;  // [m/s]
+    if (had_air && group.usual) continue;
+    double taken = 0, fastest = 0;
     for (std::size_t k = 1; k < run.snapshots.size(); ++k) {
-      const double dt = run.snapshots[k].time - run.snapshots[k - 1].time;
-      Vec3 momentum = Vec3::Zero();
       double force = 0;
       for (const int b : group.bodies) {
-        const Vec3& v = run.snapshots[k].bodies[b].V_WB.v;
-        const double fastest = std::max(v.squaredNorm(), run.snapshots[k - 1].bodies[b].V_WB.v.squaredNorm());
-        force += 0.5 * kDensity * areas[b].maxCoeff() * fastest;
-        momentum += model.bodies[b].mass * v;
+        const double v2 =
+            std::max(run.snapshots[k].bodies[b].V_WB.v.squaredNorm(), run.snapshots[k - 1].bodies[b].V_WB.v.squaredNorm());
+        force += 0.5 * kDensity * areas[b].maxCoeff() * v2;
+        fastest = std::max(fastest, std::sqrt(v2));
       }
-      lost = std::min(lost + force / group.mass * dt, momentum.norm() / group.mass);
-      bound.speed = std::max(bound.speed, lost);
-      bound.way += lost * dt;
+      taken += force / group.mass * (run.snapshots[k].time - run.snapshots[k - 1].time);
     }
-    if (bound.way > worst.way) worst = bound;
+    if (fastest > 0 && taken / fastest > worst.share) worst = {taken, taken / fastest, group.name};
   }
   return worst;
+}
+
+std::string in_words(const Loss& loss) {
+  if (loss.share >= 1) return "all of the speed of " + loss.of + " (" + number(loss.speed / loss.share) + " m/s at most)";
+  return number(loss.speed) + " m/s from " + loss.of + ", " + number(100 * loss.share) + " % of its speed";
+}
+
+constexpr const char* kHow = "; [air] has it computed";
+
+/// Of a scene that says nothing of the air.
+Finding look_at_usual(const Model& model) {
+  const std::vector<Group> groups = groups_of(model);
+  const bool usual = std::any_of(groups.begin(), groups.end(), [](const Group& group) { return group.usual; });
+  const bool free = std::any_of(groups.begin(), groups.end(), [](const Group& group) { return !group.usual; });
+  const std::string air = "usual air of " + number(kDensity) + " kg/m^3, still, round ", how = kHow;
+  const std::string source = source_of_energy(model);
+  const Loss loss = loss_before(model, groups);
+  const bool matters = !source.empty() || loss.share > kShare;
+  if (usual && matters) return {true, air + "vehicles and persons", free ? "drag of free bodies" + how : ""};
+  if (!source.empty())
+    return {false, "the scene has no [air], vehicle or person",
+            "drag, not bounded before the run, for " + source + " gives energy" + how};
+  if (loss.share == 0) return {false, "nothing moves", ""};
+  return {false, usual ? "worth less than a hundredth of a speed" : "the scene has no [air], vehicle or person",
+          "drag takes at most " + in_words(loss) + how};
+}
+
+/// The wind on persons that keep their pose until something touches them.
+LeftOut push_on_waiting(const Model& model) {
+  const double wind = input(model, "air.wind")->norm(), density = input(model, "air.density")->x();
+  const std::vector<Vec3> areas = drag_areas(model, input(model, "air.drag")->x() * Vec3::Ones(), Vec3::Zero());
+  LeftOut out;
+  for (const Person& person : model.persons) {
+    if (!person.zero_condition || wind * density == 0) continue;
+    double area = 0, mass = 0;
+    for (const int b : person.bodies) area += areas[b].maxCoeff(), mass += model.bodies[b].mass;
+    const double push = 0.5 * density * area * wind * wind;
+    out.text += (out.text.empty() ? "the push of the wind, up to " : ", ") + number(push) + " N on " + person.name;
+    out.matters = out.matters || push > kPush * mass * model.settings.gravity.norm();
+  }
+  if (!out.text.empty()) out.text += ", until something touches who waits; zero_condition = false has it computed";
+  return out;
 }
 
 Finding look_at(const Model& model) {
   const Vec3* density = input(model, "air.density");
-  if (!density)
-    return {false, "the scene has no [air]",
-            in_words(bound_before(model), " (all the time at the greatest speed; --measure bounds it closer)")};
+  if (!density) return look_at_usual(model);
   if (density->x() == 0) return {false, "air.density is 0", ""};
   const Vec3 wind = *input(model, "air.wind");
   return {true,
           "air of " + number(density->x()) + " kg/m^3" + (wind.isZero() ? ", still" : ", wind of " + number(wind.norm()) + " m/s"),
-          ""};
+          push_on_waiting(model).text};
 }
 
-std::string left_out_along(const Model& model, const Recording& run) {
-  if (input(model, "air.density")) return "";
-  return in_words(bound_along(model, run), " along this run");
+LeftOut left_out_along(const Model& model, const Recording& run, bool had_air) {
+  if (input(model, "air.density")) return push_on_waiting(model);
+  const Loss loss = loss_along(model, run, had_air);
+  if (loss.share == 0) return {};
+  return {"drag would take " + in_words(loss) + " along this run" + kHow, loss.share > kShare};
 }
 
 Air air_of(const Model& model) {
@@ -176,7 +238,13 @@ Air air_of(const Model& model) {
     air.density = density->x();
     air.wind = *input(model, "air.wind");
     air.drag_area = drag_areas(model, drag * Vec3::Ones(), *input(model, "air.vehicle_drag"));
+    return air;
   }
+  if (!look_at(model).called_for) return air;  // switched on by hand
+  air.density = kDensity;
+  air.drag_area = drag_areas(model, kDrag, kVehicleDrag);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (model.bodies[b].person < 0 && !is_vehicle(model, static_cast<int>(b))) air.drag_area[b].setZero();
   return air;
 }
 
@@ -194,16 +262,18 @@ double power_taken(const World& world, const Motion& at, const Air& air) {
 class AirDrag final : public Effect {
  public:
   static constexpr const char* kName = "air_drag";
-  static constexpr SceneSection kSection{"air",
-                                         "The air, where its resistance or the wind counts. Without this section there is none; "
-                                         "`crashreel plan` tells what that leaves out.",
-                                         kKeys};
+  static constexpr SceneSection kSection{
+      "air",
+      "The air, where its resistance or the wind counts. Without this section there is still air round "
+      "vehicles and persons, and none round free bodies; `crashreel plan` tells what that leaves "
+      "out.",
+      kKeys};
   static Finding look(const Model& model) { return look_at(model); }
   static bool gives(const Model& model) {
     const Vec3* wind = input(model, "air.wind");
     return wind && !wind->isZero(0);
   }
-  static std::string left_out(const Model& model, const Recording& run) { return left_out_along(model, run); }
+  static LeftOut left_out(const Model& model, const Recording& run, bool had_air) { return left_out_along(model, run, had_air); }
 
   AirDrag(const World& world, int self) : Effect(self), air_(air_of(world.model)) {}
 

@@ -19,6 +19,12 @@ struct Finding {
   std::string left_out;  // what the effect, on or off, does not compute, and how much that is worth; empty: nothing
 };
 
+/// What an effect did not compute in a run that is known.
+struct LeftOut {
+  std::string text;      // empty: nothing closer than Finding::left_out
+  bool matters = false;  // enough to warn
+};
+
 /// A key of a scene that an effect brings with it; the loader, the reference and the schema read it from here.
 struct SceneKey {
   const char* name;
@@ -102,8 +108,8 @@ enum class Hook : unsigned {
 struct EffectKind {
   const char* name = "";
   Finding (*look)(const Model&) = nullptr;
-  /// Finding::left_out of an effect that was not in the plan, once the run is known: closer than before it. Null: no closer.
-  std::string (*left_out)(const Model&, const Recording&) = nullptr;
+  /// Finding::left_out once the run is known, in which the effect was active or not: closer than before it. Null: no closer.
+  LeftOut (*left_out)(const Model&, const Recording&, bool active) = nullptr;
   /// May it give energy that its account did not take before: springs, surfaces that give way, the wind? Null: never.
   bool (*gives)(const Model&) = nullptr;
   SceneSection section;

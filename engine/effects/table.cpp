@@ -41,8 +41,12 @@ Plan compile(const Model& model) {
     const Finding found = effect->look(model);
     const auto forced = model.settings.effects.find(effect->name);
     const Force force = forced == model.settings.effects.end() ? Force::automatic : forced->second;
-    PlanLine line{effect->name, force == Force::on || (force == Force::automatic && found.called_for), force != Force::automatic,
-                  found.reason, found.left_out};
+    PlanLine line{effect->name,
+                  force == Force::on || (force == Force::automatic && found.called_for),
+                  force != Force::automatic,
+                  found.reason,
+                  found.left_out,
+                  found.called_for};
     if (force == Force::off && found.called_for) {
       line.reason = "switched off by the author; the scene calls for it: " + found.reason;
       line.left_out = "all of it, without a bound: this is not the scene's result";

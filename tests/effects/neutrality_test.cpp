@@ -117,7 +117,7 @@ TEST(ForcedOff, TheZeroConditionLeavesNobodyHanging) {
 
 TEST(ForcedOff, TheDriverLetsTheCarRoll) {
   Model model = struck();
-  model.settings.effects["driver"] = Force::off;
+  for (const char* off : {"driver", "air_drag"}) model.settings.effects[off] = Force::off;
   const int car = model.vehicles[0].body;
   model.bodies[car].X_WB.p.y() -= 10;  // past the person
   const double v0 = model.bodies[car].V_WB.v.norm();

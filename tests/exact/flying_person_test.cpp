@@ -29,6 +29,7 @@ engine::Model flying(Scheme scheme, Resistance resistance, double step, double d
   model.settings.stop_at_rest = false;
   model.settings.effects["joint_limits"] = engine::Force::off;
   model.settings.effects["self_contact"] = engine::Force::off;
+  model.settings.effects["air_drag"] = engine::Force::off;
   if (resistance == Resistance::none) model.settings.effects["joint_resistance"] = engine::Force::off;
   for (engine::Joint& joint : model.joints)
     for (engine::JointCoordinate& angle : joint.angles) {
