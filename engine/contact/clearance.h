@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "engine/geometry/hyper_ellipsoid_pair.h"
 #include "engine/math/types.h"
 
 namespace engine {
@@ -50,10 +51,11 @@ struct Clearance {
 struct PairMemory {
   Vec3 normal_W = Vec3::Zero();  // of the last narrow phase, from which the next one starts; zero: none yet
   Clearance clearance;           // of b in the frame of a
+  OtherNormals others;           // of the two deep in each other
 
   template <class S>
   static auto fields(S& s) {
-    return std::tie(s.normal_W, s.clearance);
+    return std::tie(s.normal_W, s.clearance, s.others);
   }
 };
 

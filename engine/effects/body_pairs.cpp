@@ -142,7 +142,7 @@ void find_contact_of(ContactSearch& search, const BodyPair& pair, PairMemory& me
   if (memory.clearance.beyond(*margin, X_AB, world.reach[pair.b])) return;
   memory.clearance.least = 0;
   const auto touch = contact_of_pair(std::get<HyperEllipsoid>(A.shape), X_WA, std::get<HyperEllipsoid>(B.shape), X_WB, *margin,
-                                     memory.normal_W, &memory.clearance.least);
+                                     memory.normal_W, &memory.clearance.least, &memory.others);
   if (touch)
     add_contact(search, *touch, pair.a, pair.b, effect, kind, between_bodies(A, B, search.at.time));
   else

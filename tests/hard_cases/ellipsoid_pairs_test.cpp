@@ -167,5 +167,43 @@ TEST_P(SlidingEllipsoidPairs, HaveNormalsThatDoNotJump) {
   EXPECT_EQ(jumps, 0);
 }
 
+class DrivenEllipsoidPairs : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(In, DrivenEllipsoidPairs,
+                         testing::Values(Kind::any, Kind::parallel_faces, Kind::corner_to_corner, Kind::concentric), in_words);
+
+/// One part is driven through another by up to a millimetre and half a degree a look. What is remembered of its other normals may
+/// spare a search only where the search finds nothing better: a second look from the same guess searches always.
+TEST_P(DrivenEllipsoidPairs, AreSparedOnlySearchesThatFindNothing) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> unit(0, 1);
+  auto direction = [&] { return Vec3(normal(random), normal(random), normal(random)).normalized(); };
+  int spared = 0, searched = 0, wrong = 0;
+  double worst = 0;
+  for (int k = 0; k < 100; ++k) {
+    Pair pair = make(GetParam(), random);
+    const Vec3 step = 1e-3 * unit(random) * direction();
+    const Quat turn(Eigen::AngleAxisd(0.01 * unit(random), direction()));
+    engine::OtherNormals others;
+    Vec3 guess = Vec3::Zero();
+    for (int look = 0; look < 60; ++look) {
+      pair.X_B = {pair.X_B.p + step, turn * pair.X_B.q};
+      Vec3 same_guess = guess;
+      const Pose before = others.X_AB;
+      const auto found = contact_of_pair(pair.A, pair.X_A, pair.B, pair.X_B, 1, guess, nullptr, &others);
+      const auto all = contact_of_pair(pair.A, pair.X_A, pair.B, pair.X_B, 1, same_guess);
+      ASSERT_TRUE(found && all);
+      const double deep = -0.1 * std::min(pair.A.semi_axes.minCoeff(), pair.B.semi_axes.minCoeff());
+      if (found->gap < deep) (others.X_AB.p != before.p ? searched : spared) += 1;  // nothing else is searched once it is warm
+      worst = std::max(worst, all->gap - found->gap);
+      wrong += all->gap > found->gap + 1e-6;
+    }
+  }
+  row("searches spared", name_of(GetParam()), "%d of %d; %d missed something, by %.1e m at most", spared, spared + searched, wrong,
+      worst);
+  EXPECT_GT(spared, 2 * searched);
+  EXPECT_LE(wrong, (spared + searched) / 1000);
+}
+
 }  // namespace
 }  // namespace hard_cases
