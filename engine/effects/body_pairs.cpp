@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "engine/geometry/hyper_ellipsoid_faces.h"
 #include "engine/geometry/hyper_ellipsoid_pair.h"
 
 namespace engine {
@@ -129,6 +130,17 @@ std::optional<double> margin_of_near(const Outlook& outlook, const BodyPair& pai
 
 namespace {
 
+/// Side on side at many points, else at the deepest. Where they are apart, the memory has by how much.
+void contacts_of_rounds(const HyperEllipsoid& A, const Pose& X_WA, const HyperEllipsoid& B, const Pose& X_WB, double margin,
+                        PairMemory& memory, ContactPoints& out) {
+  double apart = 0;
+  const FacesMeet faces = contacts_of_faces(A, X_WA, B, X_WB, margin, out, apart);
+  if (faces == FacesMeet::apart) memory.clearance.least = apart;
+  if (faces != FacesMeet::other) return;
+  if (const auto touch = contact_of_pair(A, X_WA, B, X_WB, margin, memory.normal_W, &memory.clearance.least, &memory.others))
+    out.push_back(*touch);
+}
+
 void find_contact_of(ContactSearch& search, const BodyPair& pair, PairMemory& memory, int effect, ContactKind kind) {
   const World& world = search.world;
   const Body& A = world.model.bodies[pair.a];
@@ -141,12 +153,13 @@ void find_contact_of(ContactSearch& search, const BodyPair& pair, PairMemory& me
   const Pose X_AB = X_WA.inverse() * X_WB;
   if (memory.clearance.beyond(*margin, X_AB, world.reach[pair.b])) return;
   memory.clearance.least = 0;
-  const auto touch = contact_of_pair(std::get<HyperEllipsoid>(A.shape), X_WA, std::get<HyperEllipsoid>(B.shape), X_WB, *margin,
-                                     memory.normal_W, &memory.clearance.least, &memory.others);
-  if (touch)
-    add_contact(search, *touch, pair.a, pair.b, effect, kind, between_bodies(A, B, search.at.time));
-  else
-    memory.clearance.X = X_AB;
+  ContactPoints touches;
+  contacts_of_rounds(std::get<HyperEllipsoid>(A.shape), X_WA, std::get<HyperEllipsoid>(B.shape), X_WB, *margin, memory, touches);
+  if (touches.empty()) memory.clearance.X = X_AB;
+  const std::size_t first = search.found.size();
+  for (const SurfaceContact& touch : touches)
+    add_contact(search, touch, pair.a, pair.b, effect, kind, between_bodies(A, B, search.at.time));
+  share_stiffness(search, first);
 }
 
 }  // namespace

@@ -6,14 +6,12 @@
 
 namespace engine {
 
-std::array<Vec3, 4> corner_directions(const HyperEllipsoid& shape, const Vec3& direction) {
-  // (1e-3)^(1/29) = 0.79: where the support point of n = 30 goes; the face is lifted there by 3e-5 of its depth
-  constexpr double kLean = 1e-3;  // [-] in the affine image where the body is a cube
+std::array<Vec3, 4> corner_directions(const HyperEllipsoid& shape, const Vec3& direction, double lean) {
   int face = 0;
   direction.cwiseAbs().maxCoeff(&face);
   const int i = (face + 1) % 3, k = (face + 2) % 3;
   const Vec3& a = shape.semi_axes;
-  const double lean_i = kLean * a[face] / a[i], lean_k = kLean * a[face] / a[k];
+  const double lean_i = lean * a[face] / a[i], lean_k = lean * a[face] / a[k];
   std::array<Vec3, 4> out;
   for (int corner = 0; corner < 4; ++corner) {
     Vec3 leaned = direction;

@@ -1,0 +1,220 @@
+// As of two boxes: the axis of a side along which the two overlap least separates them (S. Gottschalk, M. Lin, D. Manocha, OBBTree,
+// SIGGRAPH 1996); the other's side that faces it is clipped against it (I. Sutherland, G. Hodgman, CACM 17 (1974)). A side is the
+// quadrilateral of its corner points, and the gap at a corner of the clipped one that between the true surfaces along the normal.
+#include "engine/geometry/hyper_ellipsoid_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "engine/geometry/face_corners.h"
+
+namespace engine {
+namespace {
+
+constexpr double kFlatSides = 8;       // [-] least exponent
+constexpr double kLeastFacing = 0.98;  // [-] cosine between two sides: beyond 11 degrees an edge touches
+constexpr double kNoBetter = 1e-5;     // [m] by which the second body's side must separate better to be taken: no taking turns
+constexpr double kDepthCounts = 10;    // [-] a centimetre of depth counts like a decimetre of distance
+constexpr double kParallel = 1e-3;     // [rad] edges that cross at less have their corners to stand for them
+constexpr double kSamePoint = 0.02;    // [-] of the smaller side: corners that are nearer to each other are one
+
+/// A body, and one of its sides: the axis that points out of it.
+struct Side {
+  const HyperEllipsoid& shape;
+  const Pose& X;
+  Mat3 R;
+  int axis = 0;
+  double sign = 1;
+
+  Vec3 out() const { return sign * R.col(axis); }
+  void face(const Vec3& direction) {
+    (R.transpose() * direction).cwiseAbs().maxCoeff(&axis);
+    sign = R.col(axis).dot(direction) < 0 ? -1 : 1;
+  }
+};
+
+using Plane = Eigen::Vector2d;
+using Quad = std::array<Plane, 4>;
+
+double cross(const Plane& a, const Plane& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Does a side lie over or under a point, short of its rim?
+bool covers(const Side& side, const Vec3& p) {
+  constexpr double kRim = 0.97;  // [-] of the half widths
+  const Vec3 x = (side.R.transpose() * (p - side.X.p)).cwiseQuotient(side.shape.semi_axes).cwiseAbs();
+  return x[(side.axis + 1) % 3] < kRim && x[(side.axis + 2) % 3] < kRim;
+}
+
+/// A point of the patch, seen along the normal.
+struct Corner {
+  Plane at;
+  std::uint32_t key = 0;
+};
+using Corners = SmallVector<Corner, 24>;
+using Points = SmallVector<SurfaceContact, 24>;
+
+/// Two sides as they are seen along the normal.
+struct View {
+  Vec3 origin, t1, t2;
+
+  Plane of(const Vec3& p) const { return {t1.dot(p - origin), t2.dot(p - origin)}; }
+  Vec3 at(const Plane& p) const { return origin + p.x() * t1 + p.y() * t2; }
+};
+
+/// The corners of a side, in turn about it. The more two sides lean to each other, the nearer to the rim they touch.
+Quad quad_of(const Side& side, double lean, const View& view) {
+  Quad quad;
+  std::size_t i = 0;
+  for (const Vec3& direction : corner_directions(side.shape, side.sign * Vec3::Unit(side.axis), lean))
+    quad[i++] = view.of(side.X * support_point(side.shape, direction));
+  std::swap(quad[2], quad[3]);  // they come row by row
+  return quad;
+}
+
+/// How far [m] a point lies inside a quad, negative outside.
+double inside(const Quad& quad, const Plane& p) {
+  const double sense = cross(quad[2] - quad[0], quad[3] - quad[1]) < 0 ? -1 : 1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Plane edge = quad[(i + 1) % 4] - quad[i];
+    const double length = edge.norm();
+    if (length > 0) least = std::min(least, sense * cross(edge, p - quad[i]) / length);
+  }
+  return least;
+}
+
+/// Collects corners; what nearly coincides is one.
+struct Clip {
+  const Quad &a, &b;
+  double same;  // [m]
+  Corners& out;
+
+  void add(const Plane& p, std::uint32_t key) {
+    const bool known = std::any_of(out.begin(), out.end(), [&](const Corner& c) { return (c.at - p).norm() < same; });
+    if (!known) out.push_back({p, key});
+  }
+  /// Corners of either that lie in the other, as two predicates say.
+  template <class InA, class InB>
+  void corners(InA&& in_a, InB&& in_b) {
+    for (std::uint32_t i = 0; i < 4; ++i)
+      if (in_b(a[i])) add(a[i], 1 + i);
+    for (std::uint32_t i = 0; i < 4; ++i)
+      if (in_a(b[i])) add(b[i], 5 + i);
+  }
+  void crossings() {
+    for (std::uint32_t i = 0; i < 4; ++i)
+      for (std::uint32_t k = 0; k < 4; ++k) {
+        const Plane u = a[(i + 1) % 4] - a[i], v = b[(k + 1) % 4] - b[k], d = b[k] - a[i];
+        const double turn = cross(u, v);
+        if (std::abs(turn) <= kParallel * u.norm() * v.norm()) continue;
+        const double s = cross(d, v) / turn, r = cross(d, u) / turn;
+        if (s >= 0 && s <= 1 && r >= 0 && r <= 1) add(a[i] + s * u, 9 + 4 * i + k);
+      }
+  }
+};
+
+/// Corners of what two sides share. Leaning, a side touches beyond the flat of the other, near its rim.
+void clip(const View& view, const Side& side_a, const Quad& a, const Side& side_b, const Quad& b, Corners& out) {
+  double size = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 2; ++i) size = std::min({size, (a[i + 2] - a[i]).norm(), (b[i + 2] - b[i]).norm()});
+  Clip clip{a, b, kSamePoint * size, out};
+  const double rounding = 0.5 * clip.same;
+  clip.corners([&](const Plane& p) { return inside(a, p) > -rounding; }, [&](const Plane& p) { return inside(b, p) > -rounding; });
+  clip.crossings();
+  if (out.empty())
+    clip.corners([&](const Plane& p) { return covers(side_a, view.at(p)); },
+                 [&](const Plane& p) { return covers(side_b, view.at(p)); });
+}
+
+/// How far along `n` [m] from `p` the surface lies on the side of a body that faces n. Newton from outside: the gauge is convex
+/// along the line, so it comes down on the root from beyond. Not a number where the line misses the body.
+double surface_along(const Side& side, const Vec3& p, const Vec3& n) {
+  const Vec3 x_B = side.R.transpose() * (p - side.X.p), n_B = side.R.transpose() * n;
+  double t = support_value(side.shape, n_B) - n_B.dot(x_B);
+  for (int k = 0; k < 20; ++k) {
+    const Vec3 x = x_B + t * n_B;
+    const double slope = gauge_gradient(side.shape, x).dot(n_B);
+    if (!(slope > 0)) return std::numeric_limits<double>::quiet_NaN();
+    const double step = (gauge(side.shape, x) - 1) / slope;
+    t -= step;
+    if (std::abs(step) < 1e-12) break;
+  }
+  return t;
+}
+
+/// What lies over a point of the patch: both surfaces, along the normal. Infinitely far where one of them is not there.
+SurfaceContact between(const Side& a, const Side& b, const Vec3& p, const Vec3& normal) {
+  const double to_a = surface_along(a, p, -normal), to_b = surface_along(b, p, normal);
+  SurfaceContact c;
+  c.normal = normal;
+  c.p_a = p - to_a * normal;
+  c.p_b = p + to_b * normal;
+  c.gap = std::isfinite(to_a + to_b) ? -to_a - to_b : std::numeric_limits<double>::infinity();
+  return c;
+}
+
+/// The largest distance [m] of the two along an axis of either, negative where they overlap along all, and that axis, from b to a.
+double separate_along_axes(const Side& a, const Side& b, Vec3& normal) {
+  const Vec3 d = a.X.p - b.X.p;
+  double gap = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 6; ++i) {
+    Vec3 n = i < 3 ? a.R.col(i) : b.R.col(i - 3);
+    if (n.dot(d) < 0) n = -n;
+    const double along = n.dot(d) - support_value(a.shape, a.R.transpose() * n) - support_value(b.shape, b.R.transpose() * n);
+    if (along > gap + (i < 3 ? 0 : kNoBetter)) gap = along, normal = n;
+  }
+  return gap;
+}
+
+/// Of many points the deepest and three far from those kept before.
+void keep_four(Points& points) {
+  if (points.size() <= 4) return;
+  for (int kept = 0; kept < 4; ++kept) {
+    int next = kept;
+    double best = -std::numeric_limits<double>::infinity();
+    for (int i = kept; i < points.size(); ++i) {
+      double merit = kept == 0 ? 0 : std::numeric_limits<double>::infinity();
+      for (int j = 0; j < kept; ++j) merit = std::min(merit, (points[i].p_a - points[j].p_a).norm());
+      merit -= kDepthCounts * points[i].gap;
+      if (merit > best) best = merit, next = i;
+    }
+    std::swap(points[kept], points[next]);
+  }
+  points.resize_down(4);
+}
+
+}  // namespace
+
+FacesMeet contacts_of_faces(const HyperEllipsoid& A, const Pose& X_WA, const HyperEllipsoid& B, const Pose& X_WB, double margin,
+                            ContactPoints& out, double& apart) {
+  out.clear();
+  if (A.exponent < kFlatSides || B.exponent < kFlatSides) return FacesMeet::other;
+  Side a{A, X_WA, X_WA.q.toRotationMatrix()}, b{B, X_WB, X_WB.q.toRotationMatrix()};
+  Vec3 normal;
+  apart = separate_along_axes(a, b, normal);
+  if (apart >= margin) return FacesMeet::apart;
+  a.face(-normal);
+  b.face(normal);
+  if (-a.out().dot(b.out()) < kLeastFacing) return FacesMeet::other;
+
+  const Vec3 t1 = normal.unitOrthogonal();
+  const View view{X_WB.p, t1, normal.cross(t1)};
+  Corners corners;
+  const double lean = std::max(kCornerLean, a.out().cross(b.out()).norm());
+  clip(view, a, quad_of(a, lean, view), b, quad_of(b, lean, view), corners);
+  Points points;
+  for (const Corner& corner : corners) {
+    SurfaceContact c = between(a, b, view.at(corner.at), normal);
+    c.key = corner.key;
+    if (c.gap < margin) points.push_back(c);
+  }
+  keep_four(points);
+  for (const SurfaceContact& c : points) out.push_back(c);
+  return out.empty() ? FacesMeet::other : FacesMeet::flat;
+}
+
+}  // namespace engine
