@@ -7,6 +7,7 @@
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "engine/math/functions.h"
 #include "engine/measure/parties.h"
@@ -31,6 +32,19 @@ ContactState state_of(const Constraint& c, double gap_speed) {
   if (c.u_before[0] < -0.1) return ContactState::impact;
   const double slip = math::hypot(c.u_after[1], c.u_after[2]);
   return slip > 1e-3 ? ContactState::slide : ContactState::stick;
+}
+
+/// A wheel on somebody as the contact of that body with the vehicle: rows turned about the second tangent, so that they stay
+/// right-handed.
+Constraint seen_from_below(const Constraint& wheel) {
+  Constraint c = wheel;
+  c.kind = ConstraintKind::contact;
+  c.contact_kind = ContactKind::vehicle;
+  std::swap(c.record_a, c.record_b);
+  c.frame.leftCols<2>() *= -1;
+  for (Vec3* row : {&c.impulse, &c.u_before, &c.u_after}) (*row)[2] *= -1;
+  c.gap = 0;
+  return c;
 }
 
 }  // namespace
@@ -124,29 +138,36 @@ void Recorder::watch_bounds(const World& world, const Constraint& c, double time
 void Recorder::tally(const World& world, const std::vector<Constraint>& conditions, double time, double duration) {
   for (const Constraint& c : conditions) {
     watch_bounds(world, c, time);
-    if (c.kind == ConstraintKind::wheel) tyre_impulse_[world.model.bodies[c.record_a].vehicle] += c.frame * c.impulse;
-    if (c.kind != ConstraintKind::contact) continue;
-    watch_events(world, c, time);
-    if (c.impulse[0] <= 0 && c.gap > 0) continue;
-    if (is_compliant(c)) watch_compression(world, c, time, duration);
-    auto at = std::lower_bound(tallies_.begin(), tallies_.end(), c.key, [](const Tally& t, std::uint64_t k) { return t.key < k; });
-    if (at == tallies_.end() || at->key != c.key) at = tallies_.insert(at, Tally{c.key, {}, 0, Vec3::Zero()});
-    ContactRecord& r = at->record;
-    if (r.normal_impulse == 0) r.begun = time - duration;
-    r.kind = c.contact_kind;
-    r.body_a = c.record_a;
-    r.body_b = c.record_b;
-    r.point = c.point;
-    r.normal = c.frame.col(0);
-    r.depth = -c.gap;
-    r.slip = math::hypot(c.u_after[1], c.u_after[2]);
-    const ContactState state = state_of(c, c.u_before[0]);
-    if (r.state != ContactState::impact || r.normal_impulse == 0) r.state = state;
-    r.normal_impulse += c.impulse[0];
-    r.tangential_impulse += math::hypot(c.impulse[1], c.impulse[2]);
-    at->impulse += c.frame * c.impulse;
-    at->duration += duration;
+    if (c.kind == ConstraintKind::contact)
+      tally_contact(world, c, time, duration);
+    else if (c.kind == ConstraintKind::wheel && c.record_b >= 0)
+      tally_contact(world, seen_from_below(c), time, duration);
+    else if (c.kind == ConstraintKind::wheel)
+      tyre_impulse_[world.model.bodies[c.record_a].vehicle] += c.frame * c.impulse;
   }
+}
+
+void Recorder::tally_contact(const World& world, const Constraint& c, double time, double duration) {
+  watch_events(world, c, time);
+  if (c.impulse[0] <= 0 && c.gap > 0) return;
+  if (is_compliant(c)) watch_compression(world, c, time, duration);
+  auto at = std::lower_bound(tallies_.begin(), tallies_.end(), c.key, [](const Tally& t, std::uint64_t k) { return t.key < k; });
+  if (at == tallies_.end() || at->key != c.key) at = tallies_.insert(at, Tally{c.key, {}, 0, Vec3::Zero()});
+  ContactRecord& r = at->record;
+  if (r.normal_impulse == 0) r.begun = time - duration;
+  r.kind = c.contact_kind;
+  r.body_a = c.record_a;
+  r.body_b = c.record_b;
+  r.point = c.point;
+  r.normal = c.frame.col(0);
+  r.depth = -c.gap;
+  r.slip = math::hypot(c.u_after[1], c.u_after[2]);
+  const ContactState state = state_of(c, c.u_before[0]);
+  if (r.state != ContactState::impact || r.normal_impulse == 0) r.state = state;
+  r.normal_impulse += c.impulse[0];
+  r.tangential_impulse += math::hypot(c.impulse[1], c.impulse[2]);
+  at->impulse += c.frame * c.impulse;
+  at->duration += duration;
 }
 
 void Recorder::sample(const World& world, const State& state, Recording& recording) {

@@ -29,6 +29,7 @@ class Recorder {
   bool all_at_rest(const World&, const State&) const;
 
  private:
+  void tally_contact(const World&, const Constraint&, double time, double duration);
   struct Tally {
     std::uint64_t key;
     ContactRecord record;

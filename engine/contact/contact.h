@@ -1,6 +1,7 @@
 // From points where surfaces touch or nearly touch to contacts: pairs that may meet, the search, mixed surface properties, rows.
 #pragma once
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -41,6 +42,14 @@ struct MeshPairRun {
   std::size_t begin = 0, end = 0;
 };
 
+/// A wheel and a round body that it may run over or into.
+struct TyrePair {
+  int wheel = 0;  // of State::wheels
+  int vehicle = 0, wheel_of_vehicle = 0;
+  int vehicle_body = 0;
+  int body = 0;
+};
+
 /// A point that stands for a body's mesh, or for one of its wheels, where it meets other surfaces.
 struct SurfacePoint {
   Vec3 p_B = Vec3::Zero();  // [m] of a wheel at static ride
@@ -53,9 +62,11 @@ struct ContactPairs {
   std::vector<MeshPair> mesh;
   std::vector<MeshPairRun> mesh_runs;
   std::vector<BodyPairRun> round;
-  std::vector<BodyPair> bodywork;                 // of meshes whose points meet the other's surface
-  std::vector<std::vector<SurfacePoint>> points;  // per body with a mesh
-  std::vector<SurfaceContact> point_contacts;     // scratch
+  std::vector<BodyPair> bodywork;                                         // of meshes whose points meet the other's surface
+  std::vector<std::array<std::vector<SurfacePoint>, 2>> bodywork_points;  // of those pairs, that may meet the other
+  std::vector<TyrePair> tyres;                                            // by wheels
+  std::vector<std::vector<SurfacePoint>> points;                          // per body with a mesh
+  std::vector<SurfaceContact> point_contacts;                             // scratch
   std::vector<int> point_scratch;
   MeshContactScratch mesh_scratch;
 };

@@ -1,11 +1,14 @@
 // Segments and free bodies against the meshes of vehicles and other bodies.
 #include <algorithm>
 
+#include "engine/contact/tyre_pairs.h"
 #include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 
 namespace engine {
 namespace {
+
+constexpr double kHangs = 1;  // [m] no wheel hangs lower than that
 
 bool can_meet(const Body& round, const Body& mesh) {
   // a rider and what it rides overlap where it sits: its joints hold the two apart
@@ -26,6 +29,8 @@ Finding look_at(const Model& model) {
     for (const Body& b : model.bodies) riding += is_round(b) && b.person >= 0 && b.person == mesh.person;
   }
   if (rounds == 0) return {false, "no person and no free body", ""};
+  if (const std::size_t tyres = tyre_pairs(model).size(); pairs == 0 && tyres > 0)
+    return {true, counted(tyres, "pair") + " of a segment or free body and a wheel", ""};
   if (meshes == 0) return {false, "no vehicle and no other mesh", ""};
   if (pairs == 0) return {false, "no mesh but what the person rides", ""};
   std::string left_out = "pairs farther apart than they can travel in a step: exact";
@@ -72,9 +77,26 @@ class MeshContact final : public Effect {
     for (const MeshPairRun& run : pairs.mesh_runs)
       if (pairs.broad_phase.close(run.tree_a, run.tree_b))
         for (std::size_t i = run.begin; i < run.end; ++i) find_contacts_of(search, i, touches);
+    if (search.state.wheels.empty()) return;  // they meet nothing without the effect `tyres`
+    const std::vector<int>& tree = search.world.topology.tree_of_body;
+    for (const TyrePair& pair : pairs.tyres)
+      if (pairs.broad_phase.close(tree[pair.body], tree[pair.vehicle_body])) find_beside_tyre(search, pair);
   }
 
  private:
+  /// What a wheel meets sideways; what it stands on is the suspension's business.
+  void find_beside_tyre(ContactSearch& search, const TyrePair& pair) const {
+    const World& world = search.world;
+    const Body &round = world.model.bodies[pair.body], &vehicle = world.model.bodies[pair.vehicle_body];
+    if (!world.awake[pair.body] && !round.fixed) return;  // waits or sleeps: those effects watch
+    if (!world.awake[pair.vehicle_body]) return;
+    const double margin = pair_margin(search, pair.body, pair.vehicle_body);
+    if (!near(search, pair, margin) || stands_on(search, pair, -kHangs)) return;
+    if (const auto touch = beside_tyre(search, pair, margin))
+      add_contact(search, *touch, pair.body, pair.vehicle_body, self_, ContactKind::vehicle,
+                  between_bodies(round, vehicle, search.at.time));
+  }
+
   void find_contacts_of(ContactSearch& search, std::size_t index, ContactPoints& touches) const {
     World& world = search.world;
     const MeshPair& pair = world.pairs.mesh[index];

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
+#include "engine/contact/tyre_pairs.h"
 #include "engine/effects/registration.h"
 #include "engine/effects/static_loads.h"
 #include "engine/effects/words.h"
@@ -31,13 +33,13 @@ Finding look_at(const Model& model) {
   if (count == 0) return {false, "no vehicle with wheels", ""};
   if (!model.ground.plane && !model.ground.terrain) return {false, counted(count, "wheel") + ", but no ground to roll on", ""};
   const std::string friction = low == high ? number(low) : number(low) + " to " + number(high);
-  const bool round = std::any_of(model.bodies.begin(), model.bodies.end(), is_round);
-  return {true, counted(count, "wheel") + " of " + listed(names) + ", tyre friction " + friction,
-          round ? "wheels against persons and free bodies: a wheel rolls through them; only bodywork meets them" : ""};
+  const std::string over = tyre_pairs(model).empty() ? "" : "; they roll over persons and free bodies too";
+  return {true, counted(count, "wheel") + " of " + listed(names) + ", tyre friction " + friction + over, ""};
 }
 
-/// Where a wheel stands: on a level or a triangle's plane under its hub.
+/// Where a wheel stands: on a level or a triangle's plane under its hub, or on somebody.
 struct Footing {
+  int body = -1;           // -1: the ground
   bool found = false;      // the wheel reaches it
   bool near = false;       // it is there, but too steep to the vehicle to roll on: the car lies on its side
   double compression = 0;  // [m] of the suspension from static ride, at which the tyre just touches
@@ -88,6 +90,20 @@ Footing footing_of(const Ground& ground, const Wheel& spec, const Pose& X, doubl
       look_at(hub + (kAbove - s) * up, ground.terrain->face_normals()[triangle]);
   }
   return best;
+}
+
+/// A round body under the wheel that compresses the suspension more than what it stands on otherwise. `pairs` are the wheel's.
+void step_on_bodies(const Outlook& outlook, std::span<const TyrePair> pairs, Footing& best) {
+  for (const TyrePair& pair : pairs) {
+    if (!near(outlook, pair, 0)) continue;
+    const auto touch = stands_on(outlook, pair, best.compression);
+    if (!touch) continue;
+    best.found = true;
+    best.body = pair.body;
+    best.compression = touch->way;
+    best.point = touch->point;
+    best.normal = touch->normal;
+  }
 }
 
 /// Spring force [N] at a compression, stop included.
@@ -142,8 +158,11 @@ void add_wheel(StepContext& step, const WheelState& wheel, const Footing& footin
 
   Constraint c;
   c.kind = ConstraintKind::wheel;
+  const auto moves = [&](int body) { return body >= 0 && world.awake[body]; };
   c.body_a = vehicle.body;
+  c.body_b = moves(footing.body) ? footing.body : -1;
   c.record_a = vehicle.body;
+  c.record_b = footing.body;
   c.point = footing.point;
   const Vec3 forward = X.q * Vec3(math::cos(wheel.steer), math::sin(wheel.steer), 0);
   const Vec3 t1 = (forward - forward.dot(footing.normal) * footing.normal).normalized();
@@ -155,8 +174,15 @@ void add_wheel(StepContext& step, const WheelState& wheel, const Footing& footin
   const double implicit = stiffness * h + spec.damper;
   c.softness = facing * facing / (h * implicit);
   c.target = facing * force / implicit;
-  const Vec3 v = state.V_WB[vehicle.body].v + state.V_WB[vehicle.body].w.cross(r);
-  const double mu = std::min(spec.friction, world.model.ground.friction_at(c.point, state.time));
+  Vec3 v = state.V_WB[vehicle.body].v + state.V_WB[vehicle.body].w.cross(r);
+  double under = world.model.ground.friction_at(c.point, state.time);
+  if (footing.body >= 0) {
+    const Vec3 r_b = c.point - state.X_WB[footing.body].p;
+    for (int k = 0; k < 3; ++k) c.J_b.row(k) << -c.frame.col(k).transpose(), -r_b.cross(c.frame.col(k)).transpose();
+    v -= state.V_WB[footing.body].v + state.V_WB[footing.body].w.cross(r_b);
+    under = world.model.bodies[footing.body].surface.friction_body.at(state.time);
+  }
+  const double mu = std::min(spec.friction, under);
   const Grip grip = grip_of(spec, wheel, std::max(0.0, force), mu, t1.dot(v), c.frame.col(2).dot(v));
   c.friction = grip.friction;
   c.grip_softness = grip.damping > 0 ? 1 / (h * grip.damping) : 0;
@@ -183,7 +209,7 @@ class Tyres final : public Effect {
   static constexpr const char* kName = "tyres";
   static Finding look(const Model& model) { return look_at(model); }
 
-  Tyres(const World&, int self) : Effect(self) {}
+  Tyres(World& world, int self) : Effect(self) { world.pairs.tyres = tyre_pairs(world.model); }
 
   void begin(World& world, State& state) override {
     const std::vector<double> loads = static_wheel_loads(world.model, world.topology);
@@ -202,6 +228,8 @@ class Tyres final : public Effect {
     State& state = step.state;
     footings_.clear();
     double energy = 0;
+    const Outlook outlook{world, state, state, step.length};
+    auto pair = world.pairs.tyres.begin();
     for (int i = 0; i < static_cast<int>(state.wheels.size()); ++i) {
       WheelState& wheel = state.wheels[i];
       const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
@@ -209,7 +237,10 @@ class Tyres final : public Effect {
       const Pose& X = state.X_WB[vehicle.body];
       const Vec3 up = X.q * Vec3::UnitZ();
       const double droop = droop_of(spec, wheel.static_load);
-      const Footing footing = footing_of(world.model.ground, spec, X, droop);
+      Footing footing = footing_of(world.model.ground, spec, X, droop);
+      const auto first = pair;
+      while (pair != world.pairs.tyres.end() && pair->wheel == i) ++pair;
+      step_on_bodies(outlook, {first, pair}, footing);
       // lying on its flank it stays as it was pressed in: nothing moves along the strut
       if (footing.found || !footing.near) wheel.compression = footing.compression;
       wheel.lift = std::clamp(wheel.compression, -droop, 2 * spec.travel);
@@ -241,7 +272,7 @@ class Tyres final : public Effect {
       const double grip = c.friction * c.impulse[0];
       const bool sliding = math::hypot(c.impulse[1], c.impulse[2]) >= 0.999 * grip && grip > 0;
       wheel.locked = sliding && wheel.brake > 0 && std::abs(c.impulse[1] - c.rolling_drive) < 0.999 * c.rolling_bound;
-      wheel.slip = sliding ? math::hypot(wheel.locked ? c.u_after[1] : 0.0, c.u_after[2]) : 0;
+      wheel.slip = sliding && c.record_b < 0 ? math::hypot(wheel.locked ? c.u_after[1] : 0.0, c.u_after[2]) : 0;
       if (!wheel.locked) state.wheel_spin[c.wheel] += step.length * c.u_after[1] / spec.radius;
       // the engine's work is a source, not a loss: the books took it with the whole impulse
       const double work = engine_share(c) * 0.5 * (c.u_before[1] + c.u_after[1]);

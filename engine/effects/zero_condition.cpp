@@ -2,6 +2,7 @@
 // costs a bounding test a step. The first touch by anything but its support releases it (source 000, "zero condition").
 #include <algorithm>
 
+#include "engine/contact/tyre_pairs.h"
 #include "engine/effects/body_pairs.h"
 #include "engine/effects/bodywork_contact.h"
 #include "engine/effects/registration.h"
@@ -89,6 +90,22 @@ void watch_meshes(const Outlook& outlook, bool warn) {
   }
 }
 
+/// Wheels that roll up to somebody.
+void watch_tyres(const Outlook& outlook) {
+  World& world = outlook.world;
+  State& state = outlook.state;
+  if (state.wheels.empty()) return;
+  for (const TyrePair& pair : world.pairs.tyres) {
+    if (!waits(world, state, pair.body) && !waits(world, state, pair.vehicle_body)) continue;
+    const double margin = pair_margin(outlook, pair.body, pair.vehicle_body);
+    if (!near(outlook, pair, margin)) continue;
+    const auto touch = beside_tyre(outlook, pair, margin);
+    if (!touch || !touches(outlook, *touch, pair.body, pair.vehicle_body)) continue;
+    if (waits(world, state, pair.body)) release(world, state, pair.body, pair.vehicle_body, touch->p_a);
+    if (waits(world, state, pair.vehicle_body)) release(world, state, pair.vehicle_body, pair.body, touch->p_b);
+  }
+}
+
 void watch_pair(const Outlook& outlook, const BodyPair& pair, Vec3& normal_W, bool warn) {
   World& world = outlook.world;
   State& state = outlook.state;
@@ -123,6 +140,7 @@ class ZeroCondition final : public Effect {
     const Outlook outlook{world, state, state, step};
     watch_mounts(outlook);
     watch_meshes(outlook, warn);
+    watch_tyres(outlook);
     ContactPairs& pairs = world.pairs;
     pairs.broad_phase.look(outlook);
     for (std::size_t r = 0; r < pairs.round.size(); ++r) {

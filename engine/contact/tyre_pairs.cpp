@@ -1,0 +1,70 @@
+#include "engine/contact/tyre_pairs.h"
+
+#include "engine/math/functions.h"
+#include "engine/world.h"
+
+namespace engine {
+namespace {
+
+const Wheel& wheel_of(const World& world, const TyrePair& pair) {
+  return world.model.vehicles[pair.vehicle].wheels[pair.wheel_of_vehicle];
+}
+
+/// The tyre with its strut at static ride, or as far up as the state says.
+Tyre tyre_of(const Outlook& outlook, const TyrePair& pair, double lift) {
+  const Wheel& wheel = wheel_of(outlook.world, pair);
+  const Pose& X = outlook.at.X_WB[pair.vehicle_body];
+  const Vec3 axle = X.q * Vec3::UnitY();  // a steered wheel turns about its strut: its axle stays across it
+  const double steer = outlook.state.wheels[pair.wheel].steer;
+  const Vec3 forward = X.q * Vec3::UnitX();
+  return {X * wheel.hub_B + lift * (X.q * Vec3::UnitZ()), math::cos(steer) * axle - math::sin(steer) * forward, wheel.radius,
+          crown_radius(wheel)};
+}
+
+}  // namespace
+
+std::vector<TyrePair> tyre_pairs(const Model& model) {
+  std::vector<TyrePair> out;
+  int wheel = 0;
+  for (int v = 0; v < static_cast<int>(model.vehicles.size()); ++v) {
+    const int body = model.vehicles[v].body;
+    for (int w = 0; w < static_cast<int>(model.vehicles[v].wheels.size()); ++w, ++wheel)
+      for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
+        const Body& round = model.bodies[b];
+        const bool rides = round.person >= 0 && round.person == model.bodies[body].person;
+        if (std::holds_alternative<HyperEllipsoid>(round.shape) && !rides) out.push_back({wheel, v, w, body, b});
+      }
+  }
+  return out;
+}
+
+bool near(const Outlook& outlook, const TyrePair& pair, double margin) {
+  const Wheel& wheel = wheel_of(outlook.world, pair);
+  const double within = wheel.radius + 2 * wheel.travel + outlook.world.reach[pair.body] + margin;
+  const Vec3 hub = outlook.at.X_WB[pair.vehicle_body] * wheel.hub_B;
+  return (hub - outlook.at.X_WB[pair.body].p).squaredNorm() < within * within;
+}
+
+std::optional<TyreTouch> stands_on(const Outlook& outlook, const TyrePair& pair, double least) {
+  const auto& shape = std::get<HyperEllipsoid>(outlook.world.model.bodies[pair.body].shape);
+  const Vec3 up = outlook.at.X_WB[pair.vehicle_body].q * Vec3::UnitZ();
+  const auto touch = move_clear(tyre_of(outlook, pair, 0), shape, outlook.at.X_WB[pair.body], up, kWheelFacing, least);
+  if (!touch || touch->way > 2 * wheel_of(outlook.world, pair).travel) return std::nullopt;
+  // one that rolls up has not got farther than the last step took it: what is deeper has come from the side
+  const double rise = pair_margin(outlook, pair.body, pair.vehicle_body) / touch->normal.dot(up);
+  if (touch->way > outlook.state.wheels[pair.wheel].lift + rise) return std::nullopt;
+  return touch;
+}
+
+std::optional<SurfaceContact> beside_tyre(const Outlook& outlook, const TyrePair& pair, double margin) {
+  constexpr double kDeepest = 0.15;  // [m] what lies farther inside has come from behind
+  constexpr std::uint32_t kTyres = 0x800000u;
+  const auto& shape = std::get<HyperEllipsoid>(outlook.world.model.bodies[pair.body].shape);
+  auto contact =
+      contact_with_tyre(shape, outlook.at.X_WB[pair.body], tyre_of(outlook, pair, outlook.state.wheels[pair.wheel].lift), margin);
+  if (!contact || contact->gap < -kDeepest) return std::nullopt;
+  contact->key = kTyres | static_cast<std::uint32_t>(pair.wheel);
+  return contact;
+}
+
+}  // namespace engine

@@ -1,0 +1,145 @@
+#include "engine/geometry/hyper_ellipsoid_tyre.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace engine {
+namespace {
+
+constexpr double kLeastAcross = 1e-9;  // [-] of a direction along the axle, where the rim's side is flat
+
+/// Support function of the tyre about its centre, its point and its second derivative.
+struct TyreSupport {
+  double value = 0;
+  Vec3 point = Vec3::Zero();
+  Mat3 second = Mat3::Zero();
+};
+TyreSupport support_of(const Tyre& tyre, const Vec3& m) {
+  const double length = m.norm(), ring = tyre.radius - tyre.crown;
+  const Vec3 across = m - m.dot(tyre.axle) * tyre.axle;
+  const double rho = std::max(across.norm(), kLeastAcross * length);
+  TyreSupport out;
+  out.value = ring * across.norm() + tyre.crown * length;
+  out.point = ring / rho * across + tyre.crown / length * m;
+  const Mat3 square = Mat3::Identity() - tyre.axle * tyre.axle.transpose();
+  out.second = ring / rho * (square - across * across.transpose() / (rho * rho)) +
+               tyre.crown / length * (Mat3::Identity() - m * m.transpose() / (length * length));
+  return out;
+}
+
+/// The way as a function of the slope s of a normal m = along + E s, with its derivatives.
+struct Way {
+  const Tyre& tyre;
+  const HyperEllipsoid& shape;
+  Mat3 R_WA;
+  Vec3 apart;  // c_T - c_A
+  Vec3 along;
+  Eigen::Matrix<double, 3, 2> E;
+
+  Vec3 normal(const Eigen::Vector2d& s) const { return along + E * s; }
+  double value(const Vec3& m) const {
+    return support_of(tyre, m).value + support_value(shape, R_WA.transpose() * m) - m.dot(apart);
+  }
+  void derivatives(const Vec3& m, Eigen::Vector2d& slope, Eigen::Matrix2d& second) const {
+    const TyreSupport of_tyre = support_of(tyre, m);
+    const Vec3 unit_A = (R_WA.transpose() * m).normalized();
+    const Support of_shape = support(shape, unit_A);
+    const Mat3 H = of_tyre.second + R_WA * support_hessian(shape, unit_A, of_shape) * R_WA.transpose() / m.norm();
+    slope = E.transpose() * (of_tyre.point + R_WA * of_shape.point - apart);
+    second = E.transpose() * H * E;
+  }
+};
+
+/// The best normal so far, and its way.
+struct Lowest {
+  Eigen::Vector2d s;
+  double way;
+};
+
+/// Newton's method, damped. True when it is done: at the minimum, below `least`, or steeper than `steepest`. The way is convex:
+/// what is steeper than that gets no better.
+bool descend(const Way& way, Lowest& at, double least, double steepest) {
+  constexpr int kIterations = 60;
+  constexpr double kStationary = 1e-10;  // [m] of the slope; the way errs by its square over the radius
+  double damping = 1e-6 * way.tyre.radius;
+  for (int k = 0; k < kIterations; ++k) {
+    Eigen::Vector2d slope;
+    Eigen::Matrix2d second;
+    way.derivatives(way.normal(at.s), slope, second);
+    if (slope.norm() < kStationary) return true;
+    bool better = false;
+    for (int trial = 0; trial < 16 && !better; ++trial) {
+      Eigen::Vector2d step = -(second + damping * Eigen::Matrix2d::Identity()).inverse() * slope;
+      if (const double far = step.norm() / (1 + at.s.norm()); far > 1) step /= far;
+      const double next = way.value(way.normal(at.s + step));
+      better = next < at.way;
+      damping *= better ? 0.1 : 10;
+      if (better) at = {at.s + step, next};
+    }
+    if (at.way < least || at.s.norm() > steepest) return true;
+    if (!better) return false;
+  }
+  return false;
+}
+
+/// On a part with flat sides Newton stalls at its edges: there the way all but has kinks, where the normal is across a body axis.
+/// Steps along and across those, ever shorter.
+void creep_down(const Way& way, Lowest& at) {
+  constexpr double kFirst = 0.3, kLast = 1e-8;  // [-] of the slope s
+  for (double reach = kFirst; reach > kLast; reach *= 0.5)
+    for (bool better = true; better;) {
+      better = false;
+      for (int i = 0; i < 12; ++i) {
+        const Eigen::Vector2d across = way.E.transpose() * way.R_WA.col(i % 3);
+        if (!(across.norm() > 1e-6)) continue;
+        const Eigen::Vector2d kink = across.normalized(), to = i % 2 ? kink : kink.unitOrthogonal();
+        const Eigen::Vector2d s = at.s + (i < 6 ? reach : -reach) * to;
+        if (const double next = way.value(way.normal(s)); next < at.way) at = {s, next}, better = true;
+      }
+    }
+}
+
+}  // namespace
+
+std::optional<TyreTouch> move_clear(const Tyre& tyre, const HyperEllipsoid& shape, const Pose& X_WA, const Vec3& along,
+                                    double facing, double least) {
+  Way way{tyre, shape, X_WA.q.toRotationMatrix(), tyre.centre - X_WA.p, along, {}};
+  way.E.col(0) = along.unitOrthogonal();
+  way.E.col(1) = along.cross(way.E.col(0));
+  const double steepest = std::sqrt(1 / (facing * facing) - 1);
+  Lowest at{Eigen::Vector2d::Zero(), way.value(along)};
+  if (!descend(way, at, least, 2 * steepest)) creep_down(way, at);
+  if (at.s.norm() > steepest || at.way < least) return std::nullopt;
+  const Vec3 m = way.normal(at.s);
+  TyreTouch touch;
+  touch.way = at.way;
+  touch.normal = m.normalized();
+  touch.point = X_WA.p + way.R_WA * support_point(shape, way.R_WA.transpose() * m);
+  return touch;
+}
+
+std::optional<SurfaceContact> contact_with_tyre(const HyperEllipsoid& shape, const Pose& X_WA, const Tyre& tyre, double margin) {
+  constexpr int kTurns = 3;  // towards the normal at which it touches: exact for two that touch, as near as that where they do not
+  constexpr double kAny = 0.05;
+  Vec3 along = tyre.centre - X_WA.p;
+  if (!(along.norm() > 0)) return std::nullopt;
+  along.normalize();
+  std::optional<TyreTouch> touch;
+  for (int k = 0; k < kTurns; ++k) {
+    const auto next = move_clear(tyre, shape, X_WA, along, kAny, -2 * (margin + tyre.radius) / kAny);
+    if (!next) return std::nullopt;
+    touch = next;
+    if (-touch->way * touch->normal.dot(along) > 2 * margin + 0.1) return std::nullopt;
+    along = touch->normal;
+  }
+  SurfaceContact c;
+  c.normal = -touch->normal;
+  c.p_a = X_WA.p + X_WA.q * support_point(shape, X_WA.q.conjugate() * touch->normal);
+  c.p_b = tyre.centre - support_of(tyre, touch->normal).point;
+  c.gap = c.normal.dot(c.p_a - c.p_b);
+  if (c.gap >= margin) return std::nullopt;
+  return c;
+}
+
+}  // namespace engine

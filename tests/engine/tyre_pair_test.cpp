@@ -1,0 +1,149 @@
+// A wheel and what lies in its way: where they touch, and what it does to both.
+#include <gtest/gtest.h>
+
+#include "engine/geometry/hyper_ellipsoid_tyre.h"
+#include "tests/engine/experiment.h"
+
+namespace engine::test {
+namespace {
+
+TEST(TyrePair, TouchesASphereWhereTheTorusDoes) {
+  const Tyre tyre{Vec3::Zero(), Vec3::UnitY(), 0.3, 0.1};
+  const HyperEllipsoid sphere{Vec3::Constant(0.12), 2};
+  for (const double x : {-0.3, 0.0, 0.1, 0.25})
+    for (const double y : {0.0, 0.05, -0.15}) {
+      // a circle of radius 0.2 thickened by 0.1, and a sphere of 0.12 that touches it from below: in the plane of the sphere's
+      // centre and the axis of the sweep (x, z) + lift
+      const auto touch = move_clear(tyre, sphere, {Vec3(x, y, -0.3)}, Vec3::UnitZ(), 0.2, -1);
+      ASSERT_TRUE(touch) << x << " " << y;
+      const Vec3 centre = Vec3(0, 0, touch->way) - Vec3(x, y, -0.3);
+      const double in_plane = std::hypot(centre.x(), centre.z()) - 0.2;
+      EXPECT_NEAR(std::hypot(in_plane, centre.y()), 0.1 + 0.12, 1e-9);
+      EXPECT_NEAR((touch->point - Vec3(x, y, -0.3)).norm(), 0.12, 1e-9);
+    }
+}
+
+TEST(TyrePair, IsAsFarFromASphereAsTheTorus) {
+  const Tyre tyre{Vec3(0, 0, 0.3), Vec3::UnitY(), 0.3, 0.1};
+  const HyperEllipsoid sphere{Vec3::Constant(0.12), 2};
+  for (const double gap : {-1e-2, -1e-4, 1e-4, 1e-2}) {
+    for (const double turn : {0.1, 0.8, 2.0}) {
+      const Vec3 place = tyre.centre + (0.3 + 0.12 + gap) * Vec3(std::cos(turn), 0, std::sin(turn));
+      const auto contact = contact_with_tyre(sphere, {place}, tyre, 0.05);
+      ASSERT_TRUE(contact) << gap << " " << turn;
+      EXPECT_NEAR(contact->gap, gap, 1e-9);
+      EXPECT_LT((contact->normal - (place - tyre.centre).normalized()).norm(), 1e-6);
+    }
+  }
+  EXPECT_FALSE(contact_with_tyre(sphere, {tyre.centre + Vec3(0.6, 0, 0)}, tyre, 0.05));
+}
+
+/// The way of a tyre over a long, flat or edged part against a search of the lowest tangent plane over many normals.
+TEST(TyrePair, LeavesPartsOfAllFormsAsASweepOverNormalsSays) {
+  const Tyre tyre{Vec3(0.1, 0.05, 0.35), Vec3(0.1, 1, 0.05).normalized(), 0.3, 0.1};
+  for (const double exponent : {2.0, 2.5, 4.0, 8.0, 20.0}) {
+    const HyperEllipsoid part{Vec3(0.08, 0.25, 0.06), exponent};
+    const Pose X{Vec3(0.2, 0.1, 0.05), Quat(Eigen::AngleAxisd(0.4, Vec3(0.3, 0.2, 1).normalized()))};
+    const auto touch = move_clear(tyre, part, X, Vec3::UnitZ(), 0.2, -1);
+    ASSERT_TRUE(touch);
+    double best = 1e9;
+    for (int i = -400; i <= 400; ++i)
+      for (int k = -400; k <= 400; ++k) {
+        const Vec3 m(0.01 * i, 0.01 * k, 1);
+        const Vec3 across = m - m.dot(tyre.axle) * tyre.axle;
+        best = std::min(best,
+                        0.2 * across.norm() + 0.1 * m.norm() + support_value(part, X.q.conjugate() * m) - m.dot(tyre.centre - X.p));
+      }
+    EXPECT_LT(touch->way, best + 1e-6) << exponent;
+    EXPECT_GT(touch->way, best - 1e-3) << exponent;  // the grid's spacing of 0.01 over a radius of curvature of 0.3 m and less
+  }
+}
+
+// ---- a car that meets something on the road ----
+
+constexpr double kFriction = 0.8;
+
+/// A free-rolling car of 1200 kg without bodywork that comes from -x.
+Model car_on_road(double speed, double duration) {
+  Model model = on_ground(duration);
+  model.settings.record_interval = 2e-3;
+  model.bodies = {inert(1200, {400, 1800, 2000}, {-3, 0, 0.55})};
+  model.bodies[0].name = "car";
+  model.bodies[0].vehicle = 0;
+  model.bodies[0].V_WB.v.x() = speed;
+  Vehicle car;
+  car.name = "car";
+  car.body = 0;
+  for (const Vec3& hub : {Vec3(1.3, 0.75, -0.25), Vec3(1.3, -0.75, -0.25), Vec3(-1.3, 0.75, -0.25), Vec3(-1.3, -0.75, -0.25)}) {
+    Wheel wheel;
+    wheel.hub_B = hub;
+    wheel.radius = 0.3;
+    wheel.friction = kFriction;
+    car.wheels.push_back(wheel);
+  }
+  model.vehicles = {car};
+  return model;
+}
+
+/// Deepest [m] of any wheel, where it is drawn, in the second body over the whole run; positive: they never met.
+double least_gap(const Model& model, const Recording& run) {
+  double least = 1;
+  for (const Snapshot& s : run.snapshots)
+    for (const WheelRecord& wheel : s.wheels) {
+      const Wheel& spec = model.vehicles[0].wheels[static_cast<std::size_t>(wheel.wheel)];
+      const Tyre tyre{wheel.hub, s.bodies[0].X_WB.q * Vec3::UnitY(), spec.radius, crown_radius(spec)};
+      const auto contact = contact_with_tyre(std::get<HyperEllipsoid>(model.bodies[1].shape), s.bodies[1].X_WB, tyre, 0.1);
+      if (contact) least = std::min(least, contact->gap);
+    }
+  return least;
+}
+
+TEST(Wheel, RollsOverALyingEllipsoidAndNotThroughIt) {
+  Model model = car_on_road(4, 2);
+  Body part = solid({{0.25, 0.5, 0.06}, 2.5}, 30, {0, 0.75, 0.06});
+  part.surface.friction_ground = 1;
+  model.bodies.push_back(part);
+  const Recording run = simulate(model);
+  EXPECT_GT(run.snapshots.back().bodies[0].X_WB.p.x() - 1.3, run.snapshots.back().bodies[1].X_WB.p.x() + 0.5)
+      << "both wheels past it";
+  // a wheel is drawn where it stood at the start of the last step: 4 mm ago
+  EXPECT_GT(least_gap(model, run), -4e-3);
+  double lifted = 0;
+  int over = 0;
+  for (const Snapshot& s : run.snapshots) {
+    lifted = std::max(lifted, s.wheels[0].hub.z());
+    for (const ContactRecord& c : s.contacts) over += c.body_a == 1 && c.body_b == 0 && c.normal_force > 0;
+  }
+  EXPECT_NEAR(lifted, 0.3 + 0.12, 0.02) << "as high as the part, which tips a little";
+  EXPECT_GT(over, 20);
+  EXPECT_LT(std::abs(run.snapshots.back().energies.residual), 1e-2 * 0.5 * 1200 * 16);
+}
+
+TEST(Wheel, ThatPushesALogAheadKeepsTheMomentumOfBoth) {
+  Model model = car_on_road(5, 0.9);
+  Body log = solid({{0.1, 0.6, 0.1}, 2}, 40, {0, 0, 0.1});
+  log.X_WB.p.y() = 0.75;
+  log.surface.friction_ground = 0;
+  model.bodies.push_back(log);
+  for (Wheel& wheel : model.vehicles[0].wheels) wheel.friction = 0;
+  const Recording run = simulate(model);
+  const Snapshot& end = run.snapshots.back();
+  EXPECT_GT(end.bodies[1].V_WB.v.x(), 1) << "struck";
+  EXPECT_NEAR(1200 * end.bodies[0].V_WB.v.x() + 40 * end.bodies[1].V_WB.v.x(), 1200 * 5, 1e-6 * 1200 * 5);
+  EXPECT_GT(least_gap(model, run), -6e-3);
+}
+
+/// A post as high as the hubs stands in the way of both front wheels: an impact without restitution.
+TEST(Wheel, ThatRunsIntoAPostStopsThere) {
+  Model model = car_on_road(3, 1);
+  Body post = solid({{0.1, 2, 0.4}, 4}, 100, {0, 0, 0.4});
+  post.fixed = true;
+  model.bodies.push_back(post);
+  const Recording run = simulate(model);
+  EXPECT_LT(run.snapshots.back().bodies[0].X_WB.p.x() + 1.3 + 0.3, -0.1 + 0.01);
+  EXPECT_LT(run.snapshots.back().bodies[0].V_WB.v.x(), 0.05);
+  EXPECT_GT(least_gap(model, run), -2e-3);
+}
+
+}  // namespace
+}  // namespace engine::test
