@@ -20,21 +20,29 @@ namespace {
 
 constexpr double kSpacing = 0.10;  // [m] between the points that stand for a mesh
 constexpr double kDeepest = 0.15;  // [m] a point farther behind a surface has come from its other side,
+constexpr double kClear = 0.05;    // [m] from a coupled vehicle: nearer at the start, and they never meet there
 constexpr double kFarther = 0.01;  // [m] and one that is so much deeper than the last look and the way since allow
 constexpr double kNotKnown = -std::numeric_limits<double>::infinity();
 constexpr int kRing = 24;             // points round a wheel, in the middle and on either flank
 constexpr double kUnderWheel = 0.75;  // [-] cosine to the vehicle's up axis: other meshes nearer to level carry no wheel
 
+/// A towing vehicle and its trailer.
+bool coupled(const Model& model, int a, int b) {
+  return model.bodies[a].vehicle >= 0 && model.bodies[b].vehicle >= 0 && jointed(model, a, b);
+}
+
 bool can_meet(const Model& model, int a, int b) {
   const Body& A = model.bodies[a];
   const Body& B = model.bodies[b];
   if (!is_mesh(A) || !is_mesh(B) || (A.fixed && B.fixed) || (A.person >= 0 && A.person == B.person)) return false;
-  if (model_between(A.collision_model, B.collision_model) == CollisionModel::kudlich_slibar) return false;
-  return !jointed(model, a, b);
+  if (jointed(model, a, b)) return coupled(model, a, b);
+  return model_between(A.collision_model, B.collision_model) != CollisionModel::kudlich_slibar;
 }
 
 /// A pair that meets by Default-Auto, and why: which of the two does not ask for Kudlich-Slibar.
-std::string with_law(const Body& a, const Body& b) {
+std::string with_law(const Model& model, int body_a, int body_b) {
+  const Body &a = model.bodies[body_a], &b = model.bodies[body_b];
+  if (coupled(model, body_a, body_b)) return a.name + " with " + b.name + " (default_auto: coupled)";
   const bool from_a = a.collision_model == CollisionModel::kudlich_slibar,
              from_b = b.collision_model == CollisionModel::kudlich_slibar;
   const std::string who = from_a ? b.name + " does" : from_b ? a.name + " does" : "both do";
@@ -47,7 +55,7 @@ Finding look_at(const Model& model) {
   for (int a = 0; a < n; ++a) {
     if (is_mesh(model.bodies[a]) && !model.bodies[a].fixed) moving.push_back(model.bodies[a].name);
     for (int b = a + 1; b < n; ++b)
-      if (can_meet(model, a, b)) pairs.push_back(with_law(model.bodies[a], model.bodies[b]));
+      if (can_meet(model, a, b)) pairs.push_back(with_law(model, a, b));
   }
   const bool ground = model.ground.plane || model.ground.terrain;
   if (moving.empty()) return {false, "no vehicle and no other mesh that moves", ""};
@@ -55,14 +63,15 @@ Finding look_at(const Model& model) {
   std::string reason = ground ? listed(moving) + " can touch the ground with its body (kerb, slope, rollover)" : "";
   if (moving.size() > 1 && ground) reason = listed(moving) + " can touch the ground with their bodies (kerb, slope, rollover)";
   if (!pairs.empty()) reason += (ground ? ", and " : "") + listed(pairs) + (ground ? "" : " can touch");
-  std::vector<std::string> coupled;
+  std::vector<std::string> held, towing;
   for (int a = 0; a < n; ++a)
     for (int b = a + 1; b < n; ++b)
       if (is_mesh(model.bodies[a]) && is_mesh(model.bodies[b]) && model.bodies[a].person < 0 && jointed(model, a, b))
-        coupled.push_back(model.bodies[a].name + " with " + model.bodies[b].name);
+        (coupled(model, a, b) ? towing : held).push_back(model.bodies[a].name + " with " + model.bodies[b].name);
   std::string left_out = "meshes whose boxes a step cannot bring together: exact";
-  if (!coupled.empty())
-    left_out += "; " + listed(coupled) + ", which are coupled: beyond some 70 degrees they pass through each other";
+  if (!held.empty()) left_out += "; " + listed(held) + ", which a joint holds";
+  if (!towing.empty())
+    left_out += "; of " + listed(towing) + " what stands within 5 cm of the other at the start, about the coupling";
   return {true, reason, left_out};
 }
 
@@ -94,6 +103,18 @@ void reserve_scratch(const Model& model, ContactPairs& pairs) {
   pairs.point_contacts.reserve(points);
 }
 
+/// The points of a body that stand clear of the one it is coupled to at the start: those about the coupling do not.
+std::vector<SurfacePoint> clear_points(const Model& model, int body, int other, ContactPairs& pairs) {
+  const auto& shape = std::get<MeshShape>(model.bodies[other].shape);
+  const Pose X_MB = (model.bodies[other].X_WB * shape.X_BM).inverse() * model.bodies[body].X_WB;
+  std::vector<SurfacePoint> out = pairs.points[body];
+  std::erase_if(out, [&](const SurfacePoint& p) {
+    const auto surface = nearest_surface(*shape.mesh, X_MB * p.p_B, kDeepest, pairs.point_scratch);
+    return surface && surface->gap < kClear;
+  });
+  return out;
+}
+
 void list_pairs(const Model& model, ContactPairs& pairs) {
   const auto& bodies = model.bodies;
   pairs.points.assign(bodies.size(), {});
@@ -110,6 +131,11 @@ void list_pairs(const Model& model, ContactPairs& pairs) {
     for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b)
       if (can_meet(model, a, b)) pairs.bodywork.push_back({a, b});
   reserve_scratch(model, pairs);
+  for (const BodyPair& pair : pairs.bodywork)
+    if (coupled(model, pair.a, pair.b))
+      pairs.bodywork_points.push_back({clear_points(model, pair.a, pair.b, pairs), clear_points(model, pair.b, pair.a, pairs)});
+    else
+      pairs.bodywork_points.push_back({pairs.points[pair.a], pairs.points[pair.b]});
 }
 
 /// Box around a body's points in world axes.
@@ -137,8 +163,8 @@ std::size_t first_of_wheels(const std::vector<SurfacePoint>& points) {
 
 /// Contacts of a body's points with a mesh at a pose, or with the plane z = height where there is none. Of its wheels only with
 /// what is steeper to its up axis than `rolls` [-] says: the rest is under them. What has a gap below `least` [m] is not met.
-void touch(const Outlook& outlook, int body, Points which, const TriangleMesh* mesh, const Pose& X_WM, double height, double margin,
-           const Aabb& within, double rolls, double least) {
+void touch(const Outlook& outlook, int body, const std::vector<SurfacePoint>& points, Points which, const TriangleMesh* mesh,
+           const Pose& X_WM, double height, double margin, const Aabb& within, double rolls, double least) {
   World& world = outlook.world;
   const Motion& state = outlook.at;
   std::vector<SurfaceContact>& out = world.pairs.point_contacts;
@@ -146,7 +172,6 @@ void touch(const Outlook& outlook, int body, Points which, const TriangleMesh* m
   const Pose& X = state.X_WB[body];
   const Vec3 up = X.q * Vec3::UnitZ();
   const Pose X_MW = X_WM.inverse();
-  const auto& points = world.pairs.points[body];
   for (std::size_t i = which.begin; i < which.end; ++i) {
     Vec3 p = X * points[i].p_B;
     if (points[i].wheel >= 0 && !outlook.state.wheels.empty()) p += outlook.state.wheels[points[i].wheel].lift * up;
@@ -183,18 +208,19 @@ void find_on_ground(ContactSearch& search, int body, int self) {
     for (const SurfaceContact& c : world.pairs.point_contacts)
       add_contact(search, c, body, -1, self, kind, {friction_on_ground(B, ground, c.p_b, at.time), e});
   };
-  const std::size_t wheels = first_of_wheels(world.pairs.points[body]), all = world.pairs.points[body].size();
+  const std::vector<SurfacePoint>& points = world.pairs.points[body];
+  const std::size_t wheels = first_of_wheels(points), all = points.size();
   if (ground.plane && box.lower.z() < ground.height + margin) {
     // of a vehicle that stands upright and clear of the road neither its mesh nor its wheels: the road is under them
     const auto& shape = std::get<MeshShape>(B.shape);
     const bool low = world_bounds(*shape.mesh, at.X_WB[body] * shape.X_BM).lower.z() < ground.height + margin;
     const bool upright = (at.X_WB[body].q * Vec3::UnitZ()).z() > kWheelFacing;
-    touch(search, body, {low ? 0 : wheels, upright ? wheels : all}, nullptr, {}, ground.height, margin, box, kWheelFacing,
+    touch(search, body, points, {low ? 0 : wheels, upright ? wheels : all}, nullptr, {}, ground.height, margin, box, kWheelFacing,
           kNotKnown);
     add(ContactKind::ground);
   }
   if (ground.terrain) {
-    touch(search, body, {0, all}, ground.terrain.get(), {}, 0, margin, ground.terrain->bounds(), kWheelFacing, kNotKnown);
+    touch(search, body, points, {0, all}, ground.terrain.get(), {}, 0, margin, ground.terrain->bounds(), kWheelFacing, kNotKnown);
     for (SurfaceContact& c : world.pairs.point_contacts) c.key |= 0x400000u;
     add(ContactKind::terrain);
   }
@@ -222,8 +248,9 @@ void touch_one_way(const Outlook& outlook, std::size_t which, int way, double ma
   const Pose X_AB = at.X_WB[pair.a].inverse() * at.X_WB[pair.b];
   Clearance& clearance = outlook.state.contact_memory.bodywork[which][static_cast<std::size_t>(way)];
   const auto& shape = std::get<MeshShape>(world.model.bodies[surface_of].shape);
-  touch(outlook, points_of, {0, world.pairs.points[points_of].size()}, shape.mesh.get(), at.X_WB[surface_of] * shape.X_BM, 0,
-        margin, within, kUnderWheel, clearance.by_now(X_AB, world.reach[pair.b]) - kFarther);
+  const std::vector<SurfacePoint>& points = world.pairs.bodywork_points[which][static_cast<std::size_t>(way)];
+  touch(outlook, points_of, points, {0, points.size()}, shape.mesh.get(), at.X_WB[surface_of] * shape.X_BM, 0, margin, within,
+        kUnderWheel, clearance.by_now(X_AB, world.reach[pair.b]) - kFarther);
   clearance = {0, X_AB};
   for (const SurfaceContact& c : world.pairs.point_contacts) clearance.least = std::min(clearance.least, c.gap);
 }

@@ -77,6 +77,22 @@ TEST_P(Trailer, BacksUpStraight) {
   EXPECT_LT(run.diagnostics.max_joint_gap, 1e-6);
 }
 
+/// Backing up with the wheels turned, the trailer folds against the car: they meet before they have folded flat.
+TEST(SingleAxleTrailer, IsStruckByTheVehicleThatTowsIt) {
+  const engine::Recording run =
+      run_of(with_trailer(false, "steer = \"10 deg\"", "[[vehicle.driver]]\naction = \"accelerate\"\nlevel = \"-0.25 g\"\n"));
+  ASSERT_FALSE(run.failure);
+  double widest = 0, pushed = 0;
+  for (const auto& s : run.snapshots) {
+    widest = std::max(widest, std::abs(std::remainder(heading(s, 0) - heading(s, 1), 2 * std::numbers::pi)));
+    for (const engine::ContactRecord& c : s.contacts)
+      if (std::minmax(c.body_a, c.body_b) == std::minmax(0, 1)) pushed += c.normal_impulse;
+  }
+  EXPECT_GT(widest, 45 * std::numbers::pi / 180);
+  EXPECT_LT(widest, 110 * std::numbers::pi / 180);
+  EXPECT_GT(pushed, 100);
+}
+
 TEST_P(Trailer, RunsInsideTheCurveOfTheCar) {
   const engine::Recording run =
       run_of(with_trailer(GetParam(), "speed = \"9 km/h\"\nsteer = [[\"0 s\", \"0 deg\"], [\"1 s\", \"15 deg\"]]", ""));
