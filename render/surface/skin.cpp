@@ -48,7 +48,7 @@ class Grid {
   int size(int axis) const { return n_[static_cast<std::size_t>(axis)]; }
 
  private:
-  static constexpr int kBlock = 6;
+  static constexpr int kBlock = 3;
 
   /// The nodes of a block; where it is clear of the surface, all as far outside.
   void fill(const SkinField& field, const Node& from) {

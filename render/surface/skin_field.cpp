@@ -76,26 +76,26 @@ double SkinField::clearance(const Vec3& x) const {
   return least - kBeyond;
 }
 
-Vec3 SkinField::gradient(const Vec3& x) const {
+Vec3 SkinField::normal(const Vec3& x) const {
   constexpr double kStep = 1e-4;  // [m]
   std::vector<double> unused;
   Vec3 g;
-  for (int i = 0; i < 3; ++i) g[i] = (at(x + kStep * Vec3::Unit(i), unused) - at(x - kStep * Vec3::Unit(i), unused)) / (2 * kStep);
-  return g;
-}
-
-Vec3 SkinField::normal(const Vec3& x) const {
-  const Vec3 g = gradient(x);
+  for (int i = 0; i < 3; ++i) g[i] = at(x + kStep * Vec3::Unit(i), unused) - at(x - kStep * Vec3::Unit(i), unused);
   const double length = g.norm();
   return length > 0 ? Vec3(g / length) : Vec3(Vec3::UnitZ());
 }
 
 Vec3 SkinField::onto_surface(Vec3 x) const {
+  constexpr double kNear = 1e-9, kStep = 1e-4;  // [m]
   std::vector<double> unused;
-  // Newton along the gradient: the radial distance grows faster than the true one where a long segment is met at a slant
-  for (int i = 0; i < 4; ++i) {
-    const Vec3 g = gradient(x);
-    x -= at(x, unused) / std::max(g.squaredNorm(), 0.1) * g;
+  // Newton along the gradient: the radial distance grows faster than the true one where a long segment is met at a slant. One-sided
+  // differences serve: a step that is a hundredth off costs another step at most
+  for (int i = 0; i < 6; ++i) {
+    const double d = at(x, unused);
+    if (std::abs(d) < kNear) break;
+    Vec3 g;
+    for (int k = 0; k < 3; ++k) g[k] = (at(x + kStep * Vec3::Unit(k), unused) - d) / kStep;
+    x -= d / std::max(g.squaredNorm(), 0.1) * g;
   }
   return x;
 }

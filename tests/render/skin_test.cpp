@@ -71,8 +71,8 @@ TEST(Skin, LiesOnItsSegmentsAwayFromTheJoints) {
     ASSERT_NEAR(w[0].share + w[1].share + w[2].share + w[3].share, 1, 1e-5);
     if (w[0].segment != 2 || w[0].share < 1) continue;
     const Vec3 x_B = person.segments[2].X_WB.inverse() * vertex(positions, v);
-    // the far end of the forearm: no fillet reaches it, so four Newton steps onto the surface leave no more than the floats and the
-    // numerical gradient do
+    // the far end of the forearm: no fillet reaches it, so Newton steps onto the surface leave no more than the
+    // floats and the numerical gradient do
     if (x_B.z() > 0) continue;
     ++alone;
     ASSERT_NEAR(engine::gauge(person.segments[2].shape, x_B), 1, 1e-3);
