@@ -22,29 +22,29 @@ ObjectPass::ObjectPass()
 
 void ObjectPass::draw(const DrawList& list, const std::vector<Piece>& pieces, const FrameSetup& frame, int width, int height,
                       int samples, const Rectangle& r) {
-  const std::size_t count = static_cast<std::size_t>(r.width * samples) * static_cast<std::size_t>(r.height * samples);
-  if (names_.size() < count) names_.resize(count);
-  if (count == 0) return;
+  if (r.width == 0 || r.height == 0) return;
   drawn_ = samples_of(r, samples);
   // seen from above, the ground hides what has sunk into it; a terrain does so by its own depth
   const float ground = static_cast<float>(list.road.height);
   const bool above = list.view.eye[2] > ground && !list.road.terrain;
-  triangles_.collect({frame.world_to_clip, width * samples, height * samples, drawn_, ground, above}, pieces);
-  triangles_.upload();
   target_.begin(drawn_, width * samples, height * samples);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   if (above) glEnable(GL_CLIP_DISTANCE0);
-  for (const Triangles::Batch& batch : triangles_.batches()) {
-    const Program& p = batch.wires ? wires_ : batch.kept != 15 ? glass_ : plain_;
-    p.use();
-    p.set("per_viewport", target_.per_viewport());
-    if (batch.wires) p.set("axes", batch.axes);
-    if (batch.kept != 15) p.set("kept", static_cast<int>(batch.kept));
-    triangles_.draw(batch);
-  }
+  triangles_.draw({frame.world_to_clip, width * samples, height * samples, drawn_, ground, above}, pieces,
+                  [this](const Triangles::Batch& batch) {
+                    const Program& p = batch.wires ? wires_ : batch.kept != 15 ? glass_ : plain_;
+                    p.use();
+                    p.set("per_viewport", target_.per_viewport());
+                    if (batch.wires) p.set("axes", batch.axes);
+                    if (batch.kept != 15) p.set("kept", static_cast<int>(batch.kept));
+                  });
   glDisable(GL_CLIP_DISTANCE0);
   glDisable(GL_DEPTH_TEST);
+}
+
+void ObjectPass::read(const Rectangle& r, int samples) {
+  names_.resize(static_cast<std::size_t>(r.width * samples) * static_cast<std::size_t>(r.height * samples));
   target_.read({r.x * samples, r.y * samples, r.width * samples, r.height * samples}, names_.data());
 }
 

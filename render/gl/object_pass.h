@@ -18,7 +18,9 @@ class ObjectPass {
   /// The band r of a picture of `width` by `height` pixels, `samples` a side to each.
   void draw(const DrawList&, const std::vector<Piece>&, const FrameSetup&, int width, int height, int samples, const Rectangle& r);
 
-  /// Of the band, row by row, lowest first: numbers of triangles, 0 where nothing is seen.
+  /// Looks into r, a part of what was drawn.
+  void read(const Rectangle& r, int samples);
+  /// Of what was read, row by row, lowest first: numbers of triangles, 0 where nothing is seen.
   const std::int32_t* names() const { return names_.data(); }
   Triangles& triangles() { return triangles_; }
   /// For a program that asks how near the things of the band are, and whose picture begins at x, y of the whole one: what

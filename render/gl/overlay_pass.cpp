@@ -197,19 +197,19 @@ Rectangle OverlayPass::around() const {
 void OverlayPass::finish(const shade::Canvas& canvas) {
   if (vertices_.empty() || reach_.width == 0 || reach_.height == 0) return;
   draw(in_front_, reach_, behind_count_, vertices_.size() / kFloats - behind_count_);
-  lines_.resize(4 * static_cast<std::size_t>(reach_.width) * static_cast<std::size_t>(reach_.height));
-  target_.read(reach_, lines_.data());
-  lay(canvas);
-}
-
-void OverlayPass::lay(const shade::Canvas& canvas) {
-  const Rectangle& r = reach_;
-  const std::uint8_t* from = lines_.data();
-  for (int y = r.y; y < r.y + r.height; ++y) {
-    std::uint8_t* to = canvas.pixels + 4 * (y * canvas.pitch + r.x);
-    for (int x = 0; x < r.width; ++x, from += 4, to += 4) {
-      if (from[3] == 0) continue;
-      for (int c = 0; c < 3; ++c) to[c] = static_cast<std::uint8_t>(from[c] + (to[c] * (255 - from[3]) + 127) / 255);
+  constexpr int kStrip = 32;  // rows at a time
+  const int top = reach_.y + reach_.height;
+  lines_.resize(4 * kStrip * static_cast<std::size_t>(reach_.width));
+  for (int low = reach_.y; low < top; low += kStrip) {
+    const Rectangle strip{reach_.x, low, reach_.width, std::min(kStrip, top - low)};
+    target_.read(strip, lines_.data());
+    const std::uint8_t* from = lines_.data();
+    for (int y = low; y < low + strip.height; ++y) {
+      std::uint8_t* to = canvas.pixels + 4 * (y * canvas.pitch + strip.x);
+      for (int x = 0; x < strip.width; ++x, from += 4, to += 4) {
+        if (from[3] == 0) continue;
+        for (int c = 0; c < 3; ++c) to[c] = static_cast<std::uint8_t>(from[c] + (to[c] * (255 - from[3]) + 127) / 255);
+      }
     }
   }
 }

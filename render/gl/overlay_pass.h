@@ -37,7 +37,6 @@ class OverlayPass {
   void arrow(const ArrowItem&, float extra, const Float4& colour);
   void draw(const Program&, const Rectangle&, std::size_t first, std::size_t count);
   Rectangle around() const;
-  void lay(const shade::Canvas&);
 
   Program in_front_, behind_;
   Target target_{"picture of the lines", {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 0}, false};

@@ -66,8 +66,6 @@ void ShadowPass::draw_map(int size, const std::vector<Piece>& pieces, const Fram
   const Rectangle whole{0, 0, size, size};
   depth_.resize(static_cast<std::size_t>(size + 2) * static_cast<std::size_t>(size + 2), 1.0f);
   const double texel = static_cast<double>(std::max(frame.data.shadow[0], frame.data.shadow[1]));
-  triangles_.collect_casters({frame.world_to_shadow_clip, size, size, whole}, pieces, texel);
-  triangles_.upload();
   target_.begin(whole, size, size);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
@@ -75,7 +73,7 @@ void ShadowPass::draw_map(int size, const std::vector<Piece>& pieces, const Fram
   glPolygonOffset(1.5f, 4.0f);
   program_.use();
   program_.set("per_viewport", target_.per_viewport());
-  for (const Triangles::Batch& batch : triangles_.batches()) triangles_.draw(batch);
+  triangles_.draw_casters({frame.world_to_shadow_clip, size, size, whole}, pieces, texel);
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_DEPTH_TEST);
   target_.read(whole, depth_.data() + size + 3, size + 2);

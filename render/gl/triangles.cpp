@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kRoom = 7, kRecord = 8, kPlace = 4, kWired = 3;  // [numbers]
 constexpr unsigned kAll = 15;
+constexpr std::size_t kDrawn = 30'000;  // corners at a time: what is written is read while it is still in the cache
 
 /// Of four samples so many stay as the opacity says, spread evenly.
 unsigned kept_samples(const Piece& piece) {
@@ -87,9 +88,6 @@ Triangles::Triangles() {
 void Triangles::clear() {
   vertex_count_ = first_vertex_ = 0;
   last_geometry_ = nullptr;
-  corners_.clear();
-  wired_.clear();
-  batches_.clear();
   triangles_.assign(1, {});
 }
 
@@ -140,7 +138,6 @@ shade::Triangle Triangles::describe(const Piece& piece, const Run& run, const st
 
 /// The last triangle that was described, or one that need not be.
 void Triangles::put(const std::uint32_t* v, bool described, bool wires) {
-  if (wires) wired_.resize(kWired * corners_.size());
   for (std::size_t k = 0; k < 3; ++k) {
     const float *record = &records_[kRecord * v[k]], scale = record[4];
     const float* place = described ? &places_[kPlace * v[k]] : nullptr;
@@ -150,13 +147,10 @@ void Triangles::put(const std::uint32_t* v, bool described, bool wires) {
   }
 }
 
-void Triangles::add(const View& view, const Piece& piece, const Run& run) {
-  const unsigned kept = run.describe ? kept_samples(piece) : kAll;
-  const bool wires = run.describe && piece.kind == kWireKind;
-  const std::size_t before = corners_.size() / 3;
-  // of a body with an inside, half is seen: room for that, for twice as much would be tens of megabytes
-  const std::size_t seen = run.facing == 0 ? run.count : run.count * 5 / 8, wanted = corners_.size() + seen;
-  if (corners_.capacity() < wanted) corners_.reserve(std::max(wanted, corners_.capacity() * 5 / 4));
+void Triangles::add(const View& view, const Piece& piece, const Run& run, const Prepare& prepare) {
+  const Batch batch{run.describe ? kept_samples(piece) : kAll, run.describe && piece.kind == kWireKind, piece.axes};
+  if (batch.kept != batch_.kept || batch.wires || batch_.wires) flush(prepare);
+  batch_ = batch;
   for (std::size_t t = 0; t + 2 < run.count; t += 3) {
     std::uint32_t v[3];
     const float* at[3];
@@ -171,51 +165,49 @@ void Triangles::add(const View& view, const Piece& piece, const Run& run) {
         continue;
       triangles_.push_back(describe(piece, run, v, area));
     }
-    put(v, run.describe, wires);
+    put(v, run.describe, batch.wires);
+    if (corners_.size() == kDrawn) flush(prepare);
   }
-  const std::size_t more = corners_.size() / 3 - before;
-  if (more == 0) return;
-  if (!batches_.empty() && batches_.back().kept == kept && !wires && !batches_.back().wires)
-    batches_.back().count += more;
-  else
-    batches_.push_back({before, more, kept, wires, piece.axes});
 }
 
-void Triangles::collect(const View& view, const std::vector<Piece>& pieces) {
+void Triangles::draw(const View& view, const std::vector<Piece>& pieces, const Prepare& prepare) {
   clear();
   for (const Piece& piece : pieces) {
     project(view, piece, true);
     const Mesh::Part& part = piece.level->runs[piece.run];
     const int facing = piece.culling == Culling::off ? 0 : piece.geometry->closed > 0 ? 1 : -1;
-    add(view, piece, {piece.geometry->indices.data() + part.first, part.count, facing, true});
+    add(view, piece, {piece.geometry->indices.data() + part.first, part.count, facing, true}, prepare);
   }
+  flush(prepare);
 }
 
-void Triangles::collect_casters(const View& view, const std::vector<Piece>& pieces, double tolerance) {
+void Triangles::draw_casters(const View& view, const std::vector<Piece>& pieces, double tolerance) {
   clear();
+  const Prepare nothing = [](const Batch&) {};
   for (const Piece& piece : pieces) {
     if (!piece.casts) continue;
     project(view, piece, false);
     const Geometry& g = *piece.geometry;
     const Mesh::Part& part = level_within(g, tolerance).runs[piece.run];
-    add(view, piece, {g.indices.data() + part.first, part.count, g.shell ? (g.closed > 0 ? 1 : -1) : 0, false});
+    add(view, piece, {g.indices.data() + part.first, part.count, g.shell ? (g.closed > 0 ? 1 : -1) : 0, false}, nothing);
   }
+  flush(nothing);
 }
 
-void Triangles::upload() {
-  const auto put = [](const Buffer& buffer, const auto& list) {
+/// OpenGL draws what has come together.
+void Triangles::flush(const Prepare& prepare) {
+  if (corners_.empty()) return;
+  const auto upload = [](const Buffer& buffer, const auto& list) {
     glBindBuffer(GL_ARRAY_BUFFER, *buffer);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.size() * sizeof list[0]), list.data(), GL_STREAM_DRAW);
   };
-  put(corner_buffer_, corners_);
-  constexpr std::size_t kKept = 1'000'000;
-  if (corners_.size() > kKept) std::vector<Corner>().swap(corners_);  // OpenGL has them
-  if (!wired_.empty()) put(wired_buffer_, wired_);
-}
-
-void Triangles::draw(const Batch& batch) const {
+  upload(corner_buffer_, corners_);
+  if (batch_.wires) upload(wired_buffer_, wired_);
+  prepare(batch_);
   glBindVertexArray(*array_);
-  glDrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * batch.first), static_cast<GLsizei>(3 * batch.count));
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners_.size()));
+  corners_.clear();
+  wired_.clear();
 }
 
 }  // namespace render::gl

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "render/gl/names.h"
@@ -25,20 +26,17 @@ class Triangles {
   };
   /// One draw call.
   struct Batch {
-    std::size_t first, count;  // triangles
-    unsigned kept;             // of two by two samples, bit 2 y + x: those glass does not let through
-    bool wires;                // parallels and meridians of an ellipsoid with these
+    unsigned kept;  // of two by two samples, bit 2 y + x: those glass does not let through
+    bool wires;     // parallels and meridians of an ellipsoid with these
     Float3 axes;
   };
 
   Triangles();
-  /// Levels of detail and culling as the pieces have them.
-  void collect(const View&, const std::vector<Piece>&);
+  using Prepare = std::function<void(const Batch&)>;
+  /// Levels of detail and culling as the pieces have them. `prepare` readies program and state for each call.
+  void draw(const View&, const std::vector<Piece>&, const Prepare& prepare);
   /// What throws shadows, at the levels within `tolerance` [m]; not described.
-  void collect_casters(const View&, const std::vector<Piece>&, double tolerance);
-  void upload();
-  const std::vector<Batch>& batches() const { return batches_; }
-  void draw(const Batch&) const;
+  void draw_casters(const View&, const std::vector<Piece>&, double tolerance);
 
   /// By number; 0 is nothing.
   const std::vector<shade::Triangle>& described() const { return triangles_; }
@@ -48,7 +46,8 @@ class Triangles {
   struct Run;
   void clear();
   void project(const View&, const Piece&, bool describe);
-  void add(const View&, const Piece&, const Run&);
+  void add(const View&, const Piece&, const Run&, const Prepare&);
+  void flush(const Prepare&);
   void put(const std::uint32_t* v, bool described, bool wires);
   shade::Triangle describe(const Piece&, const Run&, const std::uint32_t* v, double area) const;
 
@@ -60,10 +59,10 @@ class Triangles {
   };
 
   std::vector<float> records_, places_;  // as shade::Corners names them
-  std::vector<Corner> corners_;
-  std::vector<float> wired_;  // places of corners in their mesh, scaled as they are; only as far as there are wires
+  std::vector<Corner> corners_;          // of the next call
+  std::vector<float> wired_;             // where there are wires: places of corners in their mesh, scaled as they are
+  Batch batch_{};
   std::vector<shade::Triangle> triangles_;
-  std::vector<Batch> batches_;
   std::size_t vertex_count_ = 0, first_vertex_ = 0;
   const Geometry* last_geometry_ = nullptr;  // whose vertices are the last that were projected
   Matrix4 last_model_{};

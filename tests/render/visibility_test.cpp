@@ -41,6 +41,7 @@ struct Drawn {
   /// The numbers of the corners each sample of the band sees, by the place of the first.
   std::vector<float> seen(ObjectPass& pass, const Rectangle& band) {
     pass.draw(list, pieces, frame, kWidth, kHeight, kSamples, band);
+    pass.read(band, kSamples);
     std::vector<float> out;
     for (int i = 0; i < band.width * band.height * kSamples * kSamples; ++i) {
       const std::int32_t name = pass.names()[i];
