@@ -182,6 +182,7 @@ void prepare(const Stage& stage) {
     if (person.look == PersonLook::skin) meshes.insert(person.skin()->mesh.get());
   const std::vector<const Mesh*> all(meshes.begin(), meshes.end());
   in_parallel(all.size(), [&all](std::size_t i) { all[i]->levels(); });
+  malloc_trim(0);  // what building has let go of would count as every worker's own
 }
 
 void refuse_existing(const FilmJob& job, const Film& film) {

@@ -116,18 +116,14 @@ int near_rows(const Matrix4d& clip_to_world, const Vector3d& eye, double ground,
 std::vector<Vector3d> shaded_ground(const std::vector<CasterBox>& boxes, const Vector3d& to_sun, double ground) {
   std::vector<Vector3d> out;
   for (const CasterBox& b : boxes) {
-    Eigen::Array2d lower(1e9, 1e9), upper(-1e9, -1e9);
+    Eigen::AlignedBox2d box;
     for (const Vector3d& c : corners({b})) {
       const double up = std::max(c.z() - ground, 0.0);
-      const Vector3d foot = c - to_sun * (up / std::max(to_sun.z(), 0.05));
-      for (const Vector3d& p : {c, foot}) {
-        lower = lower.min(p.head<2>().array());
-        upper = upper.max(p.head<2>().array());
-      }
+      box.extend(c.head<2>()).extend((c - to_sun * (up / std::max(to_sun.z(), 0.05))).head<2>());
     }
     for (int k = 0; k < 4; ++k)
-      out.emplace_back(k & 1 ? upper[0] + kOcclusionReach : lower[0] - kOcclusionReach,
-                       k & 2 ? upper[1] + kOcclusionReach : lower[1] - kOcclusionReach, ground);
+      out.emplace_back(k & 1 ? box.max()[0] + kOcclusionReach : box.min()[0] - kOcclusionReach,
+                       k & 2 ? box.max()[1] + kOcclusionReach : box.min()[1] - kOcclusionReach, ground);
   }
   return out;
 }
@@ -136,13 +132,9 @@ void fit_shadow(const std::vector<CasterBox>& boxes, const Vector3d& to_sun, int
   const Vector3d side = (std::abs(to_sun.z()) < 0.99 ? Vector3d::UnitZ() : Vector3d::UnitX()).cross(to_sun).normalized();
   Eigen::Matrix3d R_LW;  // light axes as rows; z towards the sun
   R_LW << side.transpose(), to_sun.cross(side).transpose(), to_sun.transpose();
-  Eigen::Array3d lower = Eigen::Array3d::Constant(1e9), upper = Eigen::Array3d::Constant(-1e9);
-  for (const Vector3d& p : corners(boxes)) {
-    lower = lower.min((R_LW * p).array());
-    upper = upper.max((R_LW * p).array());
-  }
-  lower -= 0.1;
-  upper += 0.1;
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& p : corners(boxes)) box.extend(R_LW * p);
+  const Eigen::Array3d lower = box.min().array() - 0.1, upper = box.max().array() + 0.1;
   const Eigen::Array3d size = upper - lower;
   Matrix4d clip = Matrix4d::Identity();
   clip.topLeftCorner<3, 3>() = R_LW;
@@ -164,15 +156,11 @@ void fit_shadow(const std::vector<CasterBox>& boxes, const Vector3d& to_sun, int
 
 // where on the ground the occlusion map lies: around what stands low
 void fit_occlusion(const std::vector<const CasterBox*>& low, shade::FrameData& f) {
-  Eigen::Array2d lower(1e9, 1e9), upper(-1e9, -1e9);
+  Eigen::AlignedBox2d box;
   for (const CasterBox* b : low)
-    for (const Vector3d& c : corners({*b})) {
-      lower = lower.min(c.head<2>().array());
-      upper = upper.max(c.head<2>().array());
-    }
-  lower -= kOcclusionReach;
-  upper += kOcclusionReach;
-  put({lower[0], lower[1], upper[0] - lower[0]}, upper[1] - lower[1], f.occlusion);
+    for (const Vector3d& c : corners({*b})) box.extend(c.head<2>());
+  const Eigen::Vector2d size = box.sizes().array() + 2 * kOcclusionReach;
+  put({box.min()[0] - kOcclusionReach, box.min()[1] - kOcclusionReach, size[0]}, size[1], f.occlusion);
 }
 
 // rows of the map from world to the caster's own axes; `unit`: its surface at distance one
@@ -209,6 +197,14 @@ void put_occluders(const std::vector<CasterBox>& boxes, double ground, FrameSetu
 Rectangle both(const Rectangle& a, const Rectangle& b) {
   const int x = std::max(a.x, b.x), y = std::max(a.y, b.y);
   return {x, y, std::max(0, std::min(a.x + a.width, b.x + b.width) - x), std::max(0, std::min(a.y + a.height, b.y + b.height) - y)};
+}
+
+Rectangle around(const float* places, std::size_t count, std::size_t stride, int width, int height) {
+  Eigen::AlignedBox2f box;
+  for (const float* p = places; p < places + count * stride; p += stride) box.extend(Eigen::Vector2f::Map(p));
+  const auto on = [](float v, int end) { return static_cast<int>(std::clamp(v, 0.0f, static_cast<float>(end))); };
+  const int x = on(box.min()[0], width), y = on(box.min()[1], height);
+  return {x, y, on(box.max()[0] + 1, width) - x, on(box.max()[1] + 1, height) - y};
 }
 
 bool same_background(const shade::FrameData& a, const shade::FrameData& b) {

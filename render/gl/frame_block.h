@@ -34,6 +34,8 @@ struct Rectangle {
   int x = 0, y = 0, width = 0, height = 0;
 };
 Rectangle both(const Rectangle&, const Rectangle&);  // what they share
+/// Around `count` places x, y, `stride` numbers from one to the next; no more than the picture.
+Rectangle around(const float* places, std::size_t count, std::size_t stride, int width, int height);
 
 struct FrameSetup {
   shade::FrameData data{};

@@ -13,26 +13,15 @@ namespace {
 void set_vertices(Geometry& g, const std::vector<float>& positions, const std::vector<float>& normals) {
   const std::size_t count = positions.size() / 3;
   g.count = static_cast<int>(count);
-  for (std::size_t i = 0; i < 3; ++i) {
-    std::vector<float>&p = g.vertices[i], &n = g.vertices[3 + i];
-    p.assign(count + 7, 0.0f);
-    n.assign(count + 7, 0.0f);
-    for (std::size_t v = 0; v < count; ++v) {
-      p[v] = positions[3 * v + i];
-      n[v] = normals[3 * v + i];
+  for (std::vector<float>& list : g.vertices) list.assign(count + 7, 0.0f);
+  g.box.setEmpty();
+  for (std::size_t v = 0; v < count; ++v) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      g.vertices[i][v] = positions[3 * v + i];
+      g.vertices[3 + i][v] = normals[3 * v + i];
     }
-    g.lower[i] = 1e30f;
-    g.upper[i] = -1e30f;
-    for (std::size_t v = 0; v < count; ++v) {
-      g.lower[i] = std::min(g.lower[i], p[v]);
-      g.upper[i] = std::max(g.upper[i], p[v]);
-    }
+    g.box.extend(Eigen::Vector3f::Map(&positions[3 * v]).cast<double>());
   }
-}
-
-void set_indices(Geometry& g, std::vector<std::uint32_t> indices) {
-  g.levels = {{0, {{0, static_cast<std::uint32_t>(indices.size()), 0}}}};
-  g.indices = std::move(indices);
 }
 
 /// All levels of the mesh, one behind the other.
@@ -44,7 +33,7 @@ void set_levels(Geometry& g, const Mesh& mesh) {
     for (Mesh::Part& run : levels.back().runs) run.first += static_cast<std::uint32_t>(indices.size());
     indices.insert(indices.end(), coarse.indices.begin(), coarse.indices.end());
   }
-  set_indices(g, std::move(indices));
+  g.indices = std::move(indices);
   g.levels = std::move(levels);
 }
 
@@ -73,7 +62,7 @@ std::vector<float> face_sums(const std::vector<float>& p, const std::vector<std:
 int winding(const Mesh& mesh, const Geometry& g) {
   double volume = 0, area = 0;
   Eigen::Vector3d facing = Eigen::Vector3d::Zero();
-  const Eigen::Vector3d middle((g.lower[0] + g.upper[0]) / 2, (g.lower[1] + g.upper[1]) / 2, (g.lower[2] + g.upper[2]) / 2);
+  const Eigen::Vector3d middle = g.box.center();
   for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
     std::array<Eigen::Vector3d, 3> c;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -86,8 +75,7 @@ int winding(const Mesh& mesh, const Geometry& g) {
     area += part.norm();
   }
   if (facing.norm() > 0.2 * area) return 0;
-  const double box = static_cast<double>(g.upper[0] - g.lower[0]) * (g.upper[1] - g.lower[1]) * (g.upper[2] - g.lower[2]);
-  if (std::abs(volume) <= 0.1 * box) return 0;
+  if (std::abs(volume) <= 0.1 * g.box.volume()) return 0;
   return volume > 0 ? 1 : -1;
 }
 
@@ -133,7 +121,8 @@ const Geometry& GeometryCache::ellipsoid(const engine::HyperEllipsoid& e, double
       const Tessellation t = tessellate(e, kLevels[i]);
       Level level{kLevels[i], largest_gap(e, t), std::make_unique<Geometry>()};
       set_vertices(*level.geometry, t.positions, t.normals);
-      set_indices(*level.geometry, t.indices);
+      level.geometry->indices = t.indices;
+      level.geometry->levels = {{0, {{0, static_cast<std::uint32_t>(t.indices.size()), 0}}}};
       level.geometry->closed = 1;
       level.geometry->shell = true;
       levels.push_back(std::move(level));

@@ -1,6 +1,7 @@
 // Triangles as they are drawn: meshes laid out once, ellipsoids once per shape and level of detail, skins every frame.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -23,12 +24,11 @@ struct Geometry {
   /// Three places and three components of the normal, a list each, with room for seven more.
   std::array<std::vector<float>, 6> vertices;
   std::vector<std::uint32_t> indices;
-  std::vector<Level> levels;     // finest first
-  std::array<float, 3> lower{};  // box in its own frame [m]
-  std::array<float, 3> upper{};
-  int closed = 0;      // 1 counter-clockwise outside, -1 clockwise, 0 a sheet or a soup
-  bool shell = false;  // nearly watertight and of one winding: back faces need no drawing
-  bool moves = false;  // its vertices are others in the next frame
+  std::vector<Level> levels;  // finest first
+  Eigen::AlignedBox3d box;    // in its own frame [m]
+  int closed = 0;             // 1 counter-clockwise outside, -1 clockwise, 0 a sheet or a soup
+  bool shell = false;         // nearly watertight and of one winding: back faces need no drawing
+  bool moves = false;         // its vertices are others in the next frame
 
   shade::Vertices list() const;
 };

@@ -34,16 +34,6 @@ void LightPass::draw(const Lighting& lighting, ObjectPass& objects, const shade:
   lay(canvas);
 }
 
-void LightPass::make_room(std::size_t more) {
-  constexpr std::size_t kRoom = 7;
-  const std::size_t wanted = count_ + more + kRoom;
-  if (pixel_.size() >= wanted) return;
-  const std::size_t size = std::max(wanted, 3 * pixel_.size() / 2);
-  for (auto* list : {&share_, &x_, &y_, &red_, &green_, &blue_}) list->resize(size, 0.5f);
-  pixel_.resize(size);
-  triangle_.resize(size);
-}
-
 void LightPass::add(float share, float x, float y, int pixel, std::int32_t triangle) {
   pixel_[count_] = pixel;
   share_[count_] = share;
@@ -54,10 +44,15 @@ void LightPass::add(float share, float x, float y, int pixel, std::int32_t trian
 
 void LightPass::find(ObjectPass& objects, const Rectangle& r, int samples, const shade::Canvas& canvas, std::uint8_t* covered) {
   count_ = 0;
+  const std::size_t most = 2 * static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height) + 7;
+  if (pixel_.size() < most) {
+    for (auto* list : {&share_, &x_, &y_, &red_, &green_, &blue_}) list->resize(most, 0.5f);
+    pixel_.resize(most);
+    triangle_.resize(most);
+  }
   triangles_ = objects.triangles().described().data();
   const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(r.width) * samples;
   for (int y = r.y; y < r.y + r.height; ++y) {
-    make_room(2 * static_cast<std::size_t>(r.width));
     std::uint8_t* const of_row = covered + static_cast<std::ptrdiff_t>(y) * canvas.width;
     std::fill_n(of_row, canvas.width, std::uint8_t{0});
     const std::int32_t* low = objects.names() + (y - r.y) * samples * row;

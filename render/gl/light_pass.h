@@ -31,7 +31,6 @@ class LightPass {
   bool same(std::int32_t one, std::int32_t other) const;
   void add(float share, float x, float y, int pixel, std::int32_t triangle);
   void add_edge(const Seen&, int pixel, float x, float y);
-  void make_room(std::size_t more);
   void lay(const shade::Canvas&) const;
 
   const shade::Triangle* triangles_ = nullptr;

@@ -12,43 +12,18 @@ namespace render::gl {
 namespace {
 
 constexpr int kRubber = 41;  // of 4 x 255: 0.012 on the tone curve
-constexpr std::size_t kRoom = 7, kRecord = 8, kMark = 4;
-
-void attribute(GLuint i, int size, std::size_t stride, std::size_t offset) {
-  glEnableVertexAttribArray(i);
-  glVertexAttribPointer(i, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride * sizeof(float)),
-                        reinterpret_cast<const void*>(offset * sizeof(float)));
-}
-
-/// Where corners lie, and what lies between them; the whole picture if one lies behind the eye or far aside.
-Rectangle reach_of(const std::vector<float>& records, std::size_t count, int width, int height) {
-  float x0 = 1e9f, x1 = -1e9f, y0 = 1e9f, y1 = -1e9f;
-  for (const float* r = records.data(); r < records.data() + kRecord * count; r += kRecord) {
-    if (r[3] != 1) return {0, 0, width, height};
-    x0 = std::min(x0, r[0]);
-    x1 = std::max(x1, r[0]);
-    y0 = std::min(y0, r[1]);
-    y1 = std::max(y1, r[1]);
-  }
-  const int x = static_cast<int>(std::floor(x0)), y = static_cast<int>(std::floor(y0));
-  return both({x, y, static_cast<int>(x1) + 1 - x, static_cast<int>(y1) + 1 - y}, {0, 0, width, height});
-}
+constexpr std::size_t kRoom = 7, kRecord = 8;
 
 }  // namespace
 
 MarkPass::MarkPass()
     : flat_("", glsl::mark_vert, glsl::mark_frag),
       on_terrain_(std::string("#define ON_TERRAIN\n") + glsl::nearest, glsl::mark_vert, glsl::mark_frag) {
-  glBindVertexArray(*array_);
-  glBindBuffer(GL_ARRAY_BUFFER, *records_buffer_);
-  attribute(0, 4, kRecord, 0);
-  attribute(1, 1, kRecord, 4);
-  glBindBuffer(GL_ARRAY_BUFFER, *marks_buffer_);
-  attribute(2, 4, kMark, 0);
-  const std::vector<std::uint8_t> grain = grain_picture();
+  lay_out(array_, records_buffer_, {4, 1, 3});
+  lay_out(array_, marks_buffer_, {4}, 2);
   glBindTexture(GL_TEXTURE_2D, *noise_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, kNoiseSize, kNoiseSize, 0, GL_RED, GL_UNSIGNED_BYTE, grain.data());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, kNoiseSize, kNoiseSize, 0, GL_RED, GL_UNSIGNED_BYTE, grain_picture().data());
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
 }
 
@@ -80,15 +55,13 @@ void MarkPass::begin(const DrawList& list, const FrameSetup& frame, int width, i
   shade::kernels().project(
       p, {static_cast<int>(count), places[0].data(), places[1].data(), places[2].data(), nullptr, nullptr, nullptr},
       {records.data(), nullptr});
-  const auto put = [](const Buffer& buffer, const std::vector<float>& numbers) {
-    glBindBuffer(GL_ARRAY_BUFFER, *buffer);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(numbers.size() * sizeof(float)), numbers.data(), GL_STREAM_DRAW);
-  };
-  put(records_buffer_, records);
-  put(marks_buffer_, marks);
+  upload(records_buffer_, records);
+  upload(marks_buffer_, marks);
   width_ = width;
   height_ = height;
-  reach_ = reach_of(records, count, width, height);
+  reach_ = around(records.data(), count, kRecord, width, height);
+  for (std::size_t i = 0; i < count; ++i)
+    if (records[kRecord * i + 3] != 1) reach_ = {0, 0, width, height};  // behind the eye or far aside
 }
 
 /// Part of what lies under them: one is nothing, and each mark takes its share of what the others let through.

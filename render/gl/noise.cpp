@@ -30,16 +30,18 @@ int layer(int x, int y, int cell) {
 
 }  // namespace
 
-std::vector<std::uint8_t> grain_picture() {
-  std::vector<std::uint8_t> out;
-  out.reserve(kNoiseSize * kNoiseSize);
-  for (int y = 0; y < kNoiseSize; ++y) {
-    for (int x = 0; x < kNoiseSize; ++x) {
-      const int sum = 30 * layer(x, y, 1) + 26 * layer(x, y, 2) + 20 * layer(x, y, 4) + 12 * layer(x, y, 16) + 12 * layer(x, y, 64);
-      out.push_back(static_cast<std::uint8_t>(std::clamp(sum / 100, 0, 255)));
-    }
-  }
-  return out;
+const std::vector<std::uint8_t>& grain_picture() {
+  static const std::vector<std::uint8_t> grain = [] {
+    std::vector<std::uint8_t> out;
+    for (int y = 0; y < kNoiseSize; ++y)
+      for (int x = 0; x < kNoiseSize; ++x) {
+        const int sum =
+            30 * layer(x, y, 1) + 26 * layer(x, y, 2) + 20 * layer(x, y, 4) + 12 * layer(x, y, 16) + 12 * layer(x, y, 64);
+        out.push_back(static_cast<std::uint8_t>(std::clamp(sum / 100, 0, 255)));
+      }
+    return out;
+  }();
+  return grain;
 }
 
 }  // namespace render::gl

@@ -8,6 +8,6 @@ namespace render::gl {
 constexpr int kNoiseSize = 256;
 
 /// Grain that tiles: kNoiseSize^2 bytes, mean one half, the same on every machine (integer arithmetic).
-std::vector<std::uint8_t> grain_picture();
+const std::vector<std::uint8_t>& grain_picture();
 
 }  // namespace render::gl

@@ -20,32 +20,19 @@ constexpr std::size_t kFloats = 12;  // a vertex: corner 3, tint 4, shape 3, ext
 OverlayPass::OverlayPass()
     : in_front_("", glsl::line_vert, glsl::line_frag),
       behind_(std::string("#define BEHIND_THINGS\n") + glsl::nearest, glsl::line_vert, glsl::line_frag) {
-  glBindVertexArray(*array_);
-  glBindBuffer(GL_ARRAY_BUFFER, *buffer_);
-  std::size_t offset = 0;
-  GLuint i = 0;
-  for (const int size : {3, 4, 3, 2}) {
-    glEnableVertexAttribArray(i);
-    glVertexAttribPointer(i++, size, GL_FLOAT, GL_FALSE, kFloats * sizeof(float), reinterpret_cast<const void*>(offset));
-    offset += static_cast<std::size_t>(size) * sizeof(float);
-  }
+  lay_out(array_, buffer_, {3, 4, 3, 2});
 }
 
 bool OverlayPass::project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb) const {
-  auto clip = [&](const Float3& p) {
-    Float4 c{};
-    for (std::size_t r = 0; r < 4; ++r) c[r] = clip_[r] * p[0] + clip_[4 + r] * p[1] + clip_[8 + r] * p[2] + clip_[12 + r];
-    return c;
-  };
-  Float4 ca = clip(a), cb = clip(b);
+  using Eigen::Vector4f;
+  Vector4f ca = clip_ * Vector4f(a[0], a[1], a[2], 1), cb = clip_ * Vector4f(b[0], b[1], b[2], 1);
   if (ca[3] < kNear && cb[3] < kNear) return false;
-  auto cut = [](Float4& behind, const Float4& front) {
-    const float s = (kNear - behind[3]) / (front[3] - behind[3]);
-    for (std::size_t i = 0; i < 4; ++i) behind[i] += s * (front[i] - behind[i]);
+  const auto cut = [](Vector4f& behind, const Vector4f& front) {
+    if (behind[3] < kNear) behind += (kNear - behind[3]) / (front[3] - behind[3]) * (front - behind);
   };
-  if (ca[3] < kNear) cut(ca, cb);
-  if (cb[3] < kNear) cut(cb, ca);
-  auto pixel = [&](const Float4& c) {
+  cut(ca, cb);
+  cut(cb, ca);
+  const auto pixel = [&](const Vector4f& c) {
     return Pixel{(c[0] / c[3] * 0.5f + 0.5f) * static_cast<float>(width_),
                  (c[1] / c[3] * 0.5f + 0.5f) * static_cast<float>(height_), c[2] / c[3] * 0.5f + 0.5f};
   };
@@ -126,8 +113,7 @@ void OverlayPass::arrow(const ArrowItem& item, float extra, const Float4& colour
 }
 
 void OverlayPass::begin(const DrawList& list, int width, int height) {
-  const Mat4 m = from_gl(list.view.eye_to_clip) * from_gl(list.view.world_to_eye);
-  for (std::size_t i = 0; i < 16; ++i) clip_[i] = static_cast<float>(m.data()[i]);
+  clip_ = (from_gl(list.view.eye_to_clip) * from_gl(list.view.world_to_eye)).cast<float>();
   width_ = width;
   height_ = height;
   scale_ = static_cast<float>(height) / 1080 * list.scale;
@@ -150,9 +136,8 @@ void OverlayPass::begin(const DrawList& list, int width, int height) {
     capsule(a, b, marker.radius * scale_, marker.radius * scale_, marker.colour);
   }
   if (vertices_.empty()) return;
-  glBindBuffer(GL_ARRAY_BUFFER, *buffer_);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices_.size() * sizeof(float)), vertices_.data(), GL_STREAM_DRAW);
-  reach_ = around();
+  upload(buffer_, vertices_);
+  reach_ = around(vertices_.data(), vertices_.size() / kFloats, kFloats, width, height);
   if (reach_.width > 0 && reach_.height > 0) target_.begin(reach_, width, height);
 }
 
@@ -179,19 +164,6 @@ void OverlayPass::draw_behind(const ObjectPass& objects, const Rectangle& r, int
   if (behind_count_ == 0) return;
   objects.bind_depth(behind_, samples, reach_.x, reach_.y);
   draw(behind_, r, 0, behind_count_);
-}
-
-Rectangle OverlayPass::around() const {
-  float x0 = static_cast<float>(width_), y0 = static_cast<float>(height_), x1 = 0, y1 = 0;
-  for (std::size_t i = 0; i < vertices_.size(); i += kFloats) {
-    x0 = std::min(x0, vertices_[i]);
-    x1 = std::max(x1, vertices_[i]);
-    y0 = std::min(y0, vertices_[i + 1]);
-    y1 = std::max(y1, vertices_[i + 1]);
-  }
-  const auto on = [](float v, int end) { return static_cast<int>(std::clamp(v, 0.0f, static_cast<float>(end))); };
-  const int x = on(x0, width_), y = on(y0, height_);
-  return {x, y, on(x1 + 1, width_) - x, on(y1 + 1, height_) - y};
 }
 
 void OverlayPass::finish(const shade::Canvas& canvas) {

@@ -2,7 +2,7 @@
 // over the finished one.
 #pragma once
 
-#include <array>
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
@@ -36,7 +36,6 @@ class OverlayPass {
   void polyline(const LineItem&, float extra, const Float4& colour);
   void arrow(const ArrowItem&, float extra, const Float4& colour);
   void draw(const Program&, const Rectangle&, std::size_t first, std::size_t count);
-  Rectangle around() const;
 
   Program in_front_, behind_;
   Target target_{"picture of the lines", {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 0}, false};
@@ -45,7 +44,7 @@ class OverlayPass {
   Buffer buffer_;
   std::vector<float> vertices_;
   std::size_t behind_count_ = 0;  // of the vertices, at their beginning
-  std::array<float, 16> clip_{};
+  Eigen::Matrix4f clip_;
   int width_ = 0, height_ = 0;
   float scale_ = 1;
   std::vector<std::uint8_t> lines_;  // premultiplied

@@ -18,10 +18,9 @@ constexpr Matrix4 kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
 CasterBox box_of(const Geometry& g, const Matrix4& model) {
   const Eigen::Matrix4d X = from_gl(model);
-  const Vector3d lower(g.lower[0], g.lower[1], g.lower[2]), upper(g.upper[0], g.upper[1], g.upper[2]);
   CasterBox b;
-  b.centre = (X * ((lower + upper) / 2).homogeneous()).head<3>();
-  const Vector3d half = ((upper - lower) / 2).cwiseMax(1e-3);
+  b.centre = (X * g.box.center().homogeneous()).head<3>();
+  const Vector3d half = (g.box.sizes() / 2).cwiseMax(1e-3);
   b.half_edges = X.topLeftCorner<3, 3>() * half.asDiagonal();
   b.round = 2 * half.norm() < kSmallMesh;
   return b;
@@ -29,37 +28,30 @@ CasterBox box_of(const Geometry& g, const Matrix4& model) {
 
 // whether the point lies in the mesh's box
 bool holds(const Geometry& g, const Matrix4& model, const Vector3d& point) {
-  const Vector3d p = (from_gl(model).inverse() * point.homogeneous()).head<3>();
-  const Vector3d lower(g.lower[0], g.lower[1], g.lower[2]), upper(g.upper[0], g.upper[1], g.upper[2]);
-  return (p.array() >= lower.array()).all() && (p.array() <= upper.array()).all();
+  return g.box.contains((from_gl(model).inverse() * point.homogeneous()).head<3>());
 }
 
 // what stands on the ground of a moving surface: its lowest part, in two halves (two feet)
 void add_feet(const SkinItem& skin, double ground, std::vector<CasterBox>& boxes) {
   constexpr double kFoot = 0.25;  // [m]
   std::vector<Vector3d> low;
-  Vector3d lower = Vector3d::Constant(1e9), upper = Vector3d::Constant(-1e9);
+  Eigen::AlignedBox3d whole;
   for (std::size_t v = 0; v + 2 < skin.positions.size(); v += 3) {
     const Vector3d p(skin.positions[v], skin.positions[v + 1], skin.positions[v + 2]);
     if (p.z() > ground + kFoot) continue;
     low.push_back(p);
-    lower = lower.cwiseMin(p);
-    upper = upper.cwiseMax(p);
+    whole.extend(p);
   }
   if (low.empty()) return;
-  const int axis = upper.x() - lower.x() > upper.y() - lower.y() ? 0 : 1;
-  const double middle = (upper[axis] + lower[axis]) / 2;
+  const int axis = whole.sizes().x() > whole.sizes().y() ? 0 : 1;
   for (const int side : {-1, 1}) {
-    Vector3d a = Vector3d::Constant(1e9), b = Vector3d::Constant(-1e9);
-    for (const Vector3d& p : low) {
-      if (side * (p[axis] - middle) < 0) continue;
-      a = a.cwiseMin(p);
-      b = b.cwiseMax(p);
-    }
-    if (a.x() > b.x()) continue;
+    Eigen::AlignedBox3d foot;
+    for (const Vector3d& p : low)
+      if (side * (p[axis] - whole.center()[axis]) >= 0) foot.extend(p);
+    if (foot.isEmpty()) continue;
     CasterBox box;
-    box.centre = (a + b) / 2;
-    box.half_edges = ((b - a) / 2).cwiseMax(0.02).asDiagonal();
+    box.centre = foot.center();
+    box.half_edges = (foot.sizes() / 2).cwiseMax(0.02).asDiagonal();
     box.round = true;
     boxes.push_back(box);
   }

@@ -43,8 +43,6 @@ Program::Program(const std::string& defines, const std::string& vertex, const st
   glDeleteShader(v);
   glDeleteShader(f);
   check("linking shaders", id_, GL_LINK_STATUS, glGetProgramiv, glGetProgramInfoLog);
-  const GLuint block = glGetUniformBlockIndex(id_, "Frame");
-  if (block != GL_INVALID_INDEX) glUniformBlockBinding(id_, block, 0);
   glUseProgram(id_);
   int unit = 0;
   for (const char* sampler : kSamplers) glUniform1i(at(sampler), unit++);
@@ -54,22 +52,6 @@ GLint Program::at(const char* uniform) const {
   const auto known = places_.find(uniform);
   if (known != places_.end()) return known->second;
   return places_.emplace(uniform, glGetUniformLocation(id_, uniform)).first->second;
-}
-
-void Program::set(const char* uniform, int value) const {
-  glUniform1i(at(uniform), value);
-}
-void Program::set(const char* uniform, int x, int y, int z) const {
-  glUniform3i(at(uniform), x, y, z);
-}
-void Program::set(const char* uniform, float value) const {
-  glUniform1f(at(uniform), value);
-}
-void Program::set(const char* uniform, const Float3& v) const {
-  glUniform3f(at(uniform), v[0], v[1], v[2]);
-}
-void Program::set(const char* uniform, const Matrix4& m) const {
-  glUniformMatrix4fv(at(uniform), 1, GL_FALSE, m.data());
 }
 
 }  // namespace render::gl

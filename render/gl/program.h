@@ -13,7 +13,7 @@ namespace render::gl {
 /// The samplers of all shaders, in the order of their texture units.
 constexpr const char* kSamplers[] = {"noise_map", "depth_map"};
 
-/// Vertex and fragment shader, linked. The uniform block `Frame` sits at binding 0.
+/// Vertex and fragment shader, linked.
 class Program {
  public:
   /// `defines` goes before both sources. Throws RenderError with the compiler's words.
@@ -23,11 +23,11 @@ class Program {
   Program& operator=(const Program&) = delete;
 
   void use() const { glUseProgram(id_); }
-  void set(const char* uniform, int value) const;
-  void set(const char* uniform, int x, int y, int z) const;
-  void set(const char* uniform, float value) const;
-  void set(const char* uniform, const Float3& value) const;
-  void set(const char* uniform, const Matrix4& value) const;
+  void set(const char* uniform, int value) const { glUniform1i(at(uniform), value); }
+  void set(const char* uniform, int x, int y, int z) const { glUniform3i(at(uniform), x, y, z); }
+  void set(const char* uniform, float value) const { glUniform1f(at(uniform), value); }
+  void set(const char* uniform, const Float3& v) const { glUniform3f(at(uniform), v[0], v[1], v[2]); }
+  void set(const char* uniform, const Matrix4& m) const { glUniformMatrix4fv(at(uniform), 1, GL_FALSE, m.data()); }
 
  private:
   GLint at(const char* uniform) const;

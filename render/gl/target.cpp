@@ -23,12 +23,13 @@ void attach(const Texture& t, GLenum attachment, const TexelFormat& f, int width
 
 }  // namespace
 
-/// Not smaller than asked, and not much larger: what is cleared and never seen costs time. With some room to grow: so does a new
-/// one.
+/// Not smaller than asked, and not much larger: what is cleared and never seen costs time. In whole tiles of llvmpipe, so that
+/// there is a new one only now and then.
 void Target::fit(int width, int height, int most_width, int most_height) {
   if (width <= width_ && height <= height_ && 3 * width > 2 * width_ && 3 * height > 2 * height_) return;
-  width_ = std::min(width + width / 16 + 32, most_width);
-  height_ = std::min(height + height / 16 + 32, most_height);
+  constexpr int kTile = 64;
+  width_ = std::min((width + kTile - 1) / kTile * kTile, most_width);
+  height_ = std::min((height + kTile - 1) / kTile * kTile, most_height);
   if (deep_) attach(depth_, GL_DEPTH_ATTACHMENT, kDepth, width_, height_);
   if (colour_format_.internal != 0) {
     attach(colour_, GL_COLOR_ATTACHMENT0, colour_format_, width_, height_);

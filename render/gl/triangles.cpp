@@ -197,10 +197,6 @@ void Triangles::draw_casters(const View& view, const std::vector<Piece>& pieces,
 /// OpenGL draws what has come together.
 void Triangles::flush(const Prepare& prepare) {
   if (corners_.empty()) return;
-  const auto upload = [](const Buffer& buffer, const auto& list) {
-    glBindBuffer(GL_ARRAY_BUFFER, *buffer);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.size() * sizeof list[0]), list.data(), GL_STREAM_DRAW);
-  };
   upload(corner_buffer_, corners_);
   if (batch_.wires) upload(wired_buffer_, wired_);
   prepare(batch_);

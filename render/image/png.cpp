@@ -147,9 +147,10 @@ void write_pixels_fast(png_structp png, const Image& image, bool opaque) {
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(libdeflate_alloc_compressor(1),
                                                                                                  libdeflate_free_compressor);
   if (!compressor) png_error(png, "no memory to compress it");
-  std::vector<std::uint8_t> stream(libdeflate_zlib_compress_bound(compressor.get(), rows.size()));
-  stream.resize(libdeflate_zlib_compress(compressor.get(), rows.data(), rows.size(), stream.data(), stream.size()));
-  png_write_chunk(png, reinterpret_cast<png_const_bytep>("IDAT"), stream.data(), stream.size());
+  const std::size_t most = libdeflate_zlib_compress_bound(compressor.get(), rows.size());  // mostly a quarter is used
+  const auto stream = std::make_unique_for_overwrite<std::uint8_t[]>(most);
+  const std::size_t size = libdeflate_zlib_compress(compressor.get(), rows.data(), rows.size(), stream.get(), most);
+  png_write_chunk(png, reinterpret_cast<png_const_bytep>("IDAT"), stream.get(), size);
   png_write_chunk(png, reinterpret_cast<png_const_bytep>("IEND"), nullptr, 0);
 }
 
