@@ -29,7 +29,7 @@ constexpr double kToldCrossed = 0.05;               // [m] two vehicles: half th
 
 ContactState state_of(const Constraint& c, double gap_speed) {
   if (c.impulse[0] <= 0) return gap_speed < 0 ? ContactState::approach : ContactState::separate;
-  if (c.u_before[0] < -0.1) return ContactState::impact;
+  if (!is_compliant(c) && c.u_before[0] < -0.1) return ContactState::impact;  // what yields has a force, and no instant
   const double slip = math::hypot(c.u_after[1], c.u_after[2]);
   return slip > 1e-3 ? ContactState::slide : ContactState::stick;
 }
@@ -166,6 +166,7 @@ void Recorder::tally_contact(const World& world, const Constraint& c, double tim
   if (r.state != ContactState::impact || r.normal_impulse == 0) r.state = state;
   r.normal_impulse += c.impulse[0];
   r.tangential_impulse += math::hypot(c.impulse[1], c.impulse[2]);
+  r.energy_lost -= 0.5 * c.impulse.dot(c.u_before + c.u_after);
   at->impulse += c.frame * c.impulse;
   at->duration += duration;
 }

@@ -37,10 +37,12 @@ struct ContactRecord {
   double normal_impulse = 0;      // [N s] since the snapshot before
   double tangential_impulse = 0;  // [N s] sum of magnitudes
   Vec3 impulse = Vec3::Zero();    // [N s] on a, world, since the snapshot before: the sum of vectors, which may turn meanwhile
-  double energy_lost = 0;         // [J] since the snapshot before: minus the work of the impulse on both, deformation and friction
+  double energy_lost = 0;         // [J] since the snapshot before: minus the work of the impulse on both. Deformation and friction;
+                                  // what is elastic comes back
   double slip = 0;                // [m/s]
   double begun = 0;               // [s] when the first of those impulses began to act
   ContactState state = ContactState::approach;
+  bool exchange = false;  // at one instant, by Kudlich-Slibar
 };
 
 struct WheelRecord {

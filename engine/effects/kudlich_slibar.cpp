@@ -156,6 +156,7 @@ void record(World& world, const ImpactPair& pair, const State& state, const Vec3
   c.normal_impulse = impact.impulse.dot(normal);
   c.tangential_impulse = (impact.impulse - c.normal_impulse * normal).norm();
   c.energy_lost = impact.energy_lost;
+  c.exchange = true;
   c.begun = state.time;
   c.slip = (impact.u_after - impact.u_after.dot(normal) * normal).norm();
   world.log.exchanges.push_back(c);

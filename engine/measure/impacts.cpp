@@ -179,16 +179,6 @@ const char* law_of(const Model& model, const Pair& pair, const ContactRecord& c)
   return yields(model.settings.contact_law, person) ? "compliant" : "default_auto";
 }
 
-/// Where the law itself keeps no account (all but Kudlich-Slibar): minus the work of the impulse on two rigid bodies at the mean
-/// point, over the mean of its velocity before and after. A person's joints and parts take what no such sum can tell.
-double energy_of_exchange(const Model& model, const Impact& i, const Snapshot& before, const Snapshot& after) {
-  if (i.a.party.person >= 0 || i.b.party.person >= 0) return kUnknown;
-  const auto relative = [&](const Snapshot& s) -> Vec3 {
-    return velocity_at(model, i.a.party, s, i.point) - velocity_at(model, i.b.party, s, i.point);
-  };
-  return std::max(0.0, -0.5 * i.impulse.dot(relative(before) + relative(after)));
-}
-
 Impact impact_of(const Model& model, const Recording& recording, const Pair& pair, const Stretch& span) {
   Impact out;
   out.time = sum_contacts(recording, pair, span, out);
@@ -206,7 +196,6 @@ Impact impact_of(const Model& model, const Recording& recording, const Pair& pai
     out.friction_limit = friction_of(model, pair, c, out.time, out.law == std::string("kudlich_slibar"));
     break;
   }
-  if (out.energy_lost == 0) out.energy_lost = energy_of_exchange(model, out, before, after);
   share_energy(model, out.time, out);
   return out;
 }

@@ -16,7 +16,7 @@ constexpr double kNormalLength = 0.10;  // [m]
 constexpr double kHold = 0.08;          // [s] the largest contact keeps its label this long, to be read
 
 bool of_interest(const engine::ContactRecord& c) {
-  return c.normal_force > kLeast && c.energy_lost == 0;  // impulses of vehicles have an overlay of their own
+  return c.normal_force > kLeast && !c.exchange;  // impulses of vehicles have an overlay of their own
 }
 
 void add_contacts(const Frame& frame, DrawList& list) {

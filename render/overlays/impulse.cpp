@@ -32,10 +32,6 @@ void add_plane(const engine::ContactRecord& c, DrawList& list) {
   list.lines.push_back(border);
 }
 
-bool is_impulse(const engine::ContactRecord& c) {
-  return c.kind == engine::ContactKind::vehicle_pair && c.state == engine::ContactState::impact && c.energy_lost != 0;
-}
-
 LabelItem label_of(const engine::ContactRecord& c) {
   LabelItem label;
   label.lines = {fmt::format("impulse {:.0f} N s", c.impulse.norm()), fmt::format("{:.1f} kJ lost", c.energy_lost / 1000)};
@@ -51,12 +47,12 @@ void add(const Frame& frame, DrawList& list) {
   double largest = 0;  // [N s]
   for (const auto& s : frame.recording.snapshots)
     for (const auto& c : s.contacts)
-      if (is_impulse(c)) largest = std::max(largest, c.impulse.norm());
+      if (c.exchange) largest = std::max(largest, c.impulse.norm());
   for (const auto& s : frame.recording.snapshots) {
     if (s.time > frame.now.time) break;
     if (s.time < frame.now.time - kShown) continue;
     for (const auto& c : s.contacts) {
-      if (!is_impulse(c)) continue;
+      if (!c.exchange) continue;
       const Vec3 arm = c.impulse / kNewtonSecondsAMetre;
       for (const double side : {1.0, -1.0})
         list.arrows.push_back({to_float(c.point), to_float(c.point + side * arm), {1.00f, 0.58f, 0.10f, 1}, 5.0f});

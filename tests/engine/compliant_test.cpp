@@ -139,6 +139,7 @@ TEST(CompliantBox, SinksByItsWeightOverItsStiffnessHoweverManyPointsItStandsOn) 
 
 TEST(CompliantBody, PressedInByItsThicknessIsWarnedOf) {
   Model model = dropped(0.5, Scheme::stepping, 1e-3);
+  model.settings.effects["air_drag"] = Force::off;
   model.bodies[0].surface.stiffness = 200;  // m g / S alone is 5 cm, v sqrt(m / S) 0.3 m
   const Diagnostics soft = simulate(model).diagnostics;
   ASSERT_EQ(soft.warnings.size(), 1u);
