@@ -39,6 +39,12 @@ PlanLine air_line(const std::vector<PlanLine>& lines) {
   return {};
 }
 
+Model in_air(double duration) {
+  Model model = test::free_space(duration);
+  model.settings.effects.erase("air_drag");
+  return model;
+}
+
 Model shipped(const std::string& name) {
   return scenes::load(std::filesystem::path(CRASHREEL_SOURCE_DIR) / "scenes" / name).model;
 }
@@ -46,7 +52,7 @@ Model shipped(const std::string& name) {
 }  // namespace
 
 TEST(AirDrag, SlowsABallAsTheReciprocalOfTime) {
-  Model model = test::free_space(2.0);
+  Model model = in_air(2.0);
   model.bodies = {test::ball(0.1, 0.2, {0, 0, 0})};
   model.bodies[0].V_WB.v = {30, 0, 0};
   add_air(model, {0, 0, 0});
@@ -61,7 +67,7 @@ TEST(AirDrag, SlowsABallAsTheReciprocalOfTime) {
 }
 
 TEST(AirDrag, LetsABallFallNoFasterThanItsTerminalSpeed) {
-  Model model = test::free_space(5.0);
+  Model model = in_air(5.0);
   model.settings.gravity = {0, 0, -kGravity};
   model.bodies = {test::ball(0.1, 0.2, {0, 0, 0})};
   add_air(model, {0, 0, 0});
@@ -73,7 +79,7 @@ TEST(AirDrag, LetsABallFallNoFasterThanItsTerminalSpeed) {
 }
 
 TEST(AirDrag, IsOfTheSpeedThroughTheAirSoThatWindBlowsABallAlong) {
-  Model model = test::free_space(3.0);
+  Model model = in_air(3.0);
   model.bodies = {test::ball(0.1, 0.2, {0, 0, 0})};
   const Vec3 wind(3, 12, -4);  // 13 m/s
   add_air(model, wind);
@@ -105,7 +111,7 @@ TEST(AirDrag, OfAStandingAdultIsThatOfItsFront) {
 }
 
 TEST(AirDrag, IsLeftOutOfFreeBodiesWithAWarning) {
-  Model model = test::free_space(1.0);
+  Model model = in_air(1.0);
   model.bodies = {test::ball(0.1, 0.2, {0, 0, 0})};
   model.bodies[0].V_WB.v = {30, 0, 0};
   EXPECT_FALSE(air_line(compile(model).lines).active);
@@ -139,7 +145,7 @@ TEST(AirDrag, IsThereRoundPersonsAndVehiclesWithoutASection) {
 TEST(AirDrag, TakesNoMoreThanThePlanSays) {
   for (const auto& [v, w] :
        {std::pair{Vec3(0.3, 0, 0), Vec3(0, 0, 0)}, {Vec3(5, 0, 3), Vec3(0, 0, 0)}, {Vec3(0.1, 0, 0), Vec3(0, 9, 0)}}) {
-    Model model = test::free_space(0.5);
+    Model model = in_air(0.5);
     model.ground.plane = true;
     model.settings.gravity = {0, 0, -kGravity};
     model.bodies = {test::ball(0.1, 5, {0, 0, 0.3})};

@@ -54,6 +54,7 @@ inline Model free_space(double duration, double step = 1e-3) {
   model.settings.duration = duration;
   model.settings.step = step;
   model.settings.stop_at_rest = false;
+  model.settings.effects["air_drag"] = Force::off;  // as in the formulas
   return model;
 }
 
@@ -62,6 +63,7 @@ inline Model on_ground(double duration, double step = 1e-3) {
   model.settings.duration = duration;
   model.settings.step = step;
   model.settings.stop_at_rest = false;
+  model.settings.effects["air_drag"] = Force::off;  // as in the formulas
   return model;
 }
 
