@@ -1,7 +1,7 @@
 // Frames a second, end to end, of a shipped scene; what workers, a standing camera and quality are worth; memory of a heavy mesh.
-//   benchmark_render SCENE.toml [FRAMES [ROWS]]     ROWS: part of the names of the rows to be measured, "1080p"
+//   benchmark_render SCENE.toml [FRAMES [ROWS]]     ROWS: part of the names of the rows to be measured, "1080p", "mesh"
 //   benchmark_render SCENE.toml FRAMES --beside PROGRAM ITS_SCENE.toml
-//       the same films by this crashreel and by another ("env CRASHREEL_HOME=... crashreel"), by turns, medians of five
+//       the same stills and films by this crashreel and by another ("env CRASHREEL_HOME=... crashreel"), by turns
 // Rates depend on the machine and on what else it does; ratios to the yardstick (plain_renderer.h) in the same run do so less.
 #include <fmt/format.h>
 #include <sched.h>
@@ -13,11 +13,10 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <functional>
-#include <stdexcept>
 
+#include "beside.h"
 #include "engine/simulate.h"
 #include "plain_renderer.h"
 #include "render/arrange.h"
@@ -185,53 +184,6 @@ void table(const Bench& b, const std::string& fixed, const std::string& moving, 
   }
 }
 
-/// What a crashreel says of a film it made: frames a second, processor time of a frame [ms].
-struct Told {
-  double rate = 0, ms = 0;
-};
-Told told_by(const std::string& program, const std::string& scene, const std::string& film) {
-  const auto out = std::filesystem::temp_directory_path() / fmt::format("benchmark_beside_{}.mp4", getpid());
-  FILE* words =
-      popen(fmt::format("{} render {} {} --timings -q --overwrite -o {}", program, scene, film, out.string()).c_str(), "r");
-  if (!words) throw std::runtime_error("cannot run " + program);
-  Told told;
-  char line[256];
-  while (std::fgets(line, sizeof line, words)) {
-    if (const char* at = std::strstr(line, "of the clock,")) told.rate = std::atof(at + std::strlen("of the clock,"));
-    if (std::strncmp(line, "together", 8) == 0) told.ms = std::atof(line + 8);
-  }
-  std::filesystem::remove(out);
-  if (pclose(words) != 0 || told.rate == 0) throw std::runtime_error(program + " made no film of " + scene);
-  return told;
-}
-
-double median(std::vector<double> of) {
-  std::nth_element(of.begin(), of.begin() + of.size() / 2, of.end());
-  return of[of.size() / 2];
-}
-
-void beside(const std::string& scene, int frames, const std::string (&cameras)[2], const std::string& other,
-            const std::string& its_scene) {
-  const std::string mine = (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "../crashreel").string();
-  fmt::print("{:16} {:>9} {:>9} {:>7} {:>11} {:>9} {:>7}\n", "", "frames/s", "beside", "ratio", "ms of a core", "beside", "ratio");
-  for (const char* size : {"1280x720", "1920x1080"})
-    for (const int moving : {1, 0}) {
-      const std::string film = fmt::format("--camera {} --from 0s --to {}s --fps 60 --size {} -j {}", cameras[moving],
-                                           frames / 60.0, size, cores_at_hand());
-      std::vector<double> rate[2], ms[2];
-      for (int round = 0; round < 5; ++round)
-        for (const int which : {0, 1}) {
-          const Told told = which == 0 ? told_by(mine, scene, film) : told_by(other, its_scene, film);
-          rate[which].push_back(told.rate);
-          ms[which].push_back(told.ms);
-        }
-      const double r[] = {median(rate[0]), median(rate[1])}, m[] = {median(ms[0]), median(ms[1])};
-      fmt::print("{:9} {:6} {:9.1f} {:9.1f} {:7.2f} {:11.1f} {:9.1f} {:7.2f}\n", size, moving ? "moving" : "fixed", r[0], r[1],
-                 r[0] / r[1], m[0], m[1], m[1] / m[0]);
-      std::fflush(stdout);
-    }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -250,11 +202,11 @@ int main(int argc, char** argv) {
     }
     fmt::print("{}: fixed camera {}, moving camera {}, {} frames each\n", argv[1], fixed, moving, b.frames);
     if (argc == 6 && std::string(argv[3]) == "--beside") {
-      beside(argv[1], b.frames, cameras, argv[4], argv[5]);
+      benchmark::beside(argv[1], b.frames, cameras, argv[4], argv[5]);
       return 0;
     }
     table(b, fixed, moving, argc > 3 ? argv[3] : "");
-    if (argc <= 3) heavy_mesh();
+    if (std::string("mesh").find(argc > 3 ? argv[3] : "") != std::string::npos) heavy_mesh();
   } catch (const std::exception& e) {
     fmt::print(stderr, "{}\n", e.what());
     return 1;
