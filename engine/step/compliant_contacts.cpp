@@ -122,11 +122,34 @@ Vec3 CompliantContacts::force_of(const Constraint& c, const Vec3& u, ContactPhas
   return f;
 }
 
-void CompliantContacts::exchange(const Constraint& c, const Vec3& f, const Vec3& u, double weight) {
+void CompliantContacts::exchange(const Constraint& c, const Vec3& f, double weight) {
   auto at = std::find_if(exchanged_.begin(), exchanged_.end(), [&](const Exchange& e) { return e.contact.key == c.key; });
-  if (at == exchanged_.end()) at = exchanged_.insert(at, Exchange{c, Vec3::Zero(), 0});
+  if (at == exchanged_.end()) at = exchanged_.insert(at, Exchange{c});
   at->impulse_W += weight * h_ * (c.frame * f);
-  at->work += weight * h_ * f.dot(u);
+  at->pressed += weight * h_ * std::abs(f[0]);
+  for (int r = 0; r < 3; ++r) {
+    if (c.body_a >= 0) at->on_a += weight * h_ * f[r] * c.J_a.row(r).transpose();
+    if (c.body_b >= 0) at->on_b += weight * h_ * f[r] * c.J_b.row(r).transpose();
+  }
+}
+
+void CompliantContacts::end_part(const std::vector<Twist>& V_start, const std::vector<Twist>& V_end, double lifted) {
+  // the work of an impulse on a body is exactly its product with the mean velocity of both ends. The sum of force times velocity
+  // over the stages is not: a hard contact damps its body within them, and the stages end elsewhere than the step
+  const auto work_on = [&](int body, const Vec6& impulse) {
+    if (body < 0) return 0.0;
+    const Twist &from = V_start[body], &to = V_end[body];
+    return 0.5 * (impulse.head<3>().dot(from.v + to.v) + impulse.tail<3>().dot(from.w + to.w));
+  };
+  double pressed = 0;
+  for (const Exchange& e : exchanged_) pressed += e.pressed;
+  for (Exchange& e : exchanged_) {
+    e.work += work_on(e.contact.body_a, e.on_a) + work_on(e.contact.body_b, e.on_b);
+    if (pressed > 0) e.work += e.pressed / pressed * lifted;
+    e.on_a.setZero();
+    e.on_b.setZero();
+    e.pressed = 0;
+  }
 }
 
 void CompliantContacts::add_forces(const std::vector<Pose>& X, const std::vector<Twist>& V, double weight,
@@ -145,7 +168,7 @@ void CompliantContacts::add_forces(const std::vector<Pose>& X, const std::vector
       if (c.body_a >= 0) force[c.body_a] += c.J_a.row(r).transpose() * f[r];
       if (c.body_b >= 0) force[c.body_b] += c.J_b.row(r).transpose() * f[r];
     }
-    exchange(c, f, u, weight);
+    exchange(c, f, weight);
   }
 }
 

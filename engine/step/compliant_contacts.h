@@ -24,6 +24,10 @@ class CompliantContacts {
   /// Forces at a stage, with its weight [-] in the step's mean force: what was exchanged is summed for the record.
   void add_forces(const std::vector<Pose>&, const std::vector<Twist>&, double weight, std::vector<Vec6>& force);
 
+  /// After each part of an integration: what the impulses exchanged in it did to bodies that moved like this at its start and end.
+  /// `lifted` [J]: what gravity did more over the mean of both velocities than over the way the bodies went.
+  void end_part(const std::vector<Twist>& V_start, const std::vector<Twist>& V_end, double lifted);
+
   /// An event of a contact before the end of a step: how far its function is past zero at the end, and was before zero at the
   /// start.
   struct Crossing {
@@ -51,11 +55,13 @@ class CompliantContacts {
   struct Exchange {
     Constraint contact;
     Vec3 impulse_W = Vec3::Zero();
-    double work = 0;
+    double work = 0;                                // [J]
+    Vec6 on_a = Vec6::Zero(), on_b = Vec6::Zero();  // [N s], [N m s] of the part under way, on either body
+    double pressed = 0;                             // [N s] of the part
   };
   void look(const Motion&, double within = 0);
   Vec3 force_of(const Constraint&, const Vec3& u, ContactPhase) const;
-  void exchange(const Constraint&, const Vec3& force, const Vec3& u, double weight);
+  void exchange(const Constraint&, const Vec3& force, double weight);
   ContactPhase phase_after(const Constraint&, double speed, const Crossing*);
   ContactPhase phase_now(const Constraint&, double separating) const;
   bool slow(const Constraint&, double separating, double share) const;

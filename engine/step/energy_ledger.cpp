@@ -15,10 +15,10 @@ bool is_hard(const Constraint& c) {
 /// Work [J] of a condition over the step on the bodies it acts on.
 double work_of(const StepContext& s, std::size_t i) {
   const Constraint& c = s.constraints[i];
-  // what it displaces the smooth forces' potential gains or loses; the work of compliant contacts in the stages is booked there
-  const bool in_stages = contacts_in_stages(s.world.model.settings);
-  const double displaced = in_stages && c.kind == ConstraintKind::limit ? 0 : s.buffers.weight[i];
-  const Vec3 mean = 0.5 * (c.u_smooth + c.u_after) - displaced * (c.u_smooth - c.u_before);
+  // what it displaces the smooth forces' potential gains or loses: of compliant contacts in the stages, which have none, not theirs
+  const bool stop = c.kind == ConstraintKind::limit && contacts_in_stages(s.world.model.settings);
+  const Vec3 pull = stop ? s.buffers.pull[i] : Vec3(c.u_smooth - c.u_before);
+  const Vec3 mean = 0.5 * (c.u_smooth + c.u_after) - s.buffers.weight[i] * pull;
   double work = 0;
   for (int r = 0; r < c.rows; ++r) work += c.impulse[r] * mean[r];
   return work;
@@ -46,10 +46,28 @@ void note_rises(StepContext& s) {
   }
 }
 
+/// How fast gravity alone would move each stop's rows over the step, through the joints.
+void note_pull(StepContext& s) {
+  const World& world = s.world;
+  for_awake_bodies(world,
+                   [&](int b) { s.buffers.force[b] << world.model.bodies[b].mass * world.model.settings.gravity, Vec3::Zero(); });
+  for (const int tree : world.active_trees)
+    s.world.impulse.solve(world.topology, tree, s.buffers.force, s.buffers.result, Articulation::Bias::zero);
+  s.buffers.pull.assign(s.constraints.size(), Vec3::Zero());
+  for (std::size_t i = 0; i < s.constraints.size(); ++i) {
+    const Constraint& c = s.constraints[i];
+    for (int r = 0; r < c.rows; ++r) {
+      if (c.body_a >= 0) s.buffers.pull[i][r] += s.length * c.J_a.row(r).dot(s.buffers.result[c.body_a]);
+      if (c.body_b >= 0) s.buffers.pull[i][r] += s.length * c.J_b.row(r).dot(s.buffers.result[c.body_b]);
+    }
+  }
+}
+
 }  // namespace
 
 void book(StepContext& s) {
   World& world = s.world;
+  if (contacts_in_stages(world.model.settings)) note_pull(s);
   Diagnostics& diagnostics = world.log.diagnostics;
   std::vector<double>& dissipated = s.state.energy.dissipated;
   for (std::size_t i = 0; i < s.constraints.size(); ++i) {

@@ -108,16 +108,20 @@ void SmoothMotion::advance(World& world, const Motion& state, double h, std::vec
   }
   measure_swing(world);
   const auto& [k1, k2, k3, k4] = stages_;
+  double lifted = 0;
   for (const int tree : world.active_trees) {
     for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
       const int b = world.topology.links[l].body;
-      X[b].p = state.X_WB[b].p + h / 6 * (k1.V[b].v + 2 * k2.V[b].v + 2 * k3.V[b].v + k4.V[b].v);
+      const Vec3 way = h / 6 * (k1.V[b].v + 2 * k2.V[b].v + 2 * k3.V[b].v + k4.V[b].v);
+      X[b].p = state.X_WB[b].p + way;
       X[b].q.coeffs() = (state.X_WB[b].q.coeffs() + h / 6 * (k1.dq[b] + 2 * k2.dq[b] + 2 * k3.dq[b] + k4.dq[b])).normalized();
       const Vec6 dV = h / 6 * (k1.a[b] + 2 * k2.a[b] + 2 * k3.a[b] + k4.a[b]);
       V[b].v = state.V_WB[b].v + dV.head<3>();
       V[b].w = state.V_WB[b].w + dV.tail<3>();
+      if (compliant) lifted += world.model.bodies[b].mass * world.model.settings.gravity.dot(0.5 * h * (k1.V[b].v + V[b].v) - way);
     }
   }
+  if (compliant) compliant->end_part(k1.V, V, lifted);
 }
 
 /// Joint forces from the leaves up: what a body's own acceleration and its children's joints do not explain, its parent's joint

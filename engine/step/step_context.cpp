@@ -21,6 +21,7 @@ StepBuffers::StepBuffers(const World& world) {
   islands.has_impact.reserve(trees);
   islands.rise.reserve(trees);
   for (auto* list : {&weight, &allowed, &targets}) list->reserve(kRoom);
+  pull.reserve(kRoom);
   members.reserve(kRoom);
   dissipated_before.reserve(world.effects.size());
 }

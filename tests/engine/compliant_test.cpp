@@ -113,6 +113,22 @@ TEST(CompliantBall, ComesToRestUnderItsWeight) {
   }
 }
 
+/// The books follow each impulse by the velocities at both ends of the step. The sum of force times velocity over the stages, which
+/// they followed once, left 4 % of what a held box turned over unexplained.
+TEST(CompliantLedger, ClosesForABoxHeldOnASlope) {
+  for (const Scheme scheme : {Scheme::stepping, Scheme::rk4, Scheme::adaptive}) {
+    Model model = on_ground(1);
+    model.settings.contact_law = ContactLaw::compliant;
+    model.settings.scheme = scheme;
+    const double slope = 0.2;
+    model.settings.gravity = {kGravity * std::sin(slope), 0, -kGravity * std::cos(slope)};
+    model.bodies = {solid({{0.2, 0.15, 0.1}, 8}, 5, {0, 0, 0.1})};
+    const Recording run = simulate(model);
+    EXPECT_GT(run.diagnostics.energy_turned_over, 1e-3);
+    EXPECT_LT(run.diagnostics.max_unexplained, 1e-6 * run.diagnostics.energy_turned_over);
+  }
+}
+
 TEST(CompliantBox, SinksByItsWeightOverItsStiffnessHoweverManyPointsItStandsOn) {
   // a box (n = 30) stands on the four corners of its face, which share S; on a sheet too, where each corner has its triangle
   const double S = 50e3, m = 20;

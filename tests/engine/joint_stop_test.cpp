@@ -77,6 +77,25 @@ TEST(JointStop, DoesNotThrowBackAndGainsNoEnergy) {
   }
 }
 
+/// A beam falls on its stop and rests there, and a ball on the beam: what the stop displaces gravity works on, and the ball's
+/// weight acts in the stages of rk4.
+TEST(JointStop, KeepsItsBooksBesideContactsInTheStages) {
+  for (const Scheme scheme : {Scheme::stepping, Scheme::rk4, Scheme::adaptive}) {
+    Model model = on_ground(1.5);
+    model.ground.plane = false;
+    model.settings.contact_law = ContactLaw::compliant;
+    model.settings.scheme = scheme;
+    model.bodies = {solid({{0.5, 0.1, 0.05}, 2}, 4, {0.5, 0, 1}), ball(0.05, 1, {0.5, 0, 1.11})};
+    for (Body& body : model.bodies) body.surface.friction_body = 0;
+    model.joints = {joint_at(model, JointKind::revolute, -1, 0, {0, 0, 1})};
+    model.joints[0].angles[1].upper = 0.02;
+    model.joints[0].angles[1].stop_stiffness = 5e3;
+    const Recording run = simulate(model);
+    EXPECT_GT(run.diagnostics.energy_turned_over, 0.1);
+    EXPECT_LT(run.diagnostics.max_unexplained, 1e-3 * run.diagnostics.energy_turned_over) << static_cast<int>(scheme);
+  }
+}
+
 TEST(JointStop, IsRigidWithDefaultAuto) {
   const Recording run = turned(ContactLaw::default_auto, Scheme::stepping, 1e-3);
   EXPECT_LT(deepest(run), 1e-3);
