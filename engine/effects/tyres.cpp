@@ -226,40 +226,13 @@ class Tyres final : public Effect {
   void find(StepContext& step) override {
     World& world = step.world;
     State& state = step.state;
-    footings_.clear();
-    double energy = 0;
-    const Outlook outlook{world, state, state, step.length};
-    auto pair = world.pairs.tyres.begin();
-    for (int i = 0; i < static_cast<int>(state.wheels.size()); ++i) {
-      WheelState& wheel = state.wheels[i];
-      const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
-      const Wheel& spec = vehicle.wheels[wheel.wheel];
-      const Pose& X = state.X_WB[vehicle.body];
-      const Vec3 up = X.q * Vec3::UnitZ();
-      const double droop = droop_of(spec, wheel.static_load);
-      Footing footing = footing_of(world.model.ground, spec, X, droop);
-      const auto first = pair;
-      while (pair != world.pairs.tyres.end() && pair->wheel == i) ++pair;
-      step_on_bodies(outlook, {first, pair}, footing);
-      // lying on its flank it stays as it was pressed in: nothing moves along the strut
-      if (footing.found || !footing.near) wheel.compression = footing.compression;
-      wheel.lift = std::clamp(wheel.compression, -droop, 2 * spec.travel);
-      wheel.hub = X * spec.hub_B + wheel.lift * up;
-      wheel.contact = footing.found ? footing.point : Vec3(wheel.hub - spec.radius * up);
-      wheel.impulse.setZero();
-      energy += spring_energy(spec, wheel.static_load, wheel.compression);
-      footings_.push_back(footing);
-    }
+    book_springs(state, stand(world, state, step.length, state.wheels));
     for (std::size_t i = 0; i < footings_.size(); ++i) {
-      const WheelState& wheel = state.wheels[i];
-      const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
-      const double twist = leaning(world.model, wheel);
-      energy += 0.25 * vehicle.wheels[wheel.wheel].anti_roll * twist * twist;  // each of the two has half of the bar's
-      if (footings_[i].found && world.awake[vehicle.body]) add_wheel(step, wheel, footings_[i], static_cast<int>(i), self_);
+      WheelState& wheel = state.wheels[i];
+      wheel.impulse.setZero();
+      const bool acts = footings_[i].found && world.awake[world.model.vehicles[wheel.vehicle].body];
+      if (acts) add_wheel(step, wheel, footings_[i], static_cast<int>(i), self_);
     }
-    // what the springs took or gave since the last look is not lost: it leaves the dampers' account
-    state.energy.dissipated[self_] -= energy - state.energy.springs;
-    state.energy.springs = energy;
   }
 
   void after_step(StepContext& step) override {
@@ -279,9 +252,52 @@ class Tyres final : public Effect {
       state.energy.added += work;
       state.energy.dissipated[c.effect] += work;
     }
+    // what the springs hold now, and not at the start of the next step: its length may be another
+    at_end_ = state.wheels;
+    book_springs(state, stand(step.world, state, step.length, at_end_));
   }
 
  private:
+  /// Where the wheels stand in this state, to `wheels`, and what they stand on; returns what their springs hold [J].
+  double stand(World& world, State& state, double within, std::vector<WheelState>& wheels) {
+    footings_.clear();
+    const Outlook outlook{world, state, state, within};
+    auto pair = world.pairs.tyres.begin();
+    double energy = 0;
+    for (int i = 0; i < static_cast<int>(wheels.size()); ++i) {
+      WheelState& wheel = wheels[i];
+      const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
+      const Wheel& spec = vehicle.wheels[wheel.wheel];
+      const Pose& X = state.X_WB[vehicle.body];
+      const Vec3 up = X.q * Vec3::UnitZ();
+      const double droop = droop_of(spec, wheel.static_load);
+      Footing footing = footing_of(world.model.ground, spec, X, droop);
+      const auto first = pair;
+      while (pair != world.pairs.tyres.end() && pair->wheel == i) ++pair;
+      step_on_bodies(outlook, {first, pair}, footing);
+      // lying on its flank it stays as it was pressed in: nothing moves along the strut
+      if (footing.found || !footing.near) wheel.compression = footing.compression;
+      wheel.lift = std::clamp(wheel.compression, -droop, 2 * spec.travel);
+      wheel.hub = X * spec.hub_B + wheel.lift * up;
+      wheel.contact = footing.found ? footing.point : Vec3(wheel.hub - spec.radius * up);
+      energy += spring_energy(spec, wheel.static_load, wheel.compression);
+      footings_.push_back(footing);
+    }
+    for (const WheelState& wheel : wheels) {
+      const double twist = leaning(world.model, wheel);
+      energy +=
+          0.25 * world.model.vehicles[wheel.vehicle].wheels[wheel.wheel].anti_roll * twist * twist;  // half of the bar's for each
+    }
+    return energy;
+  }
+
+  /// What the springs took or gave since the last look is not lost: it leaves the dampers' account.
+  void book_springs(State& state, double energy) const {
+    state.energy.dissipated[self_] -= energy - state.energy.springs;
+    state.energy.springs = energy;
+  }
+
+  std::vector<WheelState> at_end_;
   std::vector<Footing> footings_;  // of the step at hand; room is kept from step to step
 };
 template struct Registered<Tyres>;
