@@ -106,9 +106,18 @@ double may_pass(const Model& model, int body) {
   return into_panel ? 0.75 : 0.25;
 }
 
-void add_contact(ContactSearch& search, const SurfaceContact& touch, int a, int b, int effect, ContactKind kind,
-                 SurfacePairing surfaces) {
+ContactKind kind_of_pair(const Model& model, int a, int b) {
+  if (b < 0) return b == kTerrain ? ContactKind::terrain : ContactKind::ground;
+  const Body &A = model.bodies[a], &B = model.bodies[b];
+  const bool round_a = std::holds_alternative<HyperEllipsoid>(A.shape), round_b = std::holds_alternative<HyperEllipsoid>(B.shape);
+  if (!round_a && !round_b) return ContactKind::vehicle_pair;
+  if (!round_a || !round_b) return ContactKind::vehicle;
+  return A.person >= 0 && A.person == B.person ? ContactKind::self : ContactKind::person;
+}
+
+void add_contact(ContactSearch& search, const SurfaceContact& touch, int a, int with, int effect, SurfacePairing surfaces) {
   const World& world = search.world;
+  const int b = std::max(with, -1);
   Constraint c;
   c.kind = ConstraintKind::contact;
   c.rows = 3;
@@ -133,7 +142,7 @@ void add_contact(ContactSearch& search, const SurfaceContact& touch, int a, int 
   c.gap = touch.gap;
   c.key = key_of(touch, a, b, effect);
   c.effect = effect;
-  c.contact_kind = kind;
+  c.contact_kind = kind_of_pair(world.model, a, with);
   if (compliant) set_room(c, world, search.at);
   search.found.push_back(c);
 }

@@ -86,8 +86,14 @@ SurfacePairing between_bodies(const Body& a, const Body& b, double time);
 double restitution_on_ground(const Body&, const Ground&, double time);
 double friction_on_ground(const Body&, const Ground&, const Vec3& point, double time);
 
-/// Appends a contact of body `a` with `b` (-1: the ground), rows and all. `b` may be a fixed body.
-void add_contact(ContactSearch&, const SurfaceContact&, int a, int b, int effect, ContactKind, SurfacePairing);
+/// What stands for the ground in place of a second body.
+constexpr int kPlane = -1, kTerrain = -2;
+
+/// What a contact of these two is in the record: by their shapes.
+ContactKind kind_of_pair(const Model&, int a, int b);
+
+/// Appends a contact of body `a` with `b`, rows and all. `b` may be a fixed body, the plane or the terrain.
+void add_contact(ContactSearch&, const SurfaceContact&, int a, int b, int effect, SurfacePairing);
 
 /// By how much of its half thickness [-] the centre of a part may come to lie behind the panel it is pressed into. Mostly a
 /// quarter: it is the part that gives way. It is the panel that does under a head that yields hardly at all, by 12 to 19 cm at

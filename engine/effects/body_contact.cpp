@@ -28,7 +28,7 @@ class BodyContact final : public Effect {
 
   BodyContact(World& world, int self) : Effect(self) { add_runs_between_bodies(world, self); }
 
-  void find_contacts(ContactSearch& search) override { find_pair_contacts(search, self_, ContactKind::person); }
+  void find_contacts(ContactSearch& search) override { find_pair_contacts(search, self_); }
 };
 template struct Registered<BodyContact>;
 

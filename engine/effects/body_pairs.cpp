@@ -141,7 +141,7 @@ void contacts_of_rounds(const HyperEllipsoid& A, const Pose& X_WA, const HyperEl
     out.push_back(*touch);
 }
 
-void find_contact_of(ContactSearch& search, const BodyPair& pair, PairMemory& memory, int effect, ContactKind kind) {
+void find_contact_of(ContactSearch& search, const BodyPair& pair, PairMemory& memory, int effect) {
   const World& world = search.world;
   const Body& A = world.model.bodies[pair.a];
   const Body& B = world.model.bodies[pair.b];
@@ -158,20 +158,20 @@ void find_contact_of(ContactSearch& search, const BodyPair& pair, PairMemory& me
   if (touches.empty()) memory.clearance.X = X_AB;
   const std::size_t first = search.found.size();
   for (const SurfaceContact& touch : touches)
-    add_contact(search, touch, pair.a, pair.b, effect, kind, between_bodies(A, B, search.at.time));
+    add_contact(search, touch, pair.a, pair.b, effect, between_bodies(A, B, search.at.time));
   share_stiffness(search, first);
 }
 
 }  // namespace
 
-void find_pair_contacts(ContactSearch& search, int effect, ContactKind kind) {
+void find_pair_contacts(ContactSearch& search, int effect) {
   ContactPairs& pairs = search.world.pairs;
   for (std::size_t r = 0; r < pairs.round.size(); ++r) {
     const BodyPairRun& run = pairs.round[r];
     if (run.effect != effect || !pairs.broad_phase.close(run.tree_a, run.tree_b)) continue;
     std::vector<PairMemory>& memory = search.state.contact_memory.round[r];
     list_pairs(search.world, r, memory);
-    for (std::size_t i = 0; i < run.pairs.size(); ++i) find_contact_of(search, run.pairs[i], memory[i], effect, kind);
+    for (std::size_t i = 0; i < run.pairs.size(); ++i) find_contact_of(search, run.pairs[i], memory[i], effect);
   }
 }
 

@@ -23,6 +23,6 @@ void list_pairs(World&, std::size_t run, std::vector<PairMemory>&);
 /// The distance [m] a step can bring the two together by; nothing where they are farther apart.
 std::optional<double> margin_of_near(const Outlook&, const BodyPair&);
 
-void find_pair_contacts(ContactSearch&, int effect, ContactKind);
+void find_pair_contacts(ContactSearch&, int effect);
 
 }  // namespace engine

@@ -204,9 +204,9 @@ void find_on_ground(ContactSearch& search, int body, int self) {
   const double margin = contact_margin(search, body);
   const Aabb box = box_of(world, at, body);
   const double e = restitution_on_ground(B, ground, at.time);
-  auto add = [&](ContactKind kind) {
+  auto add = [&](int under) {
     for (const SurfaceContact& c : world.pairs.point_contacts)
-      add_contact(search, c, body, -1, self, kind, {friction_on_ground(B, ground, c.p_b, at.time), e});
+      add_contact(search, c, body, under, self, {friction_on_ground(B, ground, c.p_b, at.time), e});
   };
   const std::vector<SurfacePoint>& points = world.pairs.points[body];
   const std::size_t wheels = first_of_wheels(points), all = points.size();
@@ -217,12 +217,12 @@ void find_on_ground(ContactSearch& search, int body, int self) {
     const bool upright = (at.X_WB[body].q * Vec3::UnitZ()).z() > kWheelFacing;
     touch(search, body, points, {low ? 0 : wheels, upright ? wheels : all}, nullptr, {}, ground.height, margin, box, kWheelFacing,
           kNotKnown);
-    add(ContactKind::ground);
+    add(kPlane);
   }
   if (ground.terrain) {
     touch(search, body, points, {0, all}, ground.terrain.get(), {}, 0, margin, ground.terrain->bounds(), kWheelFacing, kNotKnown);
     for (SurfaceContact& c : world.pairs.point_contacts) c.key |= 0x400000u;
-    add(ContactKind::terrain);
+    add(kTerrain);
   }
 }
 
@@ -265,7 +265,7 @@ void find_between(ContactSearch& search, std::size_t which, int self) {
   for (const int way : {0, 1}) {
     touch_one_way(search, which, way, margin, *within);
     for (const SurfaceContact& c : world.pairs.point_contacts)
-      add_contact(search, c, way == 0 ? pair.a : pair.b, way == 0 ? pair.b : pair.a, self, ContactKind::vehicle_pair, surfaces);
+      add_contact(search, c, way == 0 ? pair.a : pair.b, way == 0 ? pair.b : pair.a, self, surfaces);
   }
 }
 

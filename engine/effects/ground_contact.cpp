@@ -48,7 +48,7 @@ class GroundContact final : public Effect {
       const double e = restitution_on_ground(body, ground, t);
       const std::size_t first = search.found.size();
       for (const SurfaceContact& touch : touches)
-        add_contact(search, touch, b, -1, self_, ContactKind::ground, {friction_on_ground(body, ground, touch.p_b, t), e});
+        add_contact(search, touch, b, kPlane, self_, {friction_on_ground(body, ground, touch.p_b, t), e});
       share_stiffness(search, first);
     }
   }

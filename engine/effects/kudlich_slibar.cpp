@@ -146,7 +146,7 @@ class ImpulseThroughJoints {
 void record(World& world, const ImpactPair& pair, const State& state, const Vec3& point, const Vec3& normal,
             const PlaneImpact& impact, double closing) {
   ContactRecord c;
-  c.kind = ContactKind::vehicle_pair;
+  c.kind = kind_of_pair(world.model, pair.a, pair.b);
   c.body_a = pair.a;
   c.body_b = pair.b;
   c.point = point;

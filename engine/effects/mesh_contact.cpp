@@ -93,8 +93,7 @@ class MeshContact final : public Effect {
     const double margin = pair_margin(search, pair.body, pair.vehicle_body);
     if (!near(search, pair, margin) || stands_on(search, pair, -kHangs)) return;
     if (const auto touch = beside_tyre(search, pair, margin))
-      add_contact(search, *touch, pair.body, pair.vehicle_body, self_, ContactKind::vehicle,
-                  between_bodies(round, vehicle, search.at.time));
+      add_contact(search, *touch, pair.body, pair.vehicle_body, self_, between_bodies(round, vehicle, search.at.time));
   }
 
   void find_contacts_of(ContactSearch& search, std::size_t index, ContactPoints& touches) const {
@@ -115,8 +114,7 @@ class MeshContact final : public Effect {
     clearance.note(world.pairs.mesh_scratch.apart, X_MA, reach);
     const SurfacePairing surfaces = between_bodies(round, mesh, search.at.time);
     const std::size_t first = search.found.size();
-    for (const SurfaceContact& touch : touches)
-      add_contact(search, touch, pair.body, pair.mesh_body, self_, ContactKind::vehicle, surfaces);
+    for (const SurfaceContact& touch : touches) add_contact(search, touch, pair.body, pair.mesh_body, self_, surfaces);
     share_stiffness(search, first);
   }
 };

@@ -34,7 +34,7 @@ class SelfContact final : public Effect {
 
   SelfContact(World& world, int self) : Effect(self) { add_pairs_within_persons(world, self); }
 
-  void find_contacts(ContactSearch& search) override { find_pair_contacts(search, self_, ContactKind::self); }
+  void find_contacts(ContactSearch& search) override { find_pair_contacts(search, self_); }
 };
 template struct Registered<SelfContact>;
 

@@ -53,7 +53,7 @@ class TerrainContact final : public Effect {
       const double e = restitution_on_ground(body, ground, t);
       const std::size_t first = search.found.size();
       for (const SurfaceContact& touch : touches)
-        add_contact(search, touch, pair.body, -1, self_, ContactKind::terrain, {friction_on_ground(body, ground, touch.p_b, t), e});
+        add_contact(search, touch, pair.body, kTerrain, self_, {friction_on_ground(body, ground, touch.p_b, t), e});
       share_stiffness(search, first);
     }
   }
