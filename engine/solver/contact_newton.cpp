@@ -11,9 +11,11 @@ namespace {
 constexpr double kTinyImpulse = 1e-14;  // [N s]
 
 // Newton: steps in a row, and how many of them may find no new best. The first round keeps its matrix while no contact changes its
-// kind. Redundant contacts leave impulses undetermined: a share of a row's own response is added, which falls with every step that
-// succeeds. Chosen by the time that all solves of a person coming to rest (up to 17 contacts on 43 freedoms) take together.
+// kind and the residual falls fast: the directions of slip turn. Redundant contacts leave impulses undetermined: a share of a row's
+// own response is added, which falls with every step that succeeds. Chosen by the time that all solves of a person coming to rest
+// (up to 17 contacts on 43 freedoms) take together.
 constexpr int kQuickSteps = 8, kQuickPatience = 4;
+constexpr double kFalls = 0.3;  // [-]
 constexpr int kNewtonSteps = 20, kPatience = 6;
 constexpr double kRegularQuick = 1e-3;  // [-]
 constexpr double kRegularFirst = 1e-2;  // [-]
@@ -184,15 +186,18 @@ void ContactSolver::newton(std::vector<Constraint>& all, const std::vector<int>&
   const bool quick = care == Care::none;
   regular_ = quick ? kRegularQuick : care == Care::redundant ? kRegularFirst : kRegularJammed;
   factored_rule_.clear();
+  bool falling = true;  // fast enough for the matrix to be kept
   for (int k = 0; k < (quick ? kQuickSteps : kNewtonSteps) && report.residual > tolerance; ++k) {
     ++report.newton_steps;
-    if (!newton_step(all, members, quick)) break;
+    const double before = report.residual;
+    if (!newton_step(all, members, quick && falling)) break;
     if (care == Care::redundant) {
       sweep(all, members);  // contacts on the edge between sticking and slipping, where Newton alone goes to and fro
       ++report.sweeps;
     }
     report.residual = residual(all, members);
     at_best = report.residual < best;
+    falling = report.residual < kFalls * before;
     if (!std::isfinite(report.residual)) break;
     if (!quick) regular_ = std::max(kRegularLast, (at_best ? kRegularFalls : 1.0) * regular_);
     if (!at_best && ++worse == (quick ? kQuickPatience : kPatience)) break;

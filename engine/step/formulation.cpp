@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/laws/compliant_contact.h"
+#include "engine/math/functions.h"
 #include "engine/step/bounds.h"
 
 namespace engine {
@@ -43,26 +44,32 @@ double formulate_compliant_stop(Constraint& c, double h) {
   return followed ? 0.5 : 1;
 }
 
-double formulate_compliant_contact(Constraint& c, double h, double gravity) {
-  const double smoothing = std::max(1e-3, h * gravity);
-  const double S = c.gap >= 0 ? c.stiffness
-                              : compliant_normal_force(c.stiffness, std::max(c.hysteresis, 1e-3), 1, c.u_before[0],
-                                                       ContactPhase::resting, smoothing);
+/// How fast the resting law falls with the separating speed [N s/m].
+double resting_slope(const Constraint& c, double share, double smoothing) {
+  const double tanh = math::tanh(c.u_before[0] / smoothing);
+  return c.stiffness * -c.gap * (1 - share) * 0.5 * (1 - tanh * tanh) / smoothing;
+}
+
+/// Between loading and unloading the spring's force falls with speed, steeply where things rest. Taken at the speed before the step
+/// alone it would throw a light limb under a heavy body to and fro. What `rests` takes it at the speed after it, by its slope.
+double formulate_compliant_contact(Constraint& c, double h, double gravity, bool rests) {
+  const double smoothing = std::max(1e-3, h * gravity), share = std::max(c.hysteresis, 1e-3);
+  const bool pressed = c.gap < 0;
+  const double S =
+      pressed ? compliant_normal_force(c.stiffness, share, 1, c.u_before[0], ContactPhase::resting, smoothing) : c.stiffness;
+  const double damping = rests && pressed ? resting_slope(c, share, smoothing) : 0;
   // no more than stops what it stops within the step
   const double closing = std::max(0.0, -c.u_before[0]);
   const double extra =
       c.room > 0 ? std::min(bottoming_force(S, -c.gap, closing, c.struck_mass, c.room), c.struck_mass * closing / h) : 0;
-  if (h * h * S * c.free_response < 1) {
-    // the spring at the mean of its depths at both ends, which neither gains nor loses energy of itself:
-    // L = -h S (gap + h (u_before + u_after) / 4)
-    c.softness = 4 / (h * h * S);
-    c.target = -4 * c.gap / h - c.u_before[0] + h * extra * c.softness;
-    return 0.5;
-  }
-  // a step too long to follow the spring: at its end, which is stable however stiff, L = -h S (gap + h u_after)
-  c.softness = 1 / (h * h * S);
-  c.target = -c.gap / h + h * extra * c.softness;
-  return 1;
+  // the spring at the mean of its depths at both ends, which neither gains nor loses energy of itself:
+  // L = -h (S (gap + h (u_before + u_after) / 4) + damping (u_after - u_before)); a step too long to follow it: at its end, which
+  // is stable however stiff, L = -h (S (gap + h u_after) + damping (u_after - u_before))
+  const bool followed = h * h * S * c.free_response < 1;
+  const double slope = (followed ? h * S / 4 : h * S) + damping;
+  c.softness = 1 / (h * slope);
+  c.target = (damping * c.u_before[0] - S * c.gap - (followed ? S * h * c.u_before[0] / 4 : 0)) / slope + h * extra * c.softness;
+  return followed ? 0.5 : 1;
 }
 
 }  // namespace
@@ -101,17 +108,37 @@ void formulate(StepContext& s) {
       else if (c.kind == ConstraintKind::limit)
         s.buffers.weight[i] = formulate_compliant_stop(c, h);
       else
-        s.buffers.weight[i] = formulate_compliant_contact(c, h, s.world.model.settings.gravity.norm());
+        s.buffers.weight[i] =
+            formulate_compliant_contact(c, h, s.world.model.settings.gravity.norm(), std::abs(c.u_before[0]) < 2 * v_impact);
     }
   }
+}
+
+namespace {
+
+/// A compliant contact that gives back a part of its energy and was slow, or closed.
+bool may_turn(const Constraint& c, double slow) {
+  return is_contact(c) && is_compliant(c) && c.hysteresis < 1 && c.u_before[0] < slow;
+}
+
+}  // namespace
+
+bool wake_struck_springs(StepContext& s) {
+  const double slow = 2 * impact_speed(s);
+  bool any = false;
+  for (Constraint& c : s.constraints) {
+    if (!may_turn(c, slow) || c.gap >= 0 || c.u_before[0] <= -slow || std::abs(c.u_after[0]) <= slow) continue;
+    formulate_compliant_contact(c, s.length, s.world.model.settings.gravity.norm(), false);
+    any = true;
+  }
+  return any;
 }
 
 bool hold_spent_springs(StepContext& s) {
   const double slow = 2 * impact_speed(s);
   bool any = false;
   for (Constraint& c : s.constraints) {
-    const bool turned = is_contact(c) && is_compliant(c) && c.u_before[0] < slow && c.u_after[0] > slow;
-    if (!turned || c.hysteresis >= 1) continue;
+    if (!may_turn(c, slow) || c.u_after[0] <= slow) continue;
     c.softness = 0;
     c.target = c.hysteresis * c.u_after[0];
     any = true;

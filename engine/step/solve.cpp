@@ -29,13 +29,15 @@ void warm_start(Constraint& c, const std::vector<WarmStart>& warm) {
   }
 }
 
-void solve_islands(StepContext& s) {
+/// `again`: from the impulses that the conditions have, which an earlier pass of the step found.
+void solve_islands(StepContext& s, bool again) {
   World& world = s.world;
   s.residual = 0;
   s.unsettled = -1;
   for (const auto& island : s.buffers.islands.members) {
     if (island.empty()) continue;
-    for (const int i : island) warm_start(s.constraints[i], s.state.warm);
+    if (!again)
+      for (const int i : island) warm_start(s.constraints[i], s.state.warm);
     world.solver.assemble(world.topology, world.impulse, s.constraints, island);
     const SolveReport report = world.solver.solve(s.constraints, island, world.model.settings.solver_tolerance);
     world.log.diagnostics.contact_sweeps += report.sweeps;
@@ -124,8 +126,9 @@ void exchange_over_step(StepContext& s) {
     for (Constraint& c : s.constraints) c.u_free = row_velocity(c, s.end.V_WB);
     if (pass == 0) build_islands(s);
     formulate(s);
-    solve_islands(s);
-    if (hold_spent_springs(s)) solve_islands(s);
+    solve_islands(s, pass > 0);
+    if (wake_struck_springs(s)) solve_islands(s, true);
+    if (hold_spent_springs(s)) solve_islands(s, true);
     apply(s);
     if (!s.any_damper) return;
     note_motion_after(s);

@@ -141,9 +141,9 @@ TEST_P(RandomAccidents, SayThatTheyAreRight) {
       100 * unexplained, 1e3 * depth, 1e3 * crush, gap, angle, residual);
 }
 
-// Three of 1,600 that go beyond the bounds above: a foot inside a car, and twice an arm turned too far.
+// Two of 1,600 that go beyond the bounds above.
 TEST(RandomAccident, SaysWhereItFallsShort) {
-  for (const unsigned seed : {533U, 1038U, 1416U}) {
+  for (const unsigned seed : {533U, 1038U}) {
     const scenes::testing::SceneFolder folder;
     const engine::Recording it = engine::simulate(folder.load(accident(seed, kLaws[0].name)).model);
     const auto& d = it.diagnostics;
