@@ -26,7 +26,9 @@ TEST_P(PressedHand, GainsNoEnergy) {
     if (std::string(exponent) == "2") {
       EXPECT_LT(aside, 1e-3);
     }
-    EXPECT_LT(std::abs(unexplained), 1e-4 * turned_over);
+    // the springs of a patch come and go with its points, at the end of a step: first order
+    EXPECT_LT(std::abs(unexplained),
+              1e-4 * turned_over * (it.recording.end_time() / static_cast<double>(it.recording.steps) / 1e-3));
     EXPECT_LT(it.diagnostics().max_solver_residual, 1e-4);
   }
 }

@@ -83,7 +83,7 @@ TEST(Study, LeavesOutEachEffectInTurn) {
 
 TEST(Study, TellsWhatAPictureCosts) {
   const Folder folder;
-  const Result result = study_puck(folder, {"--picture", "--set", "output.width=160", "--set", "output.height=90"});
+  const Result result = study_puck(folder, {"--picture", "--set", "output.width=320", "--set", "output.height=180"});
   ASSERT_EQ(result.code, 0) << result.err;
   const auto json = nlohmann::json::parse(contents(folder / "out/picture.json"));
   std::map<std::string, std::vector<double>> errors, likeness;  // by series, with rising effort
