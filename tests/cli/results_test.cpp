@@ -151,9 +151,10 @@ TEST(Simulate, WritesItsFilesWithTheColumnsOfTheContract) {
 
 TEST(Simulate, TellsSpeedDistanceAndAccelerationOfABrakingCar) {
   const Folder folder;
-  folder.write("car.toml",
-               "[simulation]\nduration = \"1.5 s\"\n[air]\ndensity = 0\n[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\nspeed = \"20 m/s\"\n"
-               "[[vehicle.driver]]\nfrom = \"0.5 s\"\nbuild_up = \"0 s\"\nlevel = \"5 m/s^2\"\n");
+  folder.write(
+      "car.toml",
+      "[simulation]\nduration = \"1.5 s\"\n[air]\ndensity = 0\n[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\nspeed = \"20 m/s\"\n"
+      "[[vehicle.driver]]\nfrom = \"0.5 s\"\nbuild_up = \"0 s\"\nlevel = \"5 m/s^2\"\n");
   ASSERT_EQ(run(folder, {"simulate", "car.toml", "-o", "out", "--quiet"}).code, 0);
   const std::vector<Row> rows = rows_of(contents(folder / "out/trajectory.csv"));
   const Row& last = rows.back();

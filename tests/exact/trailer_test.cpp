@@ -12,8 +12,10 @@ namespace {
 
 /// A sedan with one trailer, the sedan doing what `acts` says.
 std::string with_trailer(bool steered, const std::string& sedan, const std::string& acts) {
-  std::string out = "[simulation]\nduration = \"4 s\"\nstop_at_rest = false\n[air]\ndensity = 0\n[[vehicle]]\nname = \"sedan\"\nmodel = \"sedan\"\n" +
-                    sedan + "\n" + acts;
+  std::string out =
+      "[simulation]\nduration = \"4 s\"\nstop_at_rest = false\n[air]\ndensity = 0\n[[vehicle]]\nname = \"sedan\"\nmodel = "
+      "\"sedan\"\n" +
+      sedan + "\n" + acts;
   if (steered)
     out +=
         "\n[[vehicle]]\nname = \"dolly\"\nmodel = \"dolly\"\ntowed_by = \"sedan\"\n"
