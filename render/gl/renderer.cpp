@@ -62,18 +62,16 @@ shade::Canvas Renderer::Impl::canvas_on(Image& out) {
 /// A square of the canvas, `scale` pixels a side, becomes one pixel: its mean.
 void Renderer::Impl::reduce(Image& out) const {
   const std::size_t side = static_cast<std::size_t>(effort.scale), row = 4 * static_cast<std::size_t>(width), pitch = side * row;
-  const unsigned count = static_cast<unsigned>(side * side);
   for (std::size_t y = 0, rows = static_cast<std::size_t>(height); y < rows; ++y) {
     std::uint8_t* to = out.rgba.data() + row * (rows - 1 - y);
     const std::uint8_t* from = large.data() + side * pitch * y;
     for (int x = 0; x < width; ++x, to += 4, from += 4 * side) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        unsigned sum = count / 2;
+      for (std::size_t c = 0; c < 4; ++c) {
+        std::size_t sum = side * side / 2;
         for (std::size_t j = 0; j < side; ++j)
           for (std::size_t i = 0; i < side; ++i) sum += from[j * pitch + 4 * i + c];
-        to[c] = static_cast<std::uint8_t>(sum / count);
+        to[c] = static_cast<std::uint8_t>(sum / (side * side));
       }
-      to[3] = 255;
     }
   }
 }
