@@ -29,13 +29,13 @@ class Recorder {
   bool all_at_rest(const World&, const State&) const;
 
  private:
-  void tally_contact(const World&, const Constraint&, double time, double duration);
   struct Tally {
     std::uint64_t key;
     ContactRecord record;
     double duration = 0;
     Vec3 impulse = Vec3::Zero();
   };
+  void tally_contact(const World&, const Constraint&, double time, double duration);
   void warn_of_shortfalls(const World&, std::vector<std::string>& warnings) const;
   void keep(const State&);
   void note_head(const Constraint&, double time);

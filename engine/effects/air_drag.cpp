@@ -67,10 +67,6 @@ Vec3 force_on(const Air& air, std::size_t body, const Quat& q, const Vec3& v) {
   return q * Vec3(-0.5 * air.density * u.norm() * air.drag_area[body].cwiseProduct(q.conjugate() * u));
 }
 
-bool is_vehicle(const Model& model, int body) {
-  return std::any_of(model.vehicles.begin(), model.vehicles.end(), [body](const Vehicle& v) { return v.body == body; });
-}
-
 // What is left out.
 
 constexpr double kShare = 0.01;  // [-] of a speed, above which it matters
@@ -88,9 +84,8 @@ std::vector<Group> groups_of(const Model& model) {
   std::vector<Group> out;
   for (const Person& person : model.persons) out.push_back({person.name, person.bodies, 0, true});
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const int body = static_cast<int>(b);
-    if (!model.bodies[b].fixed && model.bodies[b].person < 0)
-      out.push_back({model.bodies[b].name, {body}, 0, is_vehicle(model, body)});
+    const Body& body = model.bodies[b];
+    if (!body.fixed && body.person < 0) out.push_back({body.name, {static_cast<int>(b)}, 0, body.vehicle >= 0});
   }
   for (Group& group : out)
     for (const int b : group.bodies) group.mass += model.bodies[b].mass;
@@ -244,7 +239,7 @@ Air air_of(const Model& model) {
   air.density = kDensity;
   air.drag_area = drag_areas(model, kDrag, kVehicleDrag);
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (model.bodies[b].person < 0 && !is_vehicle(model, static_cast<int>(b))) air.drag_area[b].setZero();
+    if (model.bodies[b].person < 0 && model.bodies[b].vehicle < 0) air.drag_area[b].setZero();
   return air;
 }
 

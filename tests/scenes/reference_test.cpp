@@ -29,7 +29,7 @@ TEST(Reference, OfTheReadmeIsTheOneTheTableWrites) {
     }
   }
   const bool same = readme.find(reference_markdown()) != std::string::npos;
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "reference.md";
+  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "reference.md";
   if (!same) std::ofstream(file) << reference_markdown();
   EXPECT_TRUE(same) << "put the text of " << file << " in place of the reference in scenes/README.md";
 }
