@@ -145,5 +145,19 @@ TEST(Wheel, ThatRunsIntoAPostStopsThere) {
   EXPECT_GT(least_gap(model, run), -2e-3);
 }
 
+/// Rubber gives by 3 cm: what lies no farther inside a tyre touches it, and of what does only the rest is told.
+TEST(Wheel, GivesAsRubberDoes) {
+  for (const double overlap : {0.02, 0.05}) {
+    Model model = car_on_road(0, 0.01);
+    Body post = solid({{0.1, 0.1, 0.1}, 2}, 100, {-3 + 1.3 + 0.3 + 0.1 - overlap, 0.75, 0.3});
+    post.fixed = true;
+    model.bodies.push_back(post);
+    const Recording run = simulate(model);
+    double depth = -1;
+    for (const ContactRecord& c : run.snapshots.at(1).contacts) depth = std::max(depth, c.depth);
+    EXPECT_NEAR(depth, std::max(0.0, overlap - 0.03), 2e-3) << overlap;
+  }
+}
+
 }  // namespace
 }  // namespace engine::test
