@@ -10,8 +10,6 @@
 namespace engine::test {
 namespace {
 
-constexpr double kGravity = 9.81;  // [m/s^2]
-
 const HyperEllipsoid kBox{Vec3(0.2, 0.2, 0.1), 20};
 
 /// Boxes of 10 kg, each where it is put.

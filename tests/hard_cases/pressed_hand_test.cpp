@@ -22,10 +22,8 @@ TEST_P(PressedHand, GainsNoEnergy) {
     const double aside = (place(it.recording.snapshots.back()) - place(it.recording.snapshots.front())).head<2>().norm();
     row("hand under a box, both yield", it, "n = %s: hand %.2f mm aside at last, %.2g J of %.0f J unexplained", exponent,
         1e3 * aside, unexplained, turned_over);
-    // a pair of flat sides meets at one point, which may wander; of round ones it stays
-    if (std::string(exponent) == "2") {
-      EXPECT_LT(aside, 1e-3);
-    }
+    // round ones stay; the corners of flat sides move with what they share
+    EXPECT_LT(aside, std::string(exponent) == "2" ? 1e-3 : 2e-3);
     // the springs of a patch come and go with its points, at the end of a step: first order
     EXPECT_LT(std::abs(unexplained),
               1e-4 * turned_over * (it.recording.end_time() / static_cast<double>(it.recording.steps) / 1e-3));
