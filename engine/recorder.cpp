@@ -39,7 +39,7 @@ ContactState state_of(const Constraint& c, double gap_speed) {
 Constraint seen_from_below(const Constraint& wheel) {
   Constraint c = wheel;
   c.kind = ConstraintKind::contact;
-  c.contact_kind = ContactKind::vehicle;
+  c.shapes = {ShapeKind::round, ShapeKind::tyre};
   std::swap(c.record_a, c.record_b);
   c.frame.leftCols<2>() *= -1;
   for (Vec3* row : {&c.impulse, &c.u_before, &c.u_after}) (*row)[2] *= -1;
@@ -96,7 +96,7 @@ void Recorder::watch_events(const World& world, const Constraint& c, double time
   auto note = [&](const char* kind) {
     events_.push_back({time, kind, c.record_a, c.record_b, c.point, closing, c.frame.col(0), Vec3::Zero()});
   };
-  if (c.contact_kind == ContactKind::vehicle) {
+  if (c.shapes.on_vehicle()) {
     if (!hit_vehicle_[person]) note("first_contact");
     hit_vehicle_[person] = 1;
     if (c.record_a == world.model.persons[person].head && !hit_head_[person]) {
@@ -104,7 +104,7 @@ void Recorder::watch_events(const World& world, const Constraint& c, double time
       hit_head_[person] = 1;
     }
   }
-  if (c.contact_kind == ContactKind::ground || c.contact_kind == ContactKind::terrain) {
+  if (c.shapes.on_ground()) {
     // feet and hands come and go while a person is being struck, carried or walks: who falls comes down on the trunk
     if (time - last_ground_[person] > kAirborne) lying_[person] = 0;
     if (!hit_ground_[person] && trunk_[c.record_a] && !lying_[person]) {
@@ -132,7 +132,7 @@ void Recorder::watch_bounds(const World& world, const Constraint& c, double time
   if (is_compliant(c)) return;
   if (c.kind == ConstraintKind::limit) (c.slides ? overslid_ : overturned_).note(-c.gap, time, c);
   if (is_contact(c) && -c.gap > world.log.overlap_at_start(c.record_a, c.record_b) + kToldInside)
-    (c.contact_kind == ContactKind::vehicle_pair ? crossed_ : stood_inside_).note(-c.gap, time, c);
+    (c.shapes.between_vehicles() ? crossed_ : stood_inside_).note(-c.gap, time, c);
 }
 
 void Recorder::tally(const World& world, const std::vector<Constraint>& conditions, double time, double duration) {
@@ -155,7 +155,7 @@ void Recorder::tally_contact(const World& world, const Constraint& c, double tim
   if (at == tallies_.end() || at->key != c.key) at = tallies_.insert(at, Tally{c.key, {}, 0, Vec3::Zero()});
   ContactRecord& r = at->record;
   if (r.normal_impulse == 0) r.begun = time - duration;
-  r.kind = c.contact_kind;
+  r.shapes = c.shapes;
   r.body_a = c.record_a;
   r.body_b = c.record_b;
   r.point = c.point;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "engine/contact/pair_table.h"
 #include "engine/math/functions.h"
 
 namespace engine {
@@ -28,22 +29,8 @@ Vec3 hermite(const Vec3& p0, const Vec3& v0, const Vec3& p1, const Vec3& v1, dou
 
 }  // namespace
 
-const char* name_of(ContactKind kind) {
-  switch (kind) {
-    case ContactKind::ground:
-      return "ground";
-    case ContactKind::vehicle:
-      return "vehicle";
-    case ContactKind::self:
-      return "self";
-    case ContactKind::person:
-      return "person";
-    case ContactKind::terrain:
-      return "terrain";
-    case ContactKind::vehicle_pair:
-      return "vehicle_pair";
-  }
-  return "";
+const char* name_of(const ShapePair& shapes) {
+  return pair_kind(shapes).name;
 }
 
 const char* name_of(ContactState state) {

@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "engine/geometry/shape_pair.h"
 #include "engine/math/types.h"
 
 namespace engine {
 
-enum class ContactKind { ground, vehicle, self, person, terrain, vehicle_pair };
 enum class ContactState { approach, separate, slide, stick, impact };
 
-const char* name_of(ContactKind);  // as in contacts.csv
+const char* name_of(const ShapePair&);  // of a contact between the two, as in contacts.csv
 const char* name_of(ContactState);
 
 struct BodyState {
@@ -25,7 +25,7 @@ struct BodyState {
 /// A contact at one recorded instant. Impulses are summed since the snapshot before, forces are their mean over that time's last
 /// step.
 struct ContactRecord {
-  ContactKind kind = ContactKind::ground;
+  ShapePair shapes = {};
   int body_a = -1;
   int body_b = -1;                // -1: the ground
   Vec3 point = Vec3::Zero();      // [m] world

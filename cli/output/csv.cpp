@@ -74,7 +74,7 @@ void write_contacts(const engine::Recording& recording, WholeFile& file) {
     for (const engine::ContactRecord& c : snapshot.contacts) {
       const engine::Vec3 along = c.impulse - c.impulse.dot(c.normal) * c.normal;
       fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", snapshot.time,
-                     engine::name_of(c.kind), field(body_name(recording, c.body_a)), field(body_name(recording, c.body_b)),
+                     engine::name_of(c.shapes), field(body_name(recording, c.body_a)), field(body_name(recording, c.body_b)),
                      c.point.x(), c.point.y(), c.point.z(), c.normal.x(), c.normal.y(), c.normal.z(), c.depth, c.normal_force,
                      c.tangential_force, c.normal_impulse, c.tangential_impulse, c.slip, engine::name_of(c.state), along.x(),
                      along.y(), along.z());

@@ -67,7 +67,7 @@ std::vector<std::string> contact_sequence(const engine::Recording& recording) {
   for (const engine::Snapshot& snapshot : recording.snapshots) {
     std::vector<std::string> now;
     for (const engine::ContactRecord& c : snapshot.contacts) {
-      if (c.kind == engine::ContactKind::self || c.kind == engine::ContactKind::terrain || !(c.normal_impulse > 0)) continue;
+      if (c.shapes.one_person || c.shapes.b == engine::ShapeKind::terrain || !(c.normal_impulse > 0)) continue;
       if (!seen.insert({c.body_a, c.body_b}).second) continue;
       now.push_back(body_name(recording, c.body_a) + "+" + body_name(recording, c.body_b));
     }

@@ -10,17 +10,14 @@
 
 namespace engine {
 
-SurfacePairing between_bodies(const Body& a, const Body& b, double time) {
-  return {std::min(a.surface.friction_body.at(time), b.surface.friction_body.at(time)),
-          std::max(a.surface.restitution_body.at(time), b.surface.restitution_body.at(time))};
-}
-
-double restitution_on_ground(const Body& body, const Ground& ground, double time) {
-  return std::max(body.surface.restitution_ground.at(time), ground.surface.restitution_ground.at(time));
-}
-
-double friction_on_ground(const Body& body, const Ground& ground, const Vec3& point, double time) {
-  return std::min(body.surface.friction_ground.at(time), ground.friction_at(point, time));
+SurfacePairing mixed_surfaces(const Model& model, int a, int b, const Vec3& point, double time) {
+  const SurfaceProperties& A = model.bodies[a].surface;
+  if (b < 0)
+    return {std::min(A.friction_ground.at(time), model.ground.friction_at(point, time)),
+            std::max(A.restitution_ground.at(time), model.ground.surface.restitution_ground.at(time))};
+  const SurfaceProperties& B = model.bodies[b].surface;
+  return {std::min(A.friction_body.at(time), B.friction_body.at(time)),
+          std::max(A.restitution_body.at(time), B.restitution_body.at(time))};
 }
 
 namespace {
@@ -78,7 +75,7 @@ void set_room(Constraint& c, const World& world, const Motion& at) {
     const auto* part = is_part(world.model, body) ? std::get_if<HyperEllipsoid>(&world.model.bodies[body].shape) : nullptr;
     if (part) c.room = std::min(c.room, support_value(*part, at.X_WB[body].q.conjugate() * c.frame.col(0)));
   }
-  if (c.contact_kind == ContactKind::vehicle) c.room *= 0.9 * (1 + may_pass(world.model, c.record_a));
+  if (c.shapes.on_vehicle()) c.room *= 0.9 * (1 + may_pass(world.model, c.record_a));
   c.struck_mass = 1 / c.free_response;
 }
 
@@ -99,25 +96,11 @@ std::uint64_t key_of(const SurfaceContact& touch, int a, int b, int effect) {
          (static_cast<std::uint64_t>(b & 0xffff) << 24) | (touch.key & 0xffffffu);
 }
 
-}  // namespace
-
-double may_pass(const Model& model, int body) {
-  const bool into_panel = model.settings.contact_law == ContactLaw::persons_yield && is_head(model, body);
-  return into_panel ? 0.75 : 0.25;
-}
-
-ContactKind kind_of_pair(const Model& model, int a, int b) {
-  if (b < 0) return b == kTerrain ? ContactKind::terrain : ContactKind::ground;
-  const Body &A = model.bodies[a], &B = model.bodies[b];
-  const bool round_a = std::holds_alternative<HyperEllipsoid>(A.shape), round_b = std::holds_alternative<HyperEllipsoid>(B.shape);
-  if (!round_a && !round_b) return ContactKind::vehicle_pair;
-  if (!round_a || !round_b) return ContactKind::vehicle;
-  return A.person >= 0 && A.person == B.person ? ContactKind::self : ContactKind::person;
-}
-
-void add_contact(ContactSearch& search, const SurfaceContact& touch, int a, int with, int effect, SurfacePairing surfaces) {
+/// The contact at one point.
+void add_contact(ContactSearch& search, const PairKind& kind, const SurfaceContact& touch, int a, int with, int effect) {
   const World& world = search.world;
   const int b = std::max(with, -1);
+  const SurfacePairing surfaces = mixed_surfaces(world.model, a, b, touch.p_b, search.at.time);
   Constraint c;
   c.kind = ConstraintKind::contact;
   c.rows = 3;
@@ -142,11 +125,14 @@ void add_contact(ContactSearch& search, const SurfaceContact& touch, int a, int 
   c.gap = touch.gap;
   c.key = key_of(touch, a, b, effect);
   c.effect = effect;
-  c.contact_kind = kind_of_pair(world.model, a, with);
+  c.shapes = kind.shapes;
   if (compliant) set_room(c, world, search.at);
   search.found.push_back(c);
 }
 
+/// Compliant law: the points appended from `first` on, all of one surface on another, share its stiffness S by depth, so that a
+/// face that stands on four corners, or a limb on many small triangles, yields as one that touches at one point: S_i = S d_i /
+/// sum_j d_j max(0, n_i.n_j). Points that face different ways do not share.
 void share_stiffness(ContactSearch& search, std::size_t first) {
   constexpr double kLeast = 1e-6;  // [m] what hardly touches has hardly a share
   std::vector<Constraint>& all = search.found;
@@ -159,6 +145,22 @@ void share_stiffness(ContactSearch& search, std::size_t first) {
     all[i].stiffness *= share;
     all[i].struck_mass *= share;
   }
+}
+
+}  // namespace
+
+double may_pass(const Model& model, int body) {
+  const bool into_panel = model.settings.contact_law == ContactLaw::persons_yield && is_head(model, body);
+  return into_panel ? 0.75 : 0.25;
+}
+
+void add_contacts(ContactSearch& search, const PairKind& kind, const ContactPair& pair, int effect) {
+  const World& world = search.world;
+  const auto frozen = [&world](int body) { return body >= 0 && !world.awake[body] && !world.model.bodies[body].fixed; };
+  if (frozen(pair.a) || frozen(pair.b)) return;
+  const std::size_t first = search.found.size();
+  for (const SurfaceContact& touch : kind.touches(search, pair)) add_contact(search, kind, touch, pair.a, pair.b, effect);
+  if (kind.one_patch) share_stiffness(search, first);
 }
 
 }  // namespace engine

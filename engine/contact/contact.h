@@ -1,11 +1,11 @@
-// From points where surfaces touch or nearly touch to contacts: pairs that may meet, the search, mixed surface properties, rows.
+// From points where surfaces touch or nearly touch to contacts: pairs that may meet, mixed surface properties, rows.
 #pragma once
 
 #include <array>
 #include <utility>
 #include <vector>
 
-#include "engine/contact/broad_phase.h"
+#include "engine/contact/pair_table.h"
 #include "engine/geometry/hyper_ellipsoid_mesh.h"
 #include "engine/geometry/surface_contact.h"
 #include "engine/model/model.h"
@@ -17,7 +17,7 @@ namespace engine {
 struct MeshPair {
   int effect = 0;
   int body = 0;
-  int mesh_body = -1;  // -1: terrain
+  int mesh_body = kTerrain;
   const TriangleMesh* mesh = nullptr;
 };
 
@@ -66,7 +66,8 @@ struct ContactPairs {
   std::vector<std::array<std::vector<SurfacePoint>, 2>> bodywork_points;  // of those pairs, that may meet the other
   std::vector<TyrePair> tyres;                                            // by wheels
   std::vector<std::vector<SurfacePoint>> points;                          // per body with a mesh
-  std::vector<SurfaceContact> point_contacts;                             // scratch
+  ContactPoints touches;                                                  // scratch: those of the pair looked at last
+  std::vector<SurfaceContact> point_contacts;                             // of meshes
   std::vector<int> point_scratch;
   MeshContactScratch mesh_scratch;
 };
@@ -81,28 +82,15 @@ struct SurfacePairing {
   double friction = 0;     // [-]
   double restitution = 0;  // [-]
 };
-SurfacePairing between_bodies(const Body& a, const Body& b, double time);
-/// The same of a body on the ground; friction at a point of it.
-double restitution_on_ground(const Body&, const Ground&, double time);
-double friction_on_ground(const Body&, const Ground&, const Vec3& point, double time);
+/// Of a body with another, or with the ground at a point of it.
+SurfacePairing mixed_surfaces(const Model&, int a, int b, const Vec3& point, double time);
 
-/// What stands for the ground in place of a second body.
-constexpr int kPlane = -1, kTerrain = -2;
-
-/// What a contact of these two is in the record: by their shapes.
-ContactKind kind_of_pair(const Model&, int a, int b);
-
-/// Appends a contact of body `a` with `b`, rows and all. `b` may be a fixed body, the plane or the terrain.
-void add_contact(ContactSearch&, const SurfaceContact&, int a, int b, int effect, SurfacePairing);
+/// Has the contacts of a pair found and appends them, rows and all. None of what waits or sleeps: those effects watch.
+void add_contacts(ContactSearch&, const PairKind&, const ContactPair&, int effect);
 
 /// By how much of its half thickness [-] the centre of a part may come to lie behind the panel it is pressed into. Mostly a
 /// quarter: it is the part that gives way. It is the panel that does under a head that yields hardly at all, by 12 to 19 cm at
 /// most.
 double may_pass(const Model&, int body);
-
-/// Compliant law: the points appended from `first` on, all of one surface on another, share its stiffness S by depth, so that a
-/// face that stands on four corners, or a limb on many small triangles, yields as one that touches at one point: S_i = S d_i /
-/// sum_j d_j max(0, n_i.n_j). Points that face different ways do not share.
-void share_stiffness(ContactSearch&, std::size_t first);
 
 }  // namespace engine

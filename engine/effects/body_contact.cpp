@@ -28,7 +28,10 @@ class BodyContact final : public Effect {
 
   BodyContact(World& world, int self) : Effect(self) { add_runs_between_bodies(world, self); }
 
-  void find_contacts(ContactSearch& search) override { find_pair_contacts(search, self_); }
+  void find_contacts(ContactSearch& search) override { find_pair_contacts(search, rounds_, self_); }
+
+ private:
+  const PairKind& rounds_ = pair_kind({ShapeKind::round, ShapeKind::round});
 };
 template struct Registered<BodyContact>;
 

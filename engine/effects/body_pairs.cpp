@@ -4,7 +4,6 @@
 #include <map>
 #include <utility>
 
-#include "engine/geometry/hyper_ellipsoid_faces.h"
 #include "engine/geometry/hyper_ellipsoid_pair.h"
 
 namespace engine {
@@ -119,59 +118,13 @@ void list_pairs(World& world, std::size_t run, std::vector<PairMemory>& memory) 
   memory.resize(world.pairs.round[run].pairs.size());
 }
 
-std::optional<double> margin_of_near(const Outlook& outlook, const BodyPair& pair) {
-  const World& world = outlook.world;
-  if (world.pairs.broad_phase.apart(outlook.at, pair.a, pair.b)) return std::nullopt;
-  const double margin = pair_margin(outlook, pair.a, pair.b);
-  const double apart = (outlook.at.X_WB[pair.a].p - outlook.at.X_WB[pair.b].p).norm();
-  if (apart > world.reach[pair.a] + world.reach[pair.b] + margin) return std::nullopt;
-  return margin;
-}
-
-namespace {
-
-/// Side on side at many points, else at the deepest. Where they are apart, the memory has by how much.
-void contacts_of_rounds(const HyperEllipsoid& A, const Pose& X_WA, const HyperEllipsoid& B, const Pose& X_WB, double margin,
-                        PairMemory& memory, ContactPoints& out) {
-  double apart = 0;
-  const FacesMeet faces = contacts_of_faces(A, X_WA, B, X_WB, margin, out, apart);
-  if (faces == FacesMeet::apart) memory.clearance.least = apart;
-  if (faces != FacesMeet::other) return;
-  if (const auto touch = contact_of_pair(A, X_WA, B, X_WB, margin, memory.normal_W, &memory.clearance.least, &memory.others))
-    out.push_back(*touch);
-}
-
-void find_contact_of(ContactSearch& search, const BodyPair& pair, PairMemory& memory, int effect) {
-  const World& world = search.world;
-  const Body& A = world.model.bodies[pair.a];
-  const Body& B = world.model.bodies[pair.b];
-  const bool frozen = (!world.awake[pair.a] && !A.fixed) || (!world.awake[pair.b] && !B.fixed);
-  if (frozen) return;  // waits or sleeps: those effects watch
-  const std::optional<double> margin = margin_of_near(search, pair);
-  if (!margin) return;
-  const Pose &X_WA = search.at.X_WB[pair.a], &X_WB = search.at.X_WB[pair.b];
-  const Pose X_AB = X_WA.inverse() * X_WB;
-  if (memory.clearance.beyond(*margin, X_AB, world.reach[pair.b])) return;
-  memory.clearance.least = 0;
-  ContactPoints touches;
-  contacts_of_rounds(std::get<HyperEllipsoid>(A.shape), X_WA, std::get<HyperEllipsoid>(B.shape), X_WB, *margin, memory, touches);
-  if (touches.empty()) memory.clearance.X = X_AB;
-  const std::size_t first = search.found.size();
-  for (const SurfaceContact& touch : touches)
-    add_contact(search, touch, pair.a, pair.b, effect, between_bodies(A, B, search.at.time));
-  share_stiffness(search, first);
-}
-
-}  // namespace
-
-void find_pair_contacts(ContactSearch& search, int effect) {
-  ContactPairs& pairs = search.world.pairs;
+void find_pair_contacts(ContactSearch& search, const PairKind& kind, int effect) {
+  const ContactPairs& pairs = search.world.pairs;
   for (std::size_t r = 0; r < pairs.round.size(); ++r) {
     const BodyPairRun& run = pairs.round[r];
     if (run.effect != effect || !pairs.broad_phase.close(run.tree_a, run.tree_b)) continue;
-    std::vector<PairMemory>& memory = search.state.contact_memory.round[r];
-    list_pairs(search.world, r, memory);
-    for (std::size_t i = 0; i < run.pairs.size(); ++i) find_contact_of(search, run.pairs[i], memory[i], effect);
+    list_pairs(search.world, r, search.state.contact_memory.round[r]);
+    for (std::size_t i = 0; i < run.pairs.size(); ++i) add_contacts(search, kind, {run.pairs[i].a, run.pairs[i].b, i, r}, effect);
   }
 }
 

@@ -1,8 +1,6 @@
 // What self contact and contact between persons or free bodies share: pairs of hyper-ellipsoids.
 #pragma once
 
-#include <optional>
-
 #include "engine/effects/effect.h"
 
 namespace engine {
@@ -20,9 +18,6 @@ void add_runs_between_bodies(World&, int effect);
 /// Lists the pairs of such a run, bodies of lower index first, if that was not done yet, and makes room for their memory.
 void list_pairs(World&, std::size_t run, std::vector<PairMemory>&);
 
-/// The distance [m] a step can bring the two together by; nothing where they are farther apart.
-std::optional<double> margin_of_near(const Outlook&, const BodyPair&);
-
-void find_pair_contacts(ContactSearch&, int effect);
+void find_pair_contacts(ContactSearch&, const PairKind&, int effect);
 
 }  // namespace engine

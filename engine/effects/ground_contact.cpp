@@ -1,10 +1,9 @@
-// Segments and free bodies on the ground plane, eq. (70) to (74).
+// Segments and free bodies on the ground plane.
 #include <algorithm>
 #include <limits>
 
 #include "engine/effects/registration.h"
 #include "engine/effects/words.h"
-#include "engine/geometry/hyper_ellipsoid_plane.h"
 
 namespace engine {
 namespace {
@@ -32,26 +31,13 @@ class GroundContact final : public Effect {
   GroundContact(const World&, int self) : Effect(self) {}
 
   void find_contacts(ContactSearch& search) override {
-    const World& world = search.world;
-    const Ground& ground = world.model.ground;
-    const double t = search.at.time;
-    ContactPoints touches;
-    for (int b = 0; b < static_cast<int>(world.model.bodies.size()); ++b) {
-      const Body& body = world.model.bodies[b];
-      if (!world.awake[b]) continue;
-      const auto* shape = std::get_if<HyperEllipsoid>(&body.shape);
-      if (!shape) continue;
-      const Pose& X = search.at.X_WB[b];
-      const double margin = contact_margin(search, b);
-      if (X.p.z() - ground.height > world.reach[b] + margin) continue;
-      contacts_with_plane(*shape, X, Vec3::UnitZ(), ground.height, margin, touches);
-      const double e = restitution_on_ground(body, ground, t);
-      const std::size_t first = search.found.size();
-      for (const SurfaceContact& touch : touches)
-        add_contact(search, touch, b, kPlane, self_, {friction_on_ground(body, ground, touch.p_b, t), e});
-      share_stiffness(search, first);
-    }
+    const std::vector<Body>& bodies = search.world.model.bodies;
+    for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
+      if (search.world.awake[b] && is_round(bodies[b])) add_contacts(search, plane_, {b, kPlane}, self_);
   }
+
+ private:
+  const PairKind& plane_ = pair_kind({ShapeKind::round, ShapeKind::plane});
 };
 template struct Registered<GroundContact>;
 

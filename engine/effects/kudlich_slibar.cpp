@@ -146,7 +146,7 @@ class ImpulseThroughJoints {
 void record(World& world, const ImpactPair& pair, const State& state, const Vec3& point, const Vec3& normal,
             const PlaneImpact& impact, double closing) {
   ContactRecord c;
-  c.kind = kind_of_pair(world.model, pair.a, pair.b);
+  c.shapes = {ShapeKind::mesh, ShapeKind::mesh};
   c.body_a = pair.a;
   c.body_b = pair.b;
   c.point = point;
@@ -260,7 +260,7 @@ class KudlichSlibar final : public EffectWith<ImpactMemory> {
     if (std::abs(along) > kSteep ? along < 0 : normal.dot(u) > 0) normal = -normal;
     if (u.dot(normal) > (first ? 0 : -kSecondary)) return;
 
-    const SurfacePairing surfaces = between_bodies(world.model.bodies[pair.a], world.model.bodies[pair.b], state.time);
+    const SurfacePairing surfaces = mixed_surfaces(world.model, pair.a, pair.b, point, state.time);
     const double mu = pair.settings.friction.value_or(surfaces.friction);
     const double e = pair.settings.restitution.value_or(surfaces.restitution);
     ImpulseThroughJoints through(world, state, pair.a, pair.b, point, force_, change_);

@@ -1,7 +1,7 @@
 // Segments and free bodies against the meshes of vehicles and other bodies.
 #include <algorithm>
 
-#include "engine/contact/tyre_pairs.h"
+#include "engine/contact/round_tyre.h"
 #include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 
@@ -73,50 +73,27 @@ class MeshContact final : public Effect {
 
   void find_contacts(ContactSearch& search) override {
     const ContactPairs& pairs = search.world.pairs;
-    ContactPoints touches;
     for (const MeshPairRun& run : pairs.mesh_runs)
       if (pairs.broad_phase.close(run.tree_a, run.tree_b))
-        for (std::size_t i = run.begin; i < run.end; ++i) find_contacts_of(search, i, touches);
+        for (std::size_t i = run.begin; i < run.end; ++i)
+          add_contacts(search, mesh_, {pairs.mesh[i].body, pairs.mesh[i].mesh_body, i}, self_);
     if (search.state.wheels.empty()) return;  // they meet nothing without the effect `tyres`
     const std::vector<int>& tree = search.world.topology.tree_of_body;
-    for (const TyrePair& pair : pairs.tyres)
-      if (pairs.broad_phase.close(tree[pair.body], tree[pair.vehicle_body])) find_beside_tyre(search, pair);
+    for (std::size_t i = 0; i < pairs.tyres.size(); ++i)
+      if (pairs.broad_phase.close(tree[pairs.tyres[i].body], tree[pairs.tyres[i].vehicle_body])) find_beside_tyre(search, i);
   }
 
  private:
   /// What a wheel meets sideways; what it stands on is the suspension's business.
-  void find_beside_tyre(ContactSearch& search, const TyrePair& pair) const {
+  void find_beside_tyre(ContactSearch& search, std::size_t index) const {
     const World& world = search.world;
-    const Body &round = world.model.bodies[pair.body], &vehicle = world.model.bodies[pair.vehicle_body];
-    if (!world.awake[pair.body] && !round.fixed) return;  // waits or sleeps: those effects watch
-    if (!world.awake[pair.vehicle_body]) return;
-    const double margin = pair_margin(search, pair.body, pair.vehicle_body);
-    if (!near(search, pair, margin) || stands_on(search, pair, -kHangs)) return;
-    if (const auto touch = beside_tyre(search, pair, margin))
-      add_contact(search, *touch, pair.body, pair.vehicle_body, self_, between_bodies(round, vehicle, search.at.time));
+    const TyrePair& pair = world.pairs.tyres[index];
+    if (!world.awake[pair.vehicle_body] || !near(search, pair, pair_margin(search, pair.body, pair.vehicle_body))) return;
+    if (!stands_on(search, pair, -kHangs)) add_contacts(search, tyre_, {pair.body, pair.vehicle_body, index}, self_);
   }
 
-  void find_contacts_of(ContactSearch& search, std::size_t index, ContactPoints& touches) const {
-    World& world = search.world;
-    const MeshPair& pair = world.pairs.mesh[index];
-    const Body& round = world.model.bodies[pair.body];
-    const Body& mesh = world.model.bodies[pair.mesh_body];
-    if (!world.awake[pair.body] && !round.fixed) return;  // waits or sleeps: those effects watch
-    if (!world.awake[pair.mesh_body] && !mesh.fixed) return;
-    const Pose& X = search.at.X_WB[pair.body];
-    const Pose X_WM = search.at.X_WB[pair.mesh_body] * std::get<MeshShape>(mesh.shape).X_BM;
-    const double margin = pair_margin(search, pair.body, pair.mesh_body), reach = world.reach[pair.body];
-    const Pose X_MA = X_WM.inverse() * X;
-    Clearance& clearance = search.state.contact_memory.mesh[index];
-    if (clearance.beyond(margin, X_MA, reach)) return;
-    contacts_with_mesh(std::get<HyperEllipsoid>(round.shape), X, *pair.mesh, X_WM, margin, clearance.by_now(X_MA, reach),
-                       world.pairs.mesh_scratch, touches, may_pass(world.model, pair.body));
-    clearance.note(world.pairs.mesh_scratch.apart, X_MA, reach);
-    const SurfacePairing surfaces = between_bodies(round, mesh, search.at.time);
-    const std::size_t first = search.found.size();
-    for (const SurfaceContact& touch : touches) add_contact(search, touch, pair.body, pair.mesh_body, self_, surfaces);
-    share_stiffness(search, first);
-  }
+  const PairKind& mesh_ = pair_kind({ShapeKind::round, ShapeKind::mesh});
+  const PairKind& tyre_ = pair_kind({ShapeKind::round, ShapeKind::tyre});
 };
 template struct Registered<MeshContact>;
 

@@ -34,7 +34,10 @@ class SelfContact final : public Effect {
 
   SelfContact(World& world, int self) : Effect(self) { add_pairs_within_persons(world, self); }
 
-  void find_contacts(ContactSearch& search) override { find_pair_contacts(search, self_); }
+  void find_contacts(ContactSearch& search) override { find_pair_contacts(search, rounds_, self_); }
+
+ private:
+  const PairKind& rounds_ = pair_kind({ShapeKind::round, ShapeKind::round, true});
 };
 template struct Registered<SelfContact>;
 

@@ -1,6 +1,4 @@
 // Segments and free bodies on a terrain mesh.
-#include <algorithm>
-
 #include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 
@@ -30,33 +28,18 @@ class TerrainContact final : public Effect {
   TerrainContact(World& world, int self) : Effect(self) {
     if (!world.model.ground.terrain) return;
     for (int b = 0; b < static_cast<int>(world.model.bodies.size()); ++b)
-      if (has_surface(world.model.bodies[b])) world.pairs.mesh.push_back({self, b, -1, world.model.ground.terrain.get()});
+      if (has_surface(world.model.bodies[b])) world.pairs.mesh.push_back({self, b, kTerrain, world.model.ground.terrain.get()});
     reserve(world.pairs.mesh_scratch, *world.model.ground.terrain);
   }
 
   void find_contacts(ContactSearch& search) override {
-    World& world = search.world;
-    const Ground& ground = world.model.ground;
-    const double t = search.at.time;
-    ContactPoints touches;
-    for (std::size_t i = 0; i < world.pairs.mesh.size(); ++i) {
-      const MeshPair& pair = world.pairs.mesh[i];
-      if (pair.effect != self_ || !world.awake[pair.body]) continue;
-      const Body& body = world.model.bodies[pair.body];
-      const Pose& X = search.at.X_WB[pair.body];
-      const double margin = contact_margin(search, pair.body), reach = world.reach[pair.body];
-      Clearance& clearance = search.state.contact_memory.mesh[i];
-      if (clearance.beyond(margin, X, reach)) continue;
-      contacts_with_mesh(std::get<HyperEllipsoid>(body.shape), X, *pair.mesh, Pose{}, margin, clearance.by_now(X, reach),
-                         world.pairs.mesh_scratch, touches);
-      clearance.note(world.pairs.mesh_scratch.apart, X, reach);
-      const double e = restitution_on_ground(body, ground, t);
-      const std::size_t first = search.found.size();
-      for (const SurfaceContact& touch : touches)
-        add_contact(search, touch, pair.body, kTerrain, self_, {friction_on_ground(body, ground, touch.p_b, t), e});
-      share_stiffness(search, first);
-    }
+    const std::vector<MeshPair>& pairs = search.world.pairs.mesh;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (pairs[i].effect == self_) add_contacts(search, terrain_, {pairs[i].body, kTerrain, i}, self_);
   }
+
+ private:
+  const PairKind& terrain_ = pair_kind({ShapeKind::round, ShapeKind::terrain});
 };
 template struct Registered<TerrainContact>;
 

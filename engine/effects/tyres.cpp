@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include "engine/contact/tyre_pairs.h"
+#include "engine/contact/round_tyre.h"
 #include "engine/effects/registration.h"
 #include "engine/effects/static_loads.h"
 #include "engine/effects/words.h"

@@ -41,19 +41,6 @@ std::string height_in_words(double height) {
   return number(std::abs(height)) + (height > 0 ? " m above it" : " m below it");
 }
 
-bool is_round(const Body& body) {
-  return std::holds_alternative<HyperEllipsoid>(body.shape);
-}
-
-bool is_mesh(const Body& body) {
-  return std::holds_alternative<MeshShape>(body.shape);
-}
-
-bool jointed(const Model& model, int a, int b) {
-  return std::any_of(model.joints.begin(), model.joints.end(),
-                     [&](const Joint& j) { return (j.parent == a && j.child == b) || (j.parent == b && j.child == a); });
-}
-
 std::string round_bodies(const Model& model) {
   std::size_t segments = 0, free = 0;
   std::vector<std::string> persons;

@@ -21,10 +21,6 @@ std::string listed(const std::vector<std::string>& names);
 /// "0.2 m above it", "at it", "0.01 m below it".
 std::string height_in_words(double height);
 
-bool is_round(const Body&);
-bool is_mesh(const Body&);
-bool jointed(const Model&, int a, int b);
-
 /// Moving bodies with a hyper-ellipsoid, in words: "14 segments of pedestrian", "1 free body"; empty when there are none.
 std::string round_bodies(const Model&);
 

@@ -2,13 +2,10 @@
 // costs a bounding test a step. The first touch by anything but its support releases it (source 000, "zero condition").
 #include <algorithm>
 
-#include "engine/contact/tyre_pairs.h"
 #include "engine/effects/body_pairs.h"
-#include "engine/effects/bodywork_contact.h"
 #include "engine/effects/registration.h"
 #include "engine/effects/riding.h"
 #include "engine/effects/words.h"
-#include "engine/geometry/hyper_ellipsoid_pair.h"
 
 namespace engine {
 namespace {
@@ -37,92 +34,29 @@ void release(World& world, State& state, int body, int by, const Vec3& point) {
 }
 
 /// Would the two close their gap within this step?
-bool touches(const Outlook& outlook, const SurfaceContact& touch, int a, int b) {
+bool closes(const Outlook& outlook, const SurfaceContact& touch, int a, int b) {
   auto velocity_at = [&](int body) -> Vec3 {
-    if (body < 0) return Vec3::Zero();
     return outlook.at.V_WB[body].v + outlook.at.V_WB[body].w.cross(touch.p_a - outlook.at.X_WB[body].p);
   };
   const double closing = -touch.normal.dot(velocity_at(a) - velocity_at(b));
   return touch.gap - closing * outlook.within <= 0 && closing > 0;
 }
 
-/// A mount struck by another mesh sets its rider free.
-void watch_mounts(const Outlook& outlook) {
+/// Sets free who of a pair waits and is touched; what already overlaps is told of where `warn` asks for it.
+void watch(const Outlook& outlook, const PairKind& kind, const ContactPair& pair, bool warn) {
   World& world = outlook.world;
   State& state = outlook.state;
-  for (std::size_t p = 0; p < world.model.persons.size(); ++p) {
-    const int mount = world.model.persons[p].mount;
-    if (mount < 0 || state.released[p]) continue;
-    for (int other = 0; other < static_cast<int>(world.model.bodies.size()); ++other) {
-      if (other == mount || world.model.bodies[other].person == static_cast<int>(p)) continue;
-      for (const SurfaceContact& touch : contacts_of_meshes(outlook, mount, other))
-        if (!state.released[p] && touches(outlook, touch, mount, other)) release(world, state, mount, other, touch.p_a);
-    }
-  }
-}
-
-/// Vehicles and other meshes.
-void watch_meshes(const Outlook& outlook, bool warn) {
-  World& world = outlook.world;
-  State& state = outlook.state;
-  ContactPoints found;
-  for (std::size_t i = 0; i < world.pairs.mesh.size(); ++i) {
-    const MeshPair& pair = world.pairs.mesh[i];
-    // a mount that runs into somebody: both are set free, and its rider
-    if (pair.mesh_body < 0 || (!waits(world, state, pair.body) && !waits(world, state, pair.mesh_body))) continue;
-    if (world.model.bodies[pair.mesh_body].person == world.model.bodies[pair.body].person) continue;  // what it rides
-    const auto& mesh = std::get<MeshShape>(world.model.bodies[pair.mesh_body].shape);
-    const Pose X_WM = state.X_WB[pair.mesh_body] * mesh.X_BM;
-    const Pose X_MA = X_WM.inverse() * state.X_WB[pair.body];
-    const double margin = pair_margin(outlook, pair.body, pair.mesh_body), reach = world.reach[pair.body];
-    Clearance& clearance = state.contact_memory.mesh[i];
-    if (clearance.beyond(margin, X_MA, reach)) continue;
-    contacts_with_mesh(std::get<HyperEllipsoid>(world.model.bodies[pair.body].shape), state.X_WB[pair.body], *pair.mesh, X_WM,
-                       margin, clearance.by_now(X_MA, reach), world.pairs.mesh_scratch, found);
-    clearance.note(world.pairs.mesh_scratch.apart, X_MA, reach);
-    for (const SurfaceContact& touch : found) {
-      if (!touches(outlook, touch, pair.body, pair.mesh_body)) continue;
-      if (waits(world, state, pair.body)) release(world, state, pair.body, pair.mesh_body, touch.p_a);
-      if (waits(world, state, pair.mesh_body)) release(world, state, pair.mesh_body, pair.body, touch.p_b);
-    }
-    if (warn && waits(world, state, pair.body))
-      for (const SurfaceContact& touch : found) warn_of_overlap(world, pair.body, pair.mesh_body, touch.gap);
-  }
-}
-
-/// Wheels that roll up to somebody.
-void watch_tyres(const Outlook& outlook) {
-  World& world = outlook.world;
-  State& state = outlook.state;
-  if (state.wheels.empty()) return;
-  for (const TyrePair& pair : world.pairs.tyres) {
-    if (!waits(world, state, pair.body) && !waits(world, state, pair.vehicle_body)) continue;
-    const double margin = pair_margin(outlook, pair.body, pair.vehicle_body);
-    if (!near(outlook, pair, margin)) continue;
-    const auto touch = beside_tyre(outlook, pair, margin);
-    if (!touch || !touches(outlook, *touch, pair.body, pair.vehicle_body)) continue;
-    if (waits(world, state, pair.body)) release(world, state, pair.body, pair.vehicle_body, touch->p_a);
-    if (waits(world, state, pair.vehicle_body)) release(world, state, pair.vehicle_body, pair.body, touch->p_b);
-  }
-}
-
-void watch_pair(const Outlook& outlook, const BodyPair& pair, Vec3& normal_W, bool warn) {
-  World& world = outlook.world;
-  State& state = outlook.state;
-  const Body &A = world.model.bodies[pair.a], &B = world.model.bodies[pair.b];
-  if (A.person >= 0 && A.person == B.person) return;
+  const int person = world.model.bodies[pair.a].person;
+  if (person >= 0 && person == world.model.bodies[pair.b].person) return;  // itself, or what it rides
   if (!waits(world, state, pair.a) && !waits(world, state, pair.b)) return;
-  const std::optional<double> margin = margin_of_near(outlook, pair);
-  if (!margin) return;
-  const auto touch = contact_of_pair(std::get<HyperEllipsoid>(A.shape), state.X_WB[pair.a], std::get<HyperEllipsoid>(B.shape),
-                                     state.X_WB[pair.b], *margin, normal_W);
-  if (!touch) return;
-  if (!touches(outlook, *touch, pair.a, pair.b)) {
-    if (warn) warn_of_overlap(world, pair.a, pair.b, touch->gap);
-    return;
+  for (const SurfaceContact& touch : kind.touches(outlook, pair)) {
+    if (!closes(outlook, touch, pair.a, pair.b)) {
+      if (warn) warn_of_overlap(world, pair.a, pair.b, touch.gap);
+      continue;
+    }
+    if (waits(world, state, pair.a)) release(world, state, pair.a, pair.b, touch.p_a);
+    if (waits(world, state, pair.b)) release(world, state, pair.b, pair.a, touch.p_b);
   }
-  if (waits(world, state, pair.a)) release(world, state, pair.a, pair.b, touch->p_a);
-  if (waits(world, state, pair.b)) release(world, state, pair.b, pair.a, touch->p_b);
 }
 
 }  // namespace
@@ -138,17 +72,22 @@ class ZeroCondition final : public Effect {
     if (std::all_of(state.released.begin(), state.released.end(), [](char r) { return r != 0; })) return;
     const bool warn = state.time == 0 && !yields(world.model.settings.contact_law, true);
     const Outlook outlook{world, state, state, step};
-    watch_mounts(outlook);
-    watch_meshes(outlook, warn);
-    watch_tyres(outlook);
     ContactPairs& pairs = world.pairs;
+    for (std::size_t i = 0; i < pairs.bodywork.size(); ++i) {  // a mount struck by another mesh sets its rider free
+      const auto [a, b] = pairs.bodywork[i];
+      watch(outlook, mesh_on_mesh_, {a, b, i}, false);
+      watch(outlook, mesh_on_mesh_, {b, a, i}, false);
+    }
+    for (std::size_t i = 0; i < pairs.mesh.size(); ++i)
+      if (pairs.mesh[i].mesh_body >= 0) watch(outlook, on_mesh_, {pairs.mesh[i].body, pairs.mesh[i].mesh_body, i}, warn);
+    for (std::size_t i = 0; i < pairs.tyres.size() && !state.wheels.empty(); ++i)
+      watch(outlook, on_tyre_, {pairs.tyres[i].body, pairs.tyres[i].vehicle_body, i}, false);
     pairs.broad_phase.look(outlook);
     for (std::size_t r = 0; r < pairs.round.size(); ++r) {
       const BodyPairRun& run = pairs.round[r];
       if (!pairs.broad_phase.close(run.tree_a, run.tree_b)) continue;
-      std::vector<PairMemory>& memory = state.contact_memory.round[r];
-      list_pairs(world, r, memory);
-      for (std::size_t i = 0; i < run.pairs.size(); ++i) watch_pair(outlook, run.pairs[i], memory[i].normal_W, warn);
+      list_pairs(world, r, state.contact_memory.round[r]);
+      for (std::size_t i = 0; i < run.pairs.size(); ++i) watch(outlook, rounds_, {run.pairs[i].a, run.pairs[i].b, i, r}, warn);
     }
   }
 
@@ -169,6 +108,12 @@ class ZeroCondition final : public Effect {
       }
     }
   }
+
+ private:
+  const PairKind& rounds_ = pair_kind({ShapeKind::round, ShapeKind::round});
+  const PairKind& on_mesh_ = pair_kind({ShapeKind::round, ShapeKind::mesh});
+  const PairKind& on_tyre_ = pair_kind({ShapeKind::round, ShapeKind::tyre});
+  const PairKind& mesh_on_mesh_ = pair_kind({ShapeKind::mesh, ShapeKind::mesh});
 };
 template struct Registered<ZeroCondition>;
 

@@ -13,7 +13,7 @@ using Point2 = Eigen::Vector2d;
 bool any_touch(const Recording& recording) {
   for (const Snapshot& s : recording.snapshots)
     for (const ContactRecord& c : s.contacts)
-      if ((c.kind == ContactKind::vehicle || c.kind == ContactKind::vehicle_pair) && !c.impulse.isZero(0)) return true;
+      if (c.shapes.with_vehicle() && !c.impulse.isZero(0)) return true;
   return false;
 }
 
@@ -116,15 +116,11 @@ std::optional<Approach> of_vehicles(const Model& model, const Recording& recordi
   std::vector<std::pair<int, std::vector<Vec3>>> outlines;
   for (const Vehicle& v : model.vehicles)
     if (const auto* shape = std::get_if<MeshShape>(&model.bodies[v.body].shape)) outlines.emplace_back(v.body, outline(*shape));
-  const auto joined = [&](int a, int b) {
-    return std::any_of(model.joints.begin(), model.joints.end(),
-                       [&](const Joint& j) { return (j.parent == a && j.child == b) || (j.parent == b && j.child == a); });
-  };
   std::optional<Approach> best;
   for (std::size_t i = 0; i < outlines.size(); ++i)
     for (std::size_t k = i + 1; k < outlines.size(); ++k) {
       const int a = outlines[i].first, b = outlines[k].first;
-      if (joined(a, b)) continue;
+      if (jointed(model, a, b)) continue;
       for (const Snapshot& s : recording.snapshots) {
         const auto at_a = placed(outlines[i].second, s.bodies[a].X_WB), at_b = placed(outlines[k].second, s.bodies[b].X_WB);
         const double d = std::min(apart(at_a, at_b), apart(at_b, at_a));

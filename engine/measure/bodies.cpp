@@ -14,9 +14,8 @@ namespace {
 /// Highest place [m] of a body's lowest point between its first and second touch of the ground.
 std::optional<double> rebound_height(const Model& model, const Recording& recording, int b, const HyperEllipsoid& shape) {
   const auto touched = [&](const Snapshot& s) {  // since the snapshot before
-    return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
-      return c.body_a == b && (c.kind == ContactKind::ground || c.kind == ContactKind::terrain) && c.normal_impulse > 0;
-    });
+    return std::any_of(s.contacts.begin(), s.contacts.end(),
+                       [&](const ContactRecord& c) { return c.body_a == b && c.shapes.on_ground() && c.normal_impulse > 0; });
   };
   const auto lowest = [&](const Snapshot& s) {
     const BodyState& body = s.bodies[b];

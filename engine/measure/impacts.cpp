@@ -21,8 +21,7 @@ struct Pair {
 };
 
 bool counts(const Model& model, const ContactRecord& c) {
-  if (c.kind != ContactKind::vehicle && c.kind != ContactKind::vehicle_pair) return false;
-  return c.body_b >= 0 && (model.bodies[c.body_a].vehicle >= 0 || model.bodies[c.body_b].vehicle >= 0);
+  return c.shapes.with_vehicle() && c.body_b >= 0 && (model.bodies[c.body_a].vehicle >= 0 || model.bodies[c.body_b].vehicle >= 0);
 }
 
 bool between(const Pair& pair, const ContactRecord& c) {
@@ -173,7 +172,7 @@ double friction_of(const Model& model, const Pair& pair, const ContactRecord& c,
 
 const char* law_of(const Model& model, const Pair& pair, const ContactRecord& c) {
   const Body &A = model.bodies[c.body_a], &B = model.bodies[c.body_b];
-  const bool meshes = c.kind == ContactKind::vehicle_pair;
+  const bool meshes = c.shapes.between_vehicles();
   if (meshes && model_between(A.collision_model, B.collision_model) == CollisionModel::kudlich_slibar) return "kudlich_slibar";
   const bool person = pair.a.person >= 0 || pair.b.person >= 0;
   return yields(model.settings.contact_law, person) ? "compliant" : "default_auto";

@@ -64,7 +64,7 @@ std::vector<Span> touches(const Recording& recording, int head, bool ground) {
   for (std::size_t i = 1; i < recording.snapshots.size(); ++i) {
     const Snapshot& s = recording.snapshots[i];
     const bool touched = std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
-      const bool wanted = ground ? is_ground(c) : c.kind == ContactKind::vehicle;
+      const bool wanted = ground ? c.shapes.on_ground() : c.shapes.on_vehicle();
       return wanted && c.body_a == head && c.normal_impulse > 0;
     });
     if (!touched) continue;

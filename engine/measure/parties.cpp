@@ -74,8 +74,4 @@ Vec3 push_on(const Party& party, const ContactRecord& c) {
   return a ? c.impulse : Vec3(-c.impulse);
 }
 
-bool is_ground(const ContactRecord& c) {
-  return c.kind == ContactKind::ground || c.kind == ContactKind::terrain;
-}
-
 }  // namespace engine

@@ -34,6 +34,4 @@ std::optional<double> rest_of(const Model&, const Recording&, const Party&);
 /// A push of a contact on the party, zero where it has no part in it; contacts within the party count for nothing.
 Vec3 push_on(const Party&, const ContactRecord&);
 
-bool is_ground(const ContactRecord&);
-
 }  // namespace engine

@@ -25,7 +25,7 @@ std::optional<Touch> first_touch(const Model& model, const Recording& recording,
   for (const Snapshot& s : recording.snapshots) {
     std::optional<Touch> first;
     for (const ContactRecord& c : s.contacts) {
-      if ((c.kind != ContactKind::vehicle && c.kind != ContactKind::vehicle_pair) || push_on(party, c).isZero(0)) continue;
+      if (!c.shapes.with_vehicle() || push_on(party, c).isZero(0)) continue;
       const int other = holds(party, c.body_a) ? c.body_b : c.body_a;
       if (!own(other) && (!first || c.begun < first->time)) first = Touch{c.begun, other};
     }
@@ -36,13 +36,14 @@ std::optional<Touch> first_touch(const Model& model, const Recording& recording,
 
 bool pushed_by_vehicle(const Party& party, const Snapshot& s) {
   return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
-    return c.kind == ContactKind::vehicle && c.normal_impulse > 0 && !push_on(party, c).isZero(0);
+    return c.shapes.on_vehicle() && c.normal_impulse > 0 && !push_on(party, c).isZero(0);
   });
 }
 
 bool on_ground(const Party& party, const Snapshot& s) {
-  return std::any_of(s.contacts.begin(), s.contacts.end(),
-                     [&](const ContactRecord& c) { return is_ground(c) && c.normal_impulse > 0 && holds(party, c.body_a); });
+  return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
+    return c.shapes.on_ground() && c.normal_impulse > 0 && holds(party, c.body_a);
+  });
 }
 
 /// Level direction of the faster of the vehicle that touched first and of what the person rides, as they go at the touch.

@@ -60,4 +60,12 @@ struct Body {
   bool fixed = false;  // part of the world: never moves
 };
 
+inline bool is_round(const Body& body) {
+  return std::holds_alternative<HyperEllipsoid>(body.shape);
+}
+
+inline bool is_mesh(const Body& body) {
+  return std::holds_alternative<MeshShape>(body.shape);
+}
+
 }  // namespace engine

@@ -1,6 +1,7 @@
 // What a scene contains. Constant while it runs; plain structs with defaults, SI units, no behaviour.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <string>
@@ -74,5 +75,11 @@ struct Model {
   Settings settings;
   std::map<std::string, Vec3> inputs;  // SI, by "section.key", a number in x: scene keys that effects bring with them
 };
+
+/// Does a joint hold the two bodies together?
+inline bool jointed(const Model& model, int a, int b) {
+  return std::any_of(model.joints.begin(), model.joints.end(),
+                     [&](const Joint& j) { return (j.parent == a && j.child == b) || (j.parent == b && j.child == a); });
+}
 
 }  // namespace engine

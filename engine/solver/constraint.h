@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <tuple>
 
+#include "engine/geometry/shape_pair.h"
 #include "engine/math/types.h"
-#include "engine/recording.h"
 
 namespace engine {
 
@@ -45,8 +45,8 @@ struct Constraint {
   Vec3 u_free = Vec3::Zero();     // [m/s] the same with joint resistance: what the solver starts from
   Vec3 u_after = Vec3::Zero();    // [m/s] with them
   std::uint64_t key = 0;
-  int effect = 0;  // index into Plan::active
-  ContactKind contact_kind = ContactKind::ground;
+  int effect = 0;                    // index into Plan::active
+  ShapePair shapes;                  // contact
   int record_a = -1, record_b = -1;  // bodies named in the record (fixed ones too)
   int wheel = -1;                    // running number of the wheel
 
@@ -54,8 +54,8 @@ struct Constraint {
   template <class S>
   static auto fields(S& s) {
     return std::tie(s.kind, s.rows, s.slides, s.body_a, s.body_b, s.J_a, s.J_b, s.point, s.frame, s.gap, s.friction, s.restitution,
-                    s.stiffness, s.hysteresis, s.room, s.struck_mass, s.free_response, s.whole_response, s.key, s.effect,
-                    s.contact_kind, s.record_a, s.record_b);
+                    s.stiffness, s.hysteresis, s.room, s.struck_mass, s.free_response, s.whole_response, s.key, s.effect, s.shapes,
+                    s.record_a, s.record_b);
   }
 };
 

@@ -27,7 +27,7 @@ std::vector<Touch> touches(const engine::Recording& recording, const std::vector
   std::vector<Touch> out;
   for (const engine::Snapshot& s : recording.snapshots)
     for (const engine::ContactRecord& c : s.contacts) {
-      if (c.kind != engine::ContactKind::vehicle || c.body_b != body || c.impulse.norm() < kLeast) continue;
+      if (!c.shapes.on_vehicle() || c.body_b != body || c.impulse.norm() < kLeast) continue;
       const Pose& X = s.bodies[static_cast<std::size_t>(body)].X_WB;
       const Vec3 p = X.q.conjugate() * (c.point - X.p);
       const Touch touch{part_of(recording.body_names[static_cast<std::size_t>(c.body_a)]), on_tape(tape, {p.x(), p.z()}).along,

@@ -55,15 +55,15 @@ Panel speeds(const Stage& stage, const engine::Recording& recording, const Figur
 /// What vehicles and ground have given to the persons so far.
 Panel impulses(const engine::Recording& recording) {
   Panel panel{"impulse on persons, N s, summed", {}};
-  for (const engine::ContactKind kind : {engine::ContactKind::vehicle, engine::ContactKind::ground}) {
+  for (const bool vehicle : {true, false}) {
     double sum = 0;
-    panel.curves.push_back(curve(
-        kind == engine::ContactKind::vehicle ? "from vehicles" : "from the ground", recording, [&](const engine::Snapshot& s) {
-          for (const engine::ContactRecord& c : s.contacts)
-            if (c.kind == kind && recording.body_names[static_cast<std::size_t>(c.body_a)].find('/') != std::string::npos)
-              sum += c.impulse.norm();
-          return sum;
-        }));
+    panel.curves.push_back(curve(vehicle ? "from vehicles" : "from the ground", recording, [&](const engine::Snapshot& s) {
+      for (const engine::ContactRecord& c : s.contacts)
+        if ((vehicle ? c.shapes.on_vehicle() : c.shapes.on_ground()) &&
+            recording.body_names[static_cast<std::size_t>(c.body_a)].find('/') != std::string::npos)
+          sum += c.impulse.norm();
+      return sum;
+    }));
   }
   return panel;
 }

@@ -35,7 +35,7 @@ void add(const Frame& frame, DrawList& list) {
   for (const engine::Snapshot& s : frame.recording.snapshots)
     for (const engine::ContactRecord& c : s.contacts) {
       const double impulse = c.impulse.norm();
-      if (c.kind != engine::ContactKind::vehicle || c.body_b < 0 || impulse < kLeast) continue;
+      if (!c.shapes.on_vehicle() || c.body_b < 0 || impulse < kLeast) continue;
       last = s.time;  // the scale is that of the whole run: a colour means the same in every frame
       strongest = std::max(strongest, impulse);
       if (s.time > frame.now.time) continue;

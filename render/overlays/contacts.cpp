@@ -48,7 +48,7 @@ void add_forces(const Frame& frame, DrawList& list) {
     const double force = c.force.norm();
     const Vec3 tip = c.point + c.force / force * std::max(0.12, arrow_length(force, frame.stage.overlays.newtons_per_metre));
     list.arrows.push_back({to_float(c.point), to_float(tip), colour_of_part(part), 4.5f});
-    if (c.kind == engine::ContactKind::vehicle && (!largest || force > largest->force.norm())) largest = &c;
+    if (c.shapes.on_vehicle() && (!largest || force > largest->force.norm())) largest = &c;
   }
   // impacts last a millisecond: the label of the largest of the last moments stays long enough to be read
   engine::ContactRecord held;
@@ -57,7 +57,7 @@ void add_forces(const Frame& frame, DrawList& list) {
       if (s.time > frame.now.time) break;
       if (s.time < frame.now.time - kHold * std::max(frame.moment.speed, 0.05)) continue;
       for (const auto& c : s.contacts)
-        if (c.kind == engine::ContactKind::vehicle && of_interest(c) && (!largest || c.force.norm() > held.force.norm())) {
+        if (c.shapes.on_vehicle() && of_interest(c) && (!largest || c.force.norm() > held.force.norm())) {
           held = c;
           // the label goes on with the part it speaks of
           const auto part = static_cast<std::size_t>(c.body_a);

@@ -29,7 +29,7 @@ void add_history(const Frame& frame, LabelItem& label) {
   double last = 0, strongest = 0;
   for (const engine::Snapshot& s : frame.recording.snapshots)
     for (const engine::ContactRecord& c : s.contacts) {
-      if (c.kind != engine::ContactKind::vehicle || c.body_b < 0 || c.impulse.norm() < 0.2) continue;
+      if (!c.shapes.on_vehicle() || c.body_b < 0 || c.impulse.norm() < 0.2) continue;
       last = s.time;
       strongest = std::max(strongest, c.impulse.norm());
     }

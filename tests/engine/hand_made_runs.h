@@ -75,9 +75,11 @@ inline std::optional<double> value_of(const std::vector<Metric>& metrics, const 
   return std::nullopt;
 }
 
-inline ContactRecord push(int a, int b, ContactKind kind, const Vec3& impulse) {
+constexpr ShapePair kOnGround{}, kOnVehicle{ShapeKind::round, ShapeKind::mesh}, kVehicles{ShapeKind::mesh, ShapeKind::mesh};
+
+inline ContactRecord push(int a, int b, const ShapePair& shapes, const Vec3& impulse) {
   ContactRecord c;
-  c.kind = kind;
+  c.shapes = shapes;
   c.body_a = a;
   c.body_b = b;
   c.impulse = impulse;

@@ -148,8 +148,8 @@ TEST(HeadMetrics, CriteriaAreToldApartByPartner) {
   HeadMotion head{0, {}, {}};
   for (int i = 0; i <= 200; ++i) {
     Snapshot s = still(0.005 * i);
-    if (i >= 41 && i <= 44) s.contacts = {push(kHead, kCar, ContactKind::vehicle, {0, 0, 1})};
-    if (i >= 121 && i <= 122) s.contacts = {push(kHead, -1, ContactKind::ground, {0, 0, 1})};
+    if (i >= 41 && i <= 44) s.contacts = {push(kHead, kCar, kOnVehicle, {0, 0, 1})};
+    if (i >= 121 && i <= 122) s.contacts = {push(kHead, -1, kOnGround, {0, 0, 1})};
     run.snapshots.push_back(s);
   }
   const auto pulse = [](double t, double from, double peak_g, double lasts) {
@@ -168,8 +168,7 @@ TEST(HeadMetrics, CriteriaAreToldApartByPartner) {
   EXPECT_NEAR(value_of(out, "hic15_ground").value(), 414.6, 1);
   EXPECT_EQ(value_of(out, "hic15"), value_of(out, "hic15_vehicle"));
   run.snapshots[41].contacts.clear();
-  for (Snapshot& s : run.snapshots)
-    std::erase_if(s.contacts, [](const ContactRecord& c) { return c.kind == ContactKind::vehicle; });
+  for (Snapshot& s : run.snapshots) std::erase_if(s.contacts, [](const ContactRecord& c) { return c.shapes.on_vehicle(); });
   out.clear();
   measure_injury(model, run, 0, out);
   EXPECT_FALSE(value_of(out, "hic15_vehicle"));

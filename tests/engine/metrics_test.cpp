@@ -33,13 +33,13 @@ Recording struck_along_y() {
     for (const int b : {kHead, kHips}) s.bodies[b].V_WB.v = {0, speed[i], 0};
     run.snapshots.push_back(s);
   }
-  for (const int i : {1, 2, 3}) run.snapshots[i].contacts.push_back(push(kHips, kCar, ContactKind::vehicle, {0, 10, 0}));
+  for (const int i : {1, 2, 3}) run.snapshots[i].contacts.push_back(push(kHips, kCar, kOnVehicle, {0, 10, 0}));
   run.events = {{1, "first_contact", kHips, kCar, Vec3::Zero(), 0},
                 {4, "ground_contact", kHips, -1, Vec3::Zero(), 0},
                 {6, "rest", kHips, -1, Vec3::Zero(), 0}};
   // a bounce: on the ground at 4 s, off it, on it again at 5 s and from there on without a break a row could see
-  run.snapshots[4].contacts.push_back(push(kHips, -1, ContactKind::ground, {0, 0, 9}));
-  run.snapshots[5].contacts.push_back(push(kHips, -1, ContactKind::ground, {0, 0, 9}));
+  run.snapshots[4].contacts.push_back(push(kHips, -1, kOnGround, {0, 0, 9}));
+  run.snapshots[5].contacts.push_back(push(kHips, -1, kOnGround, {0, 0, 9}));
   return run;
 }
 
@@ -112,7 +112,7 @@ TEST(ThrowMetrics, RiderAndMountHaveEachTheirOwnRestAndThrow) {
     run.snapshots[i].bodies.emplace_back();
     run.snapshots[i].bodies[3].X_WB.p = {0, std::min(4.0, 1.0 * static_cast<double>(i)), 0.5};
   }
-  ContactRecord hit = push(kCar, 3, ContactKind::vehicle_pair, {0, -5, 0});
+  ContactRecord hit = push(kCar, 3, kVehicles, {0, -5, 0});
   hit.begun = 0.5;  // the mount is struck before the rider
   run.snapshots[1].contacts.push_back(hit);
   run.events.push_back({2, "rest", 3, -1, Vec3::Zero(), 0});
@@ -148,7 +148,7 @@ TEST(BodyMetrics, ReboundIsTheTopOfTheFlightBetweenTwoTouches) {
     s.bodies[0].V_WB.v = {30, 40, i ? 2 - 9.81 * t : -3};
     run.snapshots.push_back(s);
   }
-  for (const int i : {1, 6}) run.snapshots[i].contacts.push_back(push(0, -1, ContactKind::ground, {0, 0, 5}));
+  for (const int i : {1, 6}) run.snapshots[i].contacts.push_back(push(0, -1, kOnGround, {0, 0, 5}));
   std::vector<Metric> out;
   measure_body(model, run, 0, out);
   // the top is a flat maximum: searched to 1e-9 s it is right to rounding
@@ -176,7 +176,7 @@ TEST(NearestApproach, ARunWithoutATouchSaysHowNearItWas) {
   ASSERT_TRUE(near);
   EXPECT_NEAR(near->distance, 1.4 - 0.8 - 0.1, 1e-9);
   EXPECT_EQ(near->body_a, kHead);
-  run.snapshots[3].contacts = {push(kHips, kCar, ContactKind::vehicle, {1, 0, 0})};
+  run.snapshots[3].contacts = {push(kHips, kCar, kOnVehicle, {1, 0, 0})};
   EXPECT_FALSE(nearest_approach(model, run)) << "they touched";
 }
 

@@ -27,10 +27,9 @@ TEST(VehicleMetrics, DeltaVIsTheChangeOfVelocityOfTheCollisionAndNotOfTheRun) {
   run.snapshots[5].tyre_impulse = {Vec3(0, -100, 0)};
   for (Snapshot& s : run.snapshots)
     if (s.time > 0.045) s.bodies[kCar].V_WB.v.y() -= 0.1;
-  run.snapshots[5].contacts = {push(kHips, kCar, ContactKind::vehicle, {3000, 3000, 0}),
-                               push(kCar, -1, ContactKind::ground, {0, 0, 1e6})};
+  run.snapshots[5].contacts = {push(kHips, kCar, kOnVehicle, {3000, 3000, 0}), push(kCar, -1, kOnGround, {0, 0, 1e6})};
   // and drags on for half a second, pressed and held: that adds nothing
-  for (int i = 6; i < 60; ++i) run.snapshots[i].contacts = {push(kHips, kCar, ContactKind::vehicle, {2, 0, 0})};
+  for (int i = 6; i < 60; ++i) run.snapshots[i].contacts = {push(kHips, kCar, kOnVehicle, {2, 0, 0})};
   std::vector<Metric> out;
   measure_vehicle(model, run, impacts_of(model, run), 0, out);
   EXPECT_NEAR(value_of(out, "delta_v_mps").value(), 3 * std::sqrt(2.0), 1e-9);
@@ -82,7 +81,7 @@ std::vector<Impact> car_against_block(double mass, double energy, double stiffne
     run.snapshots.push_back(still(0.01 * i));
     run.snapshots.back().bodies[kCar].V_WB.v = {i < 5 ? 10.0 : 4.0, 0, 0};
   }
-  ContactRecord c = push(kCar, kHips, ContactKind::vehicle_pair, {-6000, 0, 0});
+  ContactRecord c = push(kCar, kHips, kVehicles, {-6000, 0, 0});
   c.normal = {-1, 0, 0};
   c.energy_lost = energy;
   c.begun = 0.043;

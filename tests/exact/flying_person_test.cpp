@@ -146,7 +146,7 @@ TEST(SymmetricPerson, StaysSymmetricUntilItTouches) {
     ASSERT_FALSE(run.failure);
     double moved = 0, worst = 0;
     for (const engine::Snapshot& s : run.snapshots) {
-      if (std::any_of(s.contacts.begin(), s.contacts.end(), [](auto& c) { return c.kind == engine::ContactKind::ground; })) break;
+      if (std::any_of(s.contacts.begin(), s.contacts.end(), [](auto& c) { return c.shapes.on_ground(); })) break;
       for (std::size_t b = 0; b < s.bodies.size(); ++b) {
         std::string twin = model.bodies[b].name;
         const std::string side = twin.find("/left_") != std::string::npos ? "/left_" : "/right_";

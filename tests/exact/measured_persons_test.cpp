@@ -67,7 +67,7 @@ class Measured : public testing::TestWithParam<Struck> {
   template <class Counts>
   bool touched(const Snapshot& s, const Counts& counts) const {
     return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
-      const bool vehicle = c.kind == ContactKind::vehicle || c.kind == ContactKind::vehicle_pair;
+      const bool vehicle = c.shapes.with_vehicle();
       return vehicle && c.normal_impulse > 0 && (counts(c.body_a) || counts(c.body_b));
     });
   }
@@ -197,7 +197,7 @@ void Measured::touches_lose_what_the_ledger_has() const {
   double lost = 0, most = 0;
   for (const Snapshot& s : run_.snapshots)
     for (const ContactRecord& c : s.contacts)
-      if (c.kind == ContactKind::vehicle) lost += c.energy_lost, most = std::max(most, lost);
+      if (c.shapes.on_vehicle()) lost += c.energy_lost, most = std::max(most, lost);
   const auto& names = run_.effect_names;
   const auto effect = std::find(names.begin(), names.end(), "mesh_contact") - names.begin();
   const Energies& end = run_.snapshots.back().energies;

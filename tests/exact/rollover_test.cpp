@@ -87,7 +87,8 @@ TEST(Rollover, DownABankOfTrianglesComesToRestOnThem) {
   EXPECT_TRUE(std::any_of(run.snapshots.begin(), run.snapshots.end(), [](const auto& s) { return up_of(s, 0).z() < -0.2; }))
       << "it rolled over";
   EXPECT_TRUE(std::any_of(run.snapshots.begin(), run.snapshots.end(), [](const auto& s) {
-    return std::any_of(s.contacts.begin(), s.contacts.end(), [](const auto& c) { return c.kind == engine::ContactKind::terrain; });
+    return std::any_of(s.contacts.begin(), s.contacts.end(),
+                       [](const auto& c) { return c.shapes.b == engine::ShapeKind::terrain; });
   }));
   EXPECT_LT(run.snapshots.back().bodies[0].V_WB.v.norm(), 0.05);
   EXPECT_LT(run.diagnostics.rest_penetration, 5e-3);
@@ -103,7 +104,7 @@ TEST(CarAgainstCar, ByDefaultAutoKeepsMomentumAndDoesNotPassThrough) {
   double deepest = 0;
   for (const auto& s : run.snapshots)
     for (const auto& c : s.contacts) {
-      if (c.kind != engine::ContactKind::vehicle_pair) continue;
+      if (!c.shapes.between_vehicles()) continue;
       on_red += c.body_a == 0 ? c.impulse : engine::Vec3(-c.impulse);
       deepest = std::max(deepest, c.depth);
     }

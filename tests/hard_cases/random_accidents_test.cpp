@@ -89,7 +89,7 @@ double deepest(const engine::Recording& recording, bool of_vehicles) {
   double depth = 0;
   for (const engine::Snapshot& s : recording.snapshots)
     for (const engine::ContactRecord& c : s.contacts)
-      if ((c.kind == engine::ContactKind::vehicle_pair) == of_vehicles) depth = std::max(depth, c.depth);
+      if (c.shapes.between_vehicles() == of_vehicles) depth = std::max(depth, c.depth);
   return depth;
 }
 

@@ -29,7 +29,7 @@ engine::Recording run() {
     s.bodies[0].V_WB.v = Vec3(2, 0, 0);
     if (i == 5) {
       engine::ContactRecord c;
-      c.kind = engine::ContactKind::vehicle;
+      c.shapes = {engine::ShapeKind::round, engine::ShapeKind::mesh};
       c.body_a = 1;
       c.body_b = 0;
       c.point = Vec3(1, 0.5, 1);

@@ -1,4 +1,5 @@
-// Wheels and the round bodies they may run over or into.
+// Wheels and the round bodies they may run over or into. The body (a) beside the tyre (b), where the strut has moved it to, is the
+// row of the pair table; beneath it, it is what the suspension stands on.
 #pragma once
 
 #include <optional>
@@ -18,8 +19,5 @@ bool near(const Outlook&, const TyrePair&, double margin);
 /// The suspension's compression [m], from static ride, at which the tyre just stands on the body: beneath it, no higher than the
 /// stop lets it. Nothing where the two meet sideways, or that is below `least` [m].
 std::optional<TyreTouch> stands_on(const Outlook&, const TyrePair&, double least);
-
-/// The body (a) beside the tyre (b) where the strut has moved it to.
-std::optional<SurfaceContact> beside_tyre(const Outlook&, const TyrePair&, double margin);
 
 }  // namespace engine

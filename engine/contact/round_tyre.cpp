@@ -1,4 +1,4 @@
-#include "engine/contact/tyre_pairs.h"
+#include "engine/contact/round_tyre.h"
 
 #include <algorithm>
 
@@ -58,18 +58,25 @@ std::optional<TyreTouch> stands_on(const Outlook& outlook, const TyrePair& pair,
   return touch;
 }
 
-std::optional<SurfaceContact> beside_tyre(const Outlook& outlook, const TyrePair& pair, double margin) {
+template <>
+Touches touches_between<ShapeKind::round, ShapeKind::tyre>(const Outlook& outlook, const ContactPair& at) {
   constexpr double kDeepest = 0.15;  // [m] what lies farther inside has come from behind
   // [m] rubber gives: 200 kN/m (vertical stiffness of a passenger car's tyre) under its 3.7 kN by 19 mm, in a blow by more
   constexpr double kGives = 0.03;
   constexpr std::uint32_t kTyres = 0x800000u;
-  const auto& shape = std::get<HyperEllipsoid>(outlook.world.model.bodies[pair.body].shape);
+  World& world = outlook.world;
+  const TyrePair& pair = world.pairs.tyres[at.at];
+  const double margin = pair_margin(outlook, pair.body, pair.vehicle_body);
+  if (!near(outlook, pair, margin)) return {};
+  const auto& shape = std::get<HyperEllipsoid>(world.model.bodies[pair.body].shape);
   auto contact =
       contact_with_tyre(shape, outlook.at.X_WB[pair.body], tyre_of(outlook, pair, outlook.state.wheels[pair.wheel].lift), margin);
-  if (!contact || contact->gap < -kDeepest) return std::nullopt;
+  if (!contact || contact->gap < -kDeepest) return {};
   if (contact->gap < 0) contact->gap = std::min(0.0, contact->gap + kGives);  // pinched, as beside a wheel that rolls over
   contact->key = kTyres | static_cast<std::uint32_t>(pair.wheel);
-  return contact;
+  world.pairs.touches.clear();
+  world.pairs.touches.push_back(*contact);
+  return {world.pairs.touches.begin(), world.pairs.touches.end()};
 }
 
 }  // namespace engine

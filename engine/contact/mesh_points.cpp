@@ -1,0 +1,147 @@
+#include "engine/contact/mesh_points.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "engine/geometry/mesh_overlap.h"
+#include "engine/geometry/point_mesh.h"
+#include "engine/math/functions.h"
+#include "engine/world.h"
+
+namespace engine {
+namespace {
+
+constexpr double kSpacing = 0.10;       // [m] between the points that stand for a mesh
+constexpr double kDeepestPoint = 0.15;  // [m] a point farther behind a surface has come from its other side
+constexpr double kClear = 0.05;         // [m] from a coupled vehicle: nearer at the start, and they never meet there
+constexpr int kRing = 24;               // points round a wheel, in the middle and on either flank
+
+/// Points that stand for a body's mesh and, of a vehicle, for its wheels, of which `first_wheel` is the number of the first.
+std::vector<SurfacePoint> points_of(const Model& model, const Body& body, int first_wheel) {
+  std::vector<SurfacePoint> out;
+  const auto& shape = std::get<MeshShape>(body.shape);
+  for (const Vec3& p : representative_points(*shape.mesh, kSpacing)) out.push_back({shape.X_BM * p});
+  if (body.vehicle < 0) return out;
+  for (const Wheel& wheel : model.vehicles[body.vehicle].wheels) {
+    for (const double side : {-1.0, 0.0, 1.0})
+      for (int i = 0; i < kRing; ++i) {
+        const double angle = 2 * std::numbers::pi * i / kRing;
+        const double radius = wheel.radius - (side == 0 ? 0 : crown_radius(wheel));
+        const Vec3 spoke(radius * math::cos(angle), 0.5 * side * wheel.width, radius * math::sin(angle));
+        out.push_back({wheel.hub_B + spoke, first_wheel});
+      }
+    ++first_wheel;
+  }
+  return out;
+}
+
+void reserve_scratch(const Model& model, ContactPairs& pairs) {
+  std::size_t triangles = model.ground.terrain ? model.ground.terrain->triangles().size() : 0, points = 0;
+  for (const Body& body : model.bodies)
+    if (is_mesh(body)) triangles = std::max(triangles, std::get<MeshShape>(body.shape).mesh->triangles().size());
+  for (const auto& of_body : pairs.points) points = std::max(points, of_body.size());
+  pairs.point_scratch.reserve(triangles);
+  pairs.point_contacts.reserve(points);
+}
+
+/// The points of a body that stand clear of the one it is coupled to at the start: those about the coupling do not.
+std::vector<SurfacePoint> clear_points(const Model& model, int body, int other, ContactPairs& pairs) {
+  const auto& shape = std::get<MeshShape>(model.bodies[other].shape);
+  const Pose X_MB = (model.bodies[other].X_WB * shape.X_BM).inverse() * model.bodies[body].X_WB;
+  std::vector<SurfacePoint> out = pairs.points[body];
+  std::erase_if(out, [&](const SurfacePoint& p) {
+    const auto surface = nearest_surface(*shape.mesh, X_MB * p.p_B, kDeepestPoint, pairs.point_scratch);
+    return surface && surface->gap < kClear;
+  });
+  return out;
+}
+
+}  // namespace
+
+bool coupled(const Model& model, int a, int b) {
+  return model.bodies[a].vehicle >= 0 && model.bodies[b].vehicle >= 0 && jointed(model, a, b);
+}
+
+bool meshes_meet(const Model& model, int a, int b) {
+  const Body& A = model.bodies[a];
+  const Body& B = model.bodies[b];
+  if (!is_mesh(A) || !is_mesh(B) || (A.fixed && B.fixed) || (A.person >= 0 && A.person == B.person)) return false;
+  if (jointed(model, a, b)) return coupled(model, a, b);
+  return model_between(A.collision_model, B.collision_model) != CollisionModel::kudlich_slibar;
+}
+
+void list_mesh_pairs(const Model& model, ContactPairs& pairs) {
+  const auto& bodies = model.bodies;
+  pairs.points.assign(bodies.size(), {});
+  std::vector<int> first_wheel;  // of each vehicle, as in State::wheels
+  int wheels = 0;
+  for (const Vehicle& vehicle : model.vehicles) {
+    first_wheel.push_back(wheels);
+    wheels += static_cast<int>(vehicle.wheels.size());
+  }
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (is_mesh(bodies[b]))
+      pairs.points[b] = points_of(model, bodies[b], bodies[b].vehicle < 0 ? 0 : first_wheel[bodies[b].vehicle]);
+  for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
+    for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b)
+      if (meshes_meet(model, a, b)) pairs.bodywork.push_back({a, b});
+  reserve_scratch(model, pairs);
+  for (const BodyPair& pair : pairs.bodywork)
+    if (coupled(model, pair.a, pair.b))
+      pairs.bodywork_points.push_back({clear_points(model, pair.a, pair.b, pairs), clear_points(model, pair.b, pair.a, pairs)});
+    else
+      pairs.bodywork_points.push_back({pairs.points[pair.a], pairs.points[pair.b]});
+}
+
+Aabb box_of(const World& world, const Motion& state, int body) {
+  const auto& shape = std::get<MeshShape>(world.model.bodies[body].shape);
+  Aabb box = world_bounds(*shape.mesh, state.X_WB[body] * shape.X_BM);
+  if (const int v = world.model.bodies[body].vehicle; v >= 0)
+    for (const Wheel& wheel : world.model.vehicles[v].wheels) {
+      const Vec3 hub = state.X_WB[body] * wheel.hub_B;
+      const double r = math::hypot(wheel.radius, 0.5 * wheel.width) + 2 * wheel.travel;
+      box.lower = box.lower.cwiseMin((hub.array() - r).matrix());
+      box.upper = box.upper.cwiseMax((hub.array() + r).matrix());
+    }
+  return box;
+}
+
+std::size_t first_of_wheels(const std::vector<SurfacePoint>& points) {
+  const auto first = std::partition_point(points.begin(), points.end(), [](const SurfacePoint& p) { return p.wheel < 0; });
+  return static_cast<std::size_t>(first - points.begin());
+}
+
+void touch_with_points(const Outlook& outlook, int body, const std::vector<SurfacePoint>& points, PointRange which,
+                       const PointTarget& target, double margin) {
+  World& world = outlook.world;
+  std::vector<SurfaceContact>& out = world.pairs.point_contacts;
+  out.clear();
+  const Pose& X = outlook.at.X_WB[body];
+  const Vec3 up = X.q * Vec3::UnitZ();
+  const Pose X_MW = target.X_WM.inverse();
+  for (std::size_t i = which.begin; i < which.end; ++i) {
+    Vec3 p = X * points[i].p_B;
+    if (points[i].wheel >= 0 && !outlook.state.wheels.empty()) p += outlook.state.wheels[points[i].wheel].lift * up;
+    if ((p.array() < target.within.lower.array() - margin).any() || (p.array() > target.within.upper.array() + margin).any())
+      continue;
+    SurfaceContact c;
+    c.p_a = p;
+    c.key = static_cast<std::uint32_t>(i);
+    if (target.mesh) {
+      const auto surface = nearest_surface(*target.mesh, X_MW * p, std::max(margin, kDeepestPoint), world.pairs.point_scratch);
+      if (!surface || surface->gap >= margin || surface->gap < target.least) continue;
+      c.p_b = target.X_WM * surface->point;
+      c.normal = target.X_WM.q * surface->normal;
+      c.gap = surface->gap;
+    } else {
+      c.gap = p.z() - target.height;
+      if (c.gap >= margin) continue;
+      c.p_b = p - c.gap * Vec3::UnitZ();
+    }
+    if (points[i].wheel >= 0 && c.normal.dot(up) > target.rolls) continue;
+    out.push_back(c);
+  }
+  keep_spread(out, static_cast<std::size_t>(world.model.settings.contacts_per_pair));
+}
+
+}  // namespace engine

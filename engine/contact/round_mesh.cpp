@@ -1,0 +1,38 @@
+// A hyper-ellipsoid on a triangle mesh: one that a body carries, or the terrain.
+#include "engine/world.h"
+
+namespace engine {
+namespace {
+
+/// The mesh stands at X_WM, the round body at X_MA in its frame.
+Touches touches_on_mesh(const Outlook& outlook, const ContactPair& pair, const Pose& X_WM, const Pose& X_MA, double margin,
+                        double may_pass) {
+  World& world = outlook.world;
+  Clearance& clearance = outlook.state.contact_memory.mesh[pair.at];
+  const double reach = world.reach[pair.a];
+  if (clearance.beyond(margin, X_MA, reach)) return {};
+  ContactPoints& touches = world.pairs.touches;
+  contacts_with_mesh(std::get<HyperEllipsoid>(world.model.bodies[pair.a].shape), outlook.at.X_WB[pair.a],
+                     *world.pairs.mesh[pair.at].mesh, X_WM, margin, clearance.by_now(X_MA, reach), world.pairs.mesh_scratch,
+                     touches, may_pass);
+  clearance.note(world.pairs.mesh_scratch.apart, X_MA, reach);
+  return {touches.begin(), touches.end()};
+}
+
+}  // namespace
+
+template <>
+Touches touches_between<ShapeKind::round, ShapeKind::mesh>(const Outlook& outlook, const ContactPair& pair) {
+  const Model& model = outlook.world.model;
+  const Pose X_WM = outlook.at.X_WB[pair.b] * std::get<MeshShape>(model.bodies[pair.b].shape).X_BM;
+  return touches_on_mesh(outlook, pair, X_WM, X_WM.inverse() * outlook.at.X_WB[pair.a], pair_margin(outlook, pair.a, pair.b),
+                         may_pass(model, pair.a));
+}
+
+template <>
+Touches touches_between<ShapeKind::round, ShapeKind::terrain>(const Outlook& outlook, const ContactPair& pair) {
+  constexpr double kPasses = 0.25;  // [-] of the body: ground gives way to nobody
+  return touches_on_mesh(outlook, pair, Pose{}, outlook.at.X_WB[pair.a], contact_margin(outlook, pair.a), kPasses);
+}
+
+}  // namespace engine
