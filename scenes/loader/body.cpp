@@ -12,8 +12,8 @@ namespace scenes {
 namespace {
 
 const Key kKeys[] = {
-    {"name", Type::text, Dimension::none, kRequired, "Name in every output."},
-    {"mass", Type::number, Dimension::mass, "", "Mass; needed unless the body is fixed.", kPositive},
+    bound<&engine::Body::name>({"name", Type::text, Dimension::none, kRequired, "Name in every output."}),
+    bound<&engine::Body::mass>({"mass", Type::number, Dimension::mass, "", "Mass; needed unless the body is fixed.", kPositive}),
     {"axes", Type::vector3, Dimension::length, "", "Semi-axes a, b, c of a hyper-ellipsoid, eq. (60).", kExtent},
     {"exponent",
      Type::number,
@@ -28,19 +28,23 @@ const Key kKeys[] = {
     CRASHREEL_MESH_KEYS,
     {"inertia", Type::inertia, Dimension::inertia, "",
      "About the centre of mass in body axes. Left out: that of the even hyper-ellipsoid."},
-    {"position", Type::vector3, Dimension::length, "'0 0 0 m'", "Centre of mass at the start."},
+    bound<&engine::Body::X_WB, &engine::Pose::p>(
+        {"position", Type::vector3, Dimension::length, "'0 0 0 m'", "Centre of mass at the start."}),
     {"attitude", Type::vector3, Dimension::angle, "'0 0 0 deg'",
      "Roll, pitch, yaw at the start: turned about x, then y, then z of the world."},
     {"quaternion", Type::numbers, Dimension::none, "", "Attitude as [w, x, y, z] in place of roll, pitch, yaw."},
-    {"velocity", Type::vector3, Dimension::speed, "'0 0 0 m/s'", "Of the centre of mass, world axes."},
-    {"angular_velocity", Type::vector3, Dimension::angular_speed, "", "In world axes."},
+    bound<&engine::Body::V_WB, &engine::Twist::v>(
+        {"velocity", Type::vector3, Dimension::speed, "'0 0 0 m/s'", "Of the centre of mass, world axes."}),
+    bound<&engine::Body::V_WB, &engine::Twist::w>(
+        {"angular_velocity", Type::vector3, Dimension::angular_speed, "", "In world axes."}),
     {"angular_velocity_body", Type::vector3, Dimension::angular_speed, "", "In body axes, in place of angular_velocity."},
     CRASHREEL_SURFACE_KEYS,
-    {"fixed", Type::boolean, Dimension::none, "false", "Part of the world: never moves."},
-    {"collision", Type::choice, Dimension::none, "'default_auto'",
-     "Collision model the body asks for. Kudlich-Slibar acts between two meshes that both ask for it, Default-Auto in every other "
-     "case.",
-     kAny, "default_auto|kudlich_slibar"},
+    bound<&engine::Body::fixed>({"fixed", Type::boolean, Dimension::none, "false", "Part of the world: never moves."}),
+    bound<&engine::Body::collision_model>({"collision", Type::choice, Dimension::none, "'default_auto'",
+                                           "Collision model the body asks for. Kudlich-Slibar acts between two meshes that both "
+                                           "ask for it, Default-Auto in every other "
+                                           "case.",
+                                           kAny, "default_auto|kudlich_slibar"}),
     {"colour", Type::colour, Dimension::none, "'#c87838'", "Colour in pictures."},
     {"material", Type::choice, Dimension::none, "'matte'", "Surface in pictures.", kAny,
      "matte|paint|glass|lamp|rubber|metal|skin|cloth"},
@@ -105,12 +109,9 @@ engine::Quat read_attitude(Reader& r) {
 
 engine::SurfaceProperties read_surface(Reader& r, engine::SurfaceProperties out) {
   if (r.has("friction")) out.friction_body = out.friction_ground = r.schedule("friction");
-  if (r.has("friction_body")) out.friction_body = r.schedule("friction_body");
-  if (r.has("friction_ground")) out.friction_ground = r.schedule("friction_ground");
   if (r.has("restitution")) out.restitution_body = out.restitution_ground = r.schedule("restitution");
-  if (r.has("restitution_body")) out.restitution_body = r.schedule("restitution_body");
-  if (r.has("restitution_ground")) out.restitution_ground = r.schedule("restitution_ground");
-  if (r.has("stiffness")) out.stiffness = r.schedule("stiffness"), out.stiffness_given = true;
+  r.fill(out);
+  out.stiffness_given = out.stiffness_given || r.has("stiffness");
   return out;
 }
 
@@ -131,23 +132,18 @@ render::MaterialKind read_material_kind(Reader& r, std::string_view key) {
 
 void read_body(Builder& builder, Reader r) {
   engine::Body body;
-  body.name = r.text("name");
+  r.fill(body);
   if (body.name.empty()) r.fail("name", "must not be empty");
   if (body.name == "world" || builder.body_index(body.name) >= 0)
     r.fail("name", "this name is already used; every body needs a name of its own");
-  body.fixed = r.boolean("fixed");
   if (!r.has("mass") && !body.fixed) r.fail("mass", "is missing; write like mass = \"78 kg\", or fixed = true");
-  if (r.has("mass")) body.mass = r.number("mass");
   const std::size_t errors_before = builder.errors.count();
   read_shape(builder, r, body);
   if (body.mass > 0 && builder.errors.count() == errors_before) read_inertia(r, body);
   body.surface = read_surface(r, {});
-  body.collision_model = static_cast<engine::CollisionModel>(r.choice("collision"));
   if (body.collision_model == engine::CollisionModel::kudlich_slibar && !r.has("mesh"))
     r.fail("collision", "must be default_auto for a body without a mesh; Kudlich-Slibar needs two meshes");
-  body.X_WB = {r.vector("position"), read_attitude(r)};
-  body.V_WB.v = r.vector("velocity");
-  if (const auto w = r.vector_if("angular_velocity")) body.V_WB.w = *w;
+  body.X_WB.q = read_attitude(r);
   if (const auto w_B = r.vector_if("angular_velocity_body")) {
     if (r.has("angular_velocity")) r.fail("angular_velocity_body", "must not be given together with angular_velocity");
     body.V_WB.w = body.X_WB.q * *w_B;

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "scenes/loader/reader.h"
+#include "scenes/loader/bound.h"
 #include "scenes/scene.h"
 
 namespace scenes {
@@ -67,31 +67,33 @@ engine::JointCoordinate read_angle(Reader&, engine::JointCoordinate base);
 render::MaterialKind read_material_kind(Reader&, std::string_view key);
 
 /// Keys that several sections list in their tables.
-#define CRASHREEL_SURFACE_KEYS                                                                                                 \
-  {                                                                                                                            \
-      "friction",                                                                                                              \
-      Type::schedule,                                                                                                          \
-      Dimension::none,                                                                                                         \
-      "",                                                                                                                      \
-      "Coulomb coefficient, sets both kinds below. Of two objects the smaller acts.",                                          \
-      kNotNegative},                                                                                                           \
-      {"stiffness",                                                                                                            \
-       Type::schedule,                                                                                                         \
-       Dimension::stiffness,                                                                                                   \
-       "",                                                                                                                     \
-       "S of the compliant contact law; two surfaces act in series. Left out: 400 kN/m.",                                      \
-       kPositive},                                                                                                             \
-      {"friction_body", Type::schedule, Dimension::none, "", "Coulomb coefficient against every other object.", kNotNegative}, \
-      {"friction_ground", Type::schedule, Dimension::none, "", "Coulomb coefficient against the ground.", kNotNegative},       \
-      {"restitution",                                                                                                          \
-       Type::schedule,                                                                                                         \
-       Dimension::none,                                                                                                        \
-       "",                                                                                                                     \
-       "Ratio of separating to closing normal speed, sets both kinds below. Of two objects the larger acts.",                  \
-       kShare},                                                                                                                \
-      {"restitution_body", Type::schedule, Dimension::none, "", "The same against every other object.", kShare}, {             \
-    "restitution_ground", Type::schedule, Dimension::none, "", "The same against the ground.", kShare                          \
-  }
+inline constexpr Key kSurfaceFriction{"friction",
+                                      Type::schedule,
+                                      Dimension::none,
+                                      "",
+                                      "Coulomb coefficient, sets both kinds below. Of two objects the smaller acts.",
+                                      kNotNegative};
+inline constexpr Key kSurfaceStiffness = bound<&engine::SurfaceProperties::stiffness>(
+    {"stiffness", Type::schedule, Dimension::stiffness, "",
+     "S of the compliant contact law; two surfaces act in series. Left out: 400 kN/m.", kPositive});
+inline constexpr Key kSurfaceFrictionBody = bound<&engine::SurfaceProperties::friction_body>(
+    {"friction_body", Type::schedule, Dimension::none, "", "Coulomb coefficient against every other object.", kNotNegative});
+inline constexpr Key kSurfaceFrictionGround = bound<&engine::SurfaceProperties::friction_ground>(
+    {"friction_ground", Type::schedule, Dimension::none, "", "Coulomb coefficient against the ground.", kNotNegative});
+inline constexpr Key kSurfaceRestitution{
+    "restitution",
+    Type::schedule,
+    Dimension::none,
+    "",
+    "Ratio of separating to closing normal speed, sets both kinds below. Of two objects the larger acts.",
+    kShare};
+inline constexpr Key kSurfaceRestitutionBody = bound<&engine::SurfaceProperties::restitution_body>(
+    {"restitution_body", Type::schedule, Dimension::none, "", "The same against every other object.", kShare});
+inline constexpr Key kSurfaceRestitutionGround = bound<&engine::SurfaceProperties::restitution_ground>(
+    {"restitution_ground", Type::schedule, Dimension::none, "", "The same against the ground.", kShare});
+#define CRASHREEL_SURFACE_KEYS                                                                                                     \
+  kSurfaceFriction, kSurfaceStiffness, kSurfaceFrictionBody, kSurfaceFrictionGround, kSurfaceRestitution, kSurfaceRestitutionBody, \
+      kSurfaceRestitutionGround
 
 /// The file that a key names, in the scene's folder or the program's. Only below these, or a folder the user allows, does a scene
 /// read: otherwise it would choose what on this machine is opened. Empty after an error, which is collected.

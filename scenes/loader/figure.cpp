@@ -12,7 +12,8 @@ namespace scenes {
 namespace {
 
 const Key kSegmentKeys[] = {
-    {"name", Type::text, Dimension::none, kRequired, "Name of the part; with sides it becomes left_NAME and right_NAME."},
+    bound<&Segment::name>(
+        {"name", Type::text, Dimension::none, kRequired, "Name of the part; with sides it becomes left_NAME and right_NAME."}),
     {"sides", Type::boolean, Dimension::none, "false", "Given for the left side; the right one is its mirror image."},
     {"centre", Type::vector3, Dimension::length, kRequired, "Centre when standing, x forward, y left, z above the soles."},
     {"axes", Type::vector3, Dimension::length, kRequired, "Semi-axes.", kExtent},
@@ -22,19 +23,21 @@ const Key kSegmentKeys[] = {
     {"mass_female", Type::numbers, Dimension::none, "", "The same for women; left out: as for men."},
     {"mass_share", Type::number, Dimension::none, "", "Share of the person's mass, in place of a regression.", kPositive},
     {"lengthwise", Type::boolean, Dimension::none, "false", "Its x axis grows with stature, like a foot."},
-    {"stiffness", Type::number, Dimension::stiffness, "'400 kN/m'",
-     "What it yields by against whatever it touches, in series with it.", kPositive},
+    bound<&Segment::stiffness>({"stiffness", Type::number, Dimension::stiffness, "'400 kN/m'",
+                                "What it yields by against whatever it touches, in series with it.", kPositive}),
     {"cloth", Type::colour, Dimension::none, "'#808080'", "Colour."},
 };
 const Section kSegmentSection{"figure.segment", "[[segment]]", "In a person's library file: one part.", kSegmentKeys};
 
 const Key kAngleKeys[] = {
-    {"name", Type::text, Dimension::none, kRequired, "The word used in poses: JOINT_NAME, like knee_flexion."},
+    bound<&AnatomicalAngle::name>(
+        {"name", Type::text, Dimension::none, kRequired, "The word used in poses: JOINT_NAME, like knee_flexion."}),
     {"about", Type::choice, Dimension::none, kRequired, "Axis of the standing person that a positive angle turns about.", kAny,
      "+x|-x|+y|-y|+z|-z"},
     {"range", Type::range, Dimension::angle, kRequired, "Range of motion."},
-    {"word", Type::text, Dimension::none, "''",
-     "Another word for poses. Angles of several joints that have one in common take an even part of it each."},
+    bound<&AnatomicalAngle::word>(
+        {"word", Type::text, Dimension::none, "''",
+         "Another word for poses. Angles of several joints that have one in common take an even part of it each."}),
 };
 const Section kAngleSection{"figure.joint.angle", "[[joint.angle]]", "In a person's library file: one angle of a joint.",
                             kAngleKeys};
@@ -53,14 +56,21 @@ const Key kJointKeys[] = {
      kAny,
      {},
      &kAngleSection},
-    {"damping", Type::number, Dimension::angular_damping, "0", "Resistance per angular speed.", kNotNegative},
-    {"friction_torque", Type::number, Dimension::torque, "0", "Constant resistance.", kNotNegative},
-    {"stiffness", Type::number, Dimension::angular_stiffness, "0", "Spring towards the standing pose.", kNotNegative},
-    {"stop_stiffness", Type::number, Dimension::angular_stiffness, "'300 N m/rad'",
-     "Of the stops at the ends of the ranges, compliant contact law only; 0: rigid, as they are with Default-Auto.", kNotNegative},
-    {"passive", Type::choice, Dimension::none, "'none'", "Elastic torque of a leg's joint at rest (Riener and Edrich 1999).", kAny,
-     "none|hip|knee|ankle"},
-    {"passive_share", Type::number, Dimension::none, "1", "Share of an adult's passive torque.", kNotNegative},
+    bound<&FigureJoint::damping>(
+        {"damping", Type::number, Dimension::angular_damping, "0", "Resistance per angular speed.", kNotNegative}),
+    bound<&FigureJoint::friction_torque>(
+        {"friction_torque", Type::number, Dimension::torque, "0", "Constant resistance.", kNotNegative}),
+    bound<&FigureJoint::stiffness>(
+        {"stiffness", Type::number, Dimension::angular_stiffness, "0", "Spring towards the standing pose.", kNotNegative}),
+    bound<&FigureJoint::stop_stiffness>(
+        {"stop_stiffness", Type::number, Dimension::angular_stiffness, "'300 N m/rad'",
+         "Of the stops at the ends of the ranges, compliant contact law only; 0: rigid, as they are with Default-Auto.",
+         kNotNegative}),
+    bound<&FigureJoint::passive>({"passive", Type::choice, Dimension::none, "'none'",
+                                  "Elastic torque of a leg's joint at rest (Riener and Edrich 1999).", kAny,
+                                  "none|hip|knee|ankle"}),
+    bound<&FigureJoint::passive_share>(
+        {"passive_share", Type::number, Dimension::none, "1", "Share of an adult's passive torque.", kNotNegative}),
 };
 const Section kJointSectionOfFigure{"figure.joint", "[[joint]] of a person's file", "In a person's library file: one joint.",
                                     kJointKeys};
@@ -99,13 +109,12 @@ double part_mass(Reader& r, const PersonSize& size) {
 
 void read_segment(Reader& r, const Scaling& scale, std::vector<Segment>& out) {
   Segment s;
-  s.name = r.text("name");
+  r.fill(s);
   const bool lengthwise = r.boolean("lengthwise");
   const engine::Vec3 grow{lengthwise ? scale.along : scale.across, scale.across, scale.along};
   s.centre = r.vector("centre").cwiseProduct(grow);
   s.shape = {r.vector("axes").cwiseProduct(grow), std::max(2.0, r.number("exponent"))};
   s.mass = part_mass(r, scale.size);
-  s.stiffness = r.number("stiffness");
   const auto colour = r.colour("cloth");
   // bare parts are lit as skin: their red clearly above their blue, and light
   const bool bare = colour[0] > 0.4f && colour[0] > 1.6f * colour[2];
@@ -127,8 +136,7 @@ std::vector<AnatomicalAngle> read_angles(Reader& r) {
   for (Reader& angle : r.tables("angle")) {
     const int about = angle.choice("about");
     const auto [lower, upper] = angle.range("range");
-    out.push_back(
-        {angle.text("name"), engine::Vec3::Unit(about / 2) * (about % 2 == 0 ? 1 : -1), lower, upper, angle.text("word")});
+    angle.fill(out.emplace_back(AnatomicalAngle{"", engine::Vec3::Unit(about / 2) * (about % 2 == 0 ? 1 : -1), lower, upper, ""}));
     if (out.back().word.empty()) out.back().word = r.text("name") + "_" + out.back().name;
   }
   constexpr int kOrder[] = {1, 0, 2};
@@ -151,12 +159,7 @@ int segment_index(Reader& r, const std::vector<Segment>& segments, std::string_v
 void read_joint_of_figure(Reader& r, const Scaling& scale, Figure& figure) {
   FigureJoint j;
   const std::vector<AnatomicalAngle> angles = read_angles(r);
-  j.damping = r.number("damping");
-  j.friction_torque = r.number("friction_torque");
-  j.stiffness = r.number("stiffness");
-  j.stop_stiffness = r.number("stop_stiffness");
-  j.passive = static_cast<engine::PassiveTorque>(r.choice("passive"));
-  j.passive_share = r.number("passive_share");
+  r.fill(j);
   const engine::Vec3 at = r.vector("at").cwiseProduct(engine::Vec3{scale.across, scale.across, scale.along});
   const bool sides = r.boolean("sides");
   for (const std::string side : {"left_", "right_"}) {

@@ -14,128 +14,163 @@ namespace {
 constexpr double kFilmHeight = 0.024;  // [m] of the 35 mm still format that focal lengths are spoken of in
 
 const Key kKnotKeys[] = {
-    {"time", Type::number, Dimension::time, kRequired, "When the camera is there.", kNotNegative},
-    {"position", Type::vector3, Dimension::length, kRequired, "Where it is; with follow: offset from the subject."},
-    {"target", Type::vector3, Dimension::length, kRequired, "The point looked at; with follow: offset from the subject."},
+    bound<&render::CameraKnot::time>({"time", Type::number, Dimension::time, kRequired, "When the camera is there.", kNotNegative}),
+    bound<&render::CameraKnot::position>(
+        {"position", Type::vector3, Dimension::length, kRequired, "Where it is; with follow: offset from the subject."}),
+    bound<&render::CameraKnot::target>(
+        {"target", Type::vector3, Dimension::length, kRequired, "The point looked at; with follow: offset from the subject."}),
 };
 const Section kKnotSection{"camera.knot", "[[camera.knot]]",
                            "A moving camera's place at one time; between knots it runs along a smooth curve.", kKnotKeys};
 
 const Key kCameraKeys[] = {
-    {"name", Type::text, Dimension::none, kRequired, "Name for --camera and for shots."},
-    {"kind", Type::choice, Dimension::none, "'fixed'",
-     "Stands still; keeps its offset; circles; looks straight down; sees with a driver or a person; or moves along knots.", kAny,
-     "fixed|follow|orbit|top|eye|path"},
-    {"position", Type::vector3, Dimension::length, "'-8 -8 3 m'",
-     "Fixed: in the world. Follow: offset from the subject. Eye: in the axes of the body that carries it, a person's head, "
-     "a vehicle."},
-    {"target", Type::vector3, Dimension::length, "'0 0 1 m'",
-     "Fixed: point looked at. Eye: the same in the axes of its carrier. Others: offset from the subject."},
-    {"follow", Type::text, Dimension::none, "''", "The subject: a body, a vehicle or a person. Empty: the world."},
-    {"fov", Type::number, Dimension::angle, "'40 deg'", "Vertical angle of view.", between(0.02, 2.6)},
+    bound<&render::Camera::name>({"name", Type::text, Dimension::none, kRequired, "Name for --camera and for shots."}),
+    bound<&render::Camera::kind>(
+        {"kind", Type::choice, Dimension::none, "'fixed'",
+         "Stands still; keeps its offset; circles; looks straight down; sees with a driver or a person; or moves along knots.",
+         kAny, "fixed|follow|orbit|top|eye|path"}),
+    bound<&render::Camera::position>(
+        {"position", Type::vector3, Dimension::length, "'-8 -8 3 m'",
+         "Fixed: in the world. Follow: offset from the subject. Eye: in the axes of the body that carries it, a person's head, "
+         "a vehicle."}),
+    bound<&render::Camera::target>(
+        {"target", Type::vector3, Dimension::length, "'0 0 1 m'",
+         "Fixed: point looked at. Eye: the same in the axes of its carrier. Others: offset from the subject."}),
+    bound<&render::Camera::follow>(
+        {"follow", Type::text, Dimension::none, "''", "The subject: a body, a vehicle or a person. Empty: the world."}),
+    bound<&render::Camera::vertical_fov>(
+        {"fov", Type::number, Dimension::angle, "'40 deg'", "Vertical angle of view.", between(0.02, 2.6)}),
     {"lens", Type::number, Dimension::length, "",
      "Focal length in place of fov, for a picture 24 mm high (35 mm still format): \"50 mm\".", between(0.006, 1)},
-    {"radius", Type::number, Dimension::length, "'8 m'", "Orbit: distance.", kPositive},
-    {"height", Type::number, Dimension::length, "'2.5 m'", "Orbit: above the subject."},
-    {"start", Type::number, Dimension::angle, "'0 deg'", "Orbit: where it begins, from +x towards +y."},
-    {"rate", Type::number, Dimension::angular_speed, "'0.3 rad/s'", "Orbit: how fast."},
-    {"span", Type::number, Dimension::length, "'14 m'", "Top: metres from the lower to the upper edge of the picture.", kPositive},
-    {"smoothing", Type::number, Dimension::time, "'0.25 s'", "A following camera averages its subject over this time.",
-     kNotNegative},
+    bound<&render::Camera::orbit_radius>({"radius", Type::number, Dimension::length, "'8 m'", "Orbit: distance.", kPositive}),
+    bound<&render::Camera::orbit_height>({"height", Type::number, Dimension::length, "'2.5 m'", "Orbit: above the subject."}),
+    bound<&render::Camera::orbit_start>(
+        {"start", Type::number, Dimension::angle, "'0 deg'", "Orbit: where it begins, from +x towards +y."}),
+    bound<&render::Camera::orbit_rate>({"rate", Type::number, Dimension::angular_speed, "'0.3 rad/s'", "Orbit: how fast."}),
+    bound<&render::Camera::top_height>({"span", Type::number, Dimension::length, "'14 m'",
+                                        "Top: metres from the lower to the upper edge of the picture.", kPositive}),
+    bound<&render::Camera::smoothing>({"smoothing", Type::number, Dimension::time, "'0.25 s'",
+                                       "A following camera averages its subject over this time.", kNotNegative}),
     {"knot", Type::tables, Dimension::none, "", "Path: where it is when, at least two.", kAny, {}, &kKnotSection},
 };
 
 const Key kShotKeys[] = {
-    {"camera", Type::text, Dimension::none, kRequired, "The camera's name."},
-    {"from", Type::number, Dimension::time, "'0 s'", "Simulated time at its start.", kNotNegative},
-    {"to", Type::number, Dimension::time, "", "Simulated time at its end; left out: the end of the run.", kNotNegative},
-    {"speed", Type::number, Dimension::none, "1", "0.25 is four times slow motion, 0 freezes for hold.", kNotNegative},
-    {"hold", Type::number, Dimension::time, "'0 s'", "How long a frozen picture stays.", between(0, kLongestHold)},
-    {"layout", Type::choice, Dimension::none, "'single'",
-     "One camera; two side by side; two above each other; or the second small in a corner of the first. One clock for both.", kAny,
-     "single|split|stacked|inset"},
-    {"second", Type::text, Dimension::none, "''", "The other camera of a shared picture."},
-    {"title", Type::text, Dimension::none, "''", "Chapter in the video file; left out: the camera's name."},
+    bound<&render::Shot::camera>({"camera", Type::text, Dimension::none, kRequired, "The camera's name."}),
+    bound<&render::Shot::from>({"from", Type::number, Dimension::time, "'0 s'", "Simulated time at its start.", kNotNegative}),
+    bound<&render::Shot::to>(
+        {"to", Type::number, Dimension::time, "", "Simulated time at its end; left out: the end of the run.", kNotNegative}),
+    bound<&render::Shot::speed>(
+        {"speed", Type::number, Dimension::none, "1", "0.25 is four times slow motion, 0 freezes for hold.", kNotNegative}),
+    bound<&render::Shot::hold>(
+        {"hold", Type::number, Dimension::time, "'0 s'", "How long a frozen picture stays.", between(0, kLongestHold)}),
+    bound<&render::Shot::layout>(
+        {"layout", Type::choice, Dimension::none, "'single'",
+         "One camera; two side by side; two above each other; or the second small in a corner of the first. One clock for both.",
+         kAny, "single|split|stacked|inset"}),
+    bound<&render::Shot::second>({"second", Type::text, Dimension::none, "''", "The other camera of a shared picture."}),
+    bound<&render::Shot::title>(
+        {"title", Type::text, Dimension::none, "''", "Chapter in the video file; left out: the camera's name."}),
 };
 
 const Key kCardKeys[] = {
-    {"title", Type::text, Dimension::none, kRequired, "Its heading."},
-    {"lines", Type::texts, Dimension::none, "[]", "What stands below: assumptions, sources, results."},
-    {"hold", Type::number, Dimension::time, "'3 s'", "How long it stays.", Range{0, kLongestHold, true}},
-    {"place", Type::choice, Dimension::none, "'start'", "Before the first shot or after the last.", kAny, "start|end"},
+    bound<&render::Card::title>({"title", Type::text, Dimension::none, kRequired, "Its heading."}),
+    bound<&render::Card::lines>({"lines", Type::texts, Dimension::none, "[]", "What stands below: assumptions, sources, results."}),
+    bound<&render::Card::hold>(
+        {"hold", Type::number, Dimension::time, "'3 s'", "How long it stays.", Range{0, kLongestHold, true}}),
+    bound<&render::Card::at_end>(
+        {"place", Type::choice, Dimension::none, "'start'", "Before the first shot or after the last.", kAny, "start|end"}),
 };
 
 const Key kDimensionKeys[] = {
-    {"label", Type::text, Dimension::none, "''", "Stands before the number."},
+    bound<&render::Dimension::label>({"label", Type::text, Dimension::none, "''", "Stands before the number."}),
     {"body", Type::text, Dimension::none, "''", "How far this body, vehicle or person has come, level, since a time."},
-    {"since", Type::number, Dimension::time, "'0 s'", "That time.", kNotNegative},
-    {"from", Type::vector3, Dimension::length, "", "Without body: one end."},
-    {"to", Type::vector3, Dimension::length, "", "Without body: the other end."},
+    bound<&render::Dimension::since>({"since", Type::number, Dimension::time, "'0 s'", "That time.", kNotNegative}),
+    bound<&render::Dimension::from>({"from", Type::vector3, Dimension::length, "", "Without body: one end."}),
+    bound<&render::Dimension::to>({"to", Type::vector3, Dimension::length, "", "Without body: the other end."}),
 };
 const Section kDimensionSection{"overlays.dimension", "[[overlays.dimension]]", "A line with its length in numbers.",
                                 kDimensionKeys};
 
 const Key kOverlayKeys[] = {
-    {"contacts", Type::boolean, Dimension::none, "true", "Contact points and normals."},
-    {"forces", Type::boolean, Dimension::none, "true", "Arrows, long by force."},
-    {"caption", Type::boolean, Dimension::none, "true", "Time, speeds, camera."},
-    {"traces", Type::boolean, Dimension::none, "false", "Paths of the bodies in trace_bodies."},
-    {"vehicle_paths", Type::boolean, Dimension::none, "false", "The way of each vehicle, on the ground."},
-    {"wheel_traces", Type::boolean, Dimension::none, "false",
-     "Where each wheel rolled. (Skid marks, where tyres slid, are always drawn.)"},
-    {"trace_bodies", Type::texts, Dimension::none, "[]", "Bodies whose paths are drawn; empty: head and hips of every person."},
-    {"disclaimer", Type::boolean, Dimension::none, "true", "\"Simulation, not footage\" and the provenance at the foot."},
-    {"scale_bar", Type::boolean, Dimension::none, "true", "A bar of metres in top views."},
-    {"legend", Type::boolean, Dimension::none, "false", "What colours and lengths of arrows and marks mean."},
-    {"contact_history", Type::boolean, Dimension::none, "false", "Marks on vehicles and persons where they touched so far."},
-    {"contact_colour", Type::choice, Dimension::none, "'time'", "Their colours: when it touched, or how hard.", kAny,
-     "time|impulse"},
-    {"ghost_interval", Type::number, Dimension::time, "", "Pale figures of persons and free bodies at equal times.",
-     between(0.005, 60)},
-    {"ghost_distance", Type::number, Dimension::length, "", "Pale figures at equal distances travelled.", between(0.02, 1000)},
-    {"velocities", Type::boolean, Dimension::none, "false", "Velocity arrows of vehicles and persons, with numbers."},
-    {"velocity_scale", Type::number, Dimension::speed, "'8 m/s'", "Speed that one metre of arrow stands for.", kPositive},
-    {"speed_chart", Type::boolean, Dimension::none, "false", "Speeds over time, running with the film."},
-    {"energy_chart", Type::boolean, Dimension::none, "false", "Energies over time, running with the film."},
+    bound<&render::Overlays::contacts>({"contacts", Type::boolean, Dimension::none, "true", "Contact points and normals."}),
+    bound<&render::Overlays::forces>({"forces", Type::boolean, Dimension::none, "true", "Arrows, long by force."}),
+    bound<&render::Overlays::caption>({"caption", Type::boolean, Dimension::none, "true", "Time, speeds, camera."}),
+    bound<&render::Overlays::traces>({"traces", Type::boolean, Dimension::none, "false", "Paths of the bodies in trace_bodies."}),
+    bound<&render::Overlays::vehicle_paths>(
+        {"vehicle_paths", Type::boolean, Dimension::none, "false", "The way of each vehicle, on the ground."}),
+    bound<&render::Overlays::wheel_traces>({"wheel_traces", Type::boolean, Dimension::none, "false",
+                                            "Where each wheel rolled. (Skid marks, where tyres slid, are always drawn.)"}),
+    bound<&render::Overlays::trace_bodies>({"trace_bodies", Type::texts, Dimension::none, "[]",
+                                            "Bodies whose paths are drawn; empty: head and hips of every person."}),
+    bound<&render::Overlays::disclaimer>(
+        {"disclaimer", Type::boolean, Dimension::none, "true", "\"Simulation, not footage\" and the provenance at the foot."}),
+    bound<&render::Overlays::scale_bar>({"scale_bar", Type::boolean, Dimension::none, "true", "A bar of metres in top views."}),
+    bound<&render::Overlays::legend>(
+        {"legend", Type::boolean, Dimension::none, "false", "What colours and lengths of arrows and marks mean."}),
+    bound<&render::Overlays::contact_history>(
+        {"contact_history", Type::boolean, Dimension::none, "false", "Marks on vehicles and persons where they touched so far."}),
+    bound<&render::Overlays::contact_colour>({"contact_colour", Type::choice, Dimension::none, "'time'",
+                                              "Their colours: when it touched, or how hard.", kAny, "time|impulse"}),
+    bound<&render::Overlays::ghost_interval>({"ghost_interval", Type::number, Dimension::time, "",
+                                              "Pale figures of persons and free bodies at equal times.", between(0.005, 60)}),
+    bound<&render::Overlays::ghost_distance>(
+        {"ghost_distance", Type::number, Dimension::length, "", "Pale figures at equal distances travelled.", between(0.02, 1000)}),
+    bound<&render::Overlays::velocities>(
+        {"velocities", Type::boolean, Dimension::none, "false", "Velocity arrows of vehicles and persons, with numbers."}),
+    bound<&render::Overlays::velocity_scale>(
+        {"velocity_scale", Type::number, Dimension::speed, "'8 m/s'", "Speed that one metre of arrow stands for.", kPositive}),
+    bound<&render::Overlays::speed_chart>(
+        {"speed_chart", Type::boolean, Dimension::none, "false", "Speeds over time, running with the film."}),
+    bound<&render::Overlays::energy_chart>(
+        {"energy_chart", Type::boolean, Dimension::none, "false", "Energies over time, running with the film."}),
     {"dimension", Type::tables, Dimension::none, "", "Lengths with their numbers.", kAny, {}, &kDimensionSection},
-    {"force_scale", Type::number, Dimension::stiffness, "'10 kN/m'", "Force that one metre of arrow stands for.", kPositive},
+    bound<&render::Overlays::newtons_per_metre>(
+        {"force_scale", Type::number, Dimension::stiffness, "'10 kN/m'", "Force that one metre of arrow stands for.", kPositive}),
 };
 
 const Key kStillKeys[] = {
-    {"time", Type::number, Dimension::time, kRequired, "Simulated time.", kNotNegative},
-    {"camera", Type::text, Dimension::none, "''", "Camera; left out: seen as the film shows this time, two cameras included."},
+    bound<&Output::Still::time>({"time", Type::number, Dimension::time, kRequired, "Simulated time.", kNotNegative}),
+    bound<&Output::Still::camera>(
+        {"camera", Type::text, Dimension::none, "''", "Camera; left out: seen as the film shows this time, two cameras included."}),
     {"card", Type::integer, Dimension::none, "", "The film's first, second ... card in place of a camera.", between(1, 100)},
 };
 const Section kStillSection{"output.still", "[[output.still]]", "Stills a snapshot test draws.", kStillKeys};
 
 const Key kOutputKeys[] = {
-    {"width", Type::integer, Dimension::none, "1280", "Picture width in pixels, even.", between(16, 8192)},
-    {"height", Type::integer, Dimension::none, "720", "Picture height in pixels, even.", between(16, 8192)},
-    {"fps", Type::number, Dimension::none, "30", "Frames a second.", between(1, 1000)},
-    {"quality", Type::choice, Dimension::none, "'standard'", "Effort a frame.", kAny, "draft|standard|fine"},
+    bound<&Output::width>({"width", Type::integer, Dimension::none, "1280", "Picture width in pixels, even.", between(16, 8192)}),
+    bound<&Output::height>({"height", Type::integer, Dimension::none, "720", "Picture height in pixels, even.", between(16, 8192)}),
+    bound<&Output::fps>({"fps", Type::number, Dimension::none, "30", "Frames a second.", between(1, 1000)}),
+    bound<&Output::quality>(
+        {"quality", Type::choice, Dimension::none, "'standard'", "Effort a frame.", kAny, "draft|standard|fine"}),
     {"still", Type::tables, Dimension::none, "", "Stills for snapshot tests.", kAny, {}, &kStillSection},
 };
 
 const Key kRoadKeys[] = {
     {"kind", Type::choice, Dimension::none, "'plain'", "Asphalt with lane markings along x, or plain ground with a metre grid.",
      kAny, "road|plain"},
-    {"width", Type::number, Dimension::length, "'7 m'", "Kerb to kerb.", kPositive},
-    {"centre_y", Type::number, Dimension::length, "'0 m'",
-     "Where its middle runs. Traffic keeps right: lanes along +x lie at smaller y."},
-    {"lanes", Type::integer, Dimension::none, "2", "Lanes in all.", between(1, 12)},
+    bound<&render::RoadLook::width>({"width", Type::number, Dimension::length, "'7 m'", "Kerb to kerb.", kPositive}),
+    bound<&render::RoadLook::centre_y>({"centre_y", Type::number, Dimension::length, "'0 m'",
+                                        "Where its middle runs. Traffic keeps right: lanes along +x lie at smaller y."}),
+    bound<&render::RoadLook::lanes>({"lanes", Type::integer, Dimension::none, "2", "Lanes in all.", between(1, 12)}),
     {"grid", Type::boolean, Dimension::none, "false", "A grid of metres on the road as well."},
-    {"zebra", Type::number, Dimension::length, "", "x of a pedestrian crossing; left out: none."},
+    bound<&render::RoadLook::zebra_x>(
+        {"zebra", Type::number, Dimension::length, "", "x of a pedestrian crossing; left out: none."}),
     {"picture", Type::path, Dimension::none, "", "A PNG that lies on the ground: an aerial photograph, a drawing to scale."},
-    {"picture_width", Type::number, Dimension::length, "'50 m'", "How wide the picture is on the ground.", kPositive},
+    bound<&render::RoadLook::picture_width>(
+        {"picture_width", Type::number, Dimension::length, "'50 m'", "How wide the picture is on the ground.", kPositive}),
     {"picture_corner", Type::vector2, Dimension::length, "'0 0 m'", "Where its lower left corner lies."},
-    {"picture_heading", Type::number, Dimension::angle, "'0 deg'", "Where its lower edge points, from +x towards +y."},
+    bound<&render::RoadLook::picture_turn>(
+        {"picture_heading", Type::number, Dimension::angle, "'0 deg'", "Where its lower edge points, from +x towards +y."}),
 };
 
 const Key kSkyKeys[] = {
-    {"north", Type::number, Dimension::angle, "", "Where north is, from +x towards +y; top views show it. Left out: they show x."},
-    {"sun_azimuth", Type::number, Dimension::angle, "'130 deg'", "Direction to the sun, from +x towards +y."},
-    {"sun_elevation", Type::number, Dimension::angle, "'46 deg'", "Height of the sun.", between(0.02, 1.5707964)},
-    {"haze", Type::number, Dimension::none, "0.4", "0 clear, 1 fog.", kShare},
+    bound<&render::Stage::north>({"north", Type::number, Dimension::angle, "",
+                                  "Where north is, from +x towards +y; top views show it. Left out: they show x."}),
+    bound<&render::SkyLook::sun_azimuth>(
+        {"sun_azimuth", Type::number, Dimension::angle, "'130 deg'", "Direction to the sun, from +x towards +y."}),
+    bound<&render::SkyLook::sun_elevation>(
+        {"sun_elevation", Type::number, Dimension::angle, "'46 deg'", "Height of the sun.", between(0.02, 1.5707964)}),
+    bound<&render::SkyLook::haze>({"haze", Type::number, Dimension::none, "0.4", "0 clear, 1 fog.", kShare}),
 };
 
 bool subject_exists(const Builder& builder, const std::string& name) {
@@ -148,7 +183,7 @@ bool subject_exists(const Builder& builder, const std::string& name) {
 
 void read_knots(Reader& r, render::Camera& camera) {
   for (Reader& knot : r.tables("knot")) {
-    camera.path.push_back({knot.number("time"), knot.vector("position"), knot.vector("target")});
+    knot.fill(camera.path.emplace_back());
     if (camera.path.size() > 1 && camera.path.back().time <= camera.path[camera.path.size() - 2].time)
       knot.fail("time", "must be later than that of the knot before it");
     if ((camera.path.back().position - camera.path.back().target).norm() < 1e-6)
@@ -161,13 +196,9 @@ void read_knots(Reader& r, render::Camera& camera) {
 
 void read_camera(Builder& builder, Reader& r) {
   render::Camera camera;
-  camera.name = r.text("name");
+  r.fill(camera);
   for (const render::Camera& other : builder.scene.stage.cameras)
     if (other.name == camera.name) r.fail("name", "this name is already used; every camera needs a name of its own");
-  camera.kind = static_cast<render::CameraKind>(r.choice("kind"));
-  camera.position = r.vector("position");
-  camera.target = r.vector("target");
-  camera.follow = r.text("follow");
   if (!camera.follow.empty() && !subject_exists(builder, camera.follow)) {
     std::vector<std::string> names = builder.body_names();
     for (const auto& person : builder.scene.model.persons) names.push_back(person.name);
@@ -175,15 +206,8 @@ void read_camera(Builder& builder, Reader& r) {
     r.fail("follow", guess.empty() ? "is no body, vehicle or person of the scene"
                                    : fmt::format("is no body, vehicle or person of the scene; did you mean \"{}\"?", guess));
   }
-  camera.vertical_fov = r.number("fov");
   if (const auto lens = r.number_if("lens")) camera.vertical_fov = 2 * engine::math::atan(kFilmHeight / 2 / *lens);
   if (r.has("lens") && r.has("fov")) r.fail("lens", "says the same as fov; give one of them");
-  camera.orbit_radius = r.number("radius");
-  camera.orbit_height = r.number("height");
-  camera.orbit_start = r.number("start");
-  camera.orbit_rate = r.number("rate");
-  camera.top_height = r.number("span");
-  camera.smoothing = r.number("smoothing");
   const bool straight = camera.kind == render::CameraKind::fixed || camera.kind == render::CameraKind::eye;
   if (straight && (camera.position - camera.target).norm() < 1e-6) {
     r.fail("target", "must differ from position; a camera needs a direction");
@@ -202,27 +226,17 @@ void check_camera_name(Builder& builder, Reader& r, const std::string& name, std
 
 void read_shot(Builder& builder, Reader& r) {
   render::Shot shot;
-  shot.camera = r.text("camera");
+  r.fill(shot);
   check_camera_name(builder, r, shot.camera);
-  shot.from = r.number("from");
-  shot.to = r.number_if("to").value_or(std::max(shot.from, builder.scene.model.settings.duration));
-  shot.speed = r.number("speed");
-  shot.hold = r.number("hold");
+  if (!r.has("to")) shot.to = std::max(shot.from, builder.scene.model.settings.duration);
   if (shot.to < shot.from) r.fail("to", "must not be earlier than from");
   if (shot.speed == 0 && shot.hold == 0)
     r.fail("hold", "must be greater than 0 s where speed is 0; a frozen picture needs a duration");
-  shot.layout = static_cast<render::Layout>(r.choice("layout"));
-  shot.second = r.text("second");
-  shot.title = r.text("title");
   const bool shared = shot.layout != render::Layout::single;
   if (!shot.second.empty()) check_camera_name(builder, r, shot.second, "second");
   if (shared && shot.second.empty()) r.fail("layout", "shares the picture between two cameras; name the other as second");
   if (!shared && !shot.second.empty()) r.fail("second", "needs a layout: split, stacked or inset");
   builder.scene.stage.shots.push_back(shot);
-}
-
-void read_card(Builder& builder, Reader& r) {
-  builder.scene.stage.cards.push_back({r.text("title"), r.texts("lines"), r.number("hold"), r.choice("place") == 1});
 }
 
 /// Body of the Model that a body, vehicle or person goes by; -1: none.
@@ -237,13 +251,10 @@ int body_of(const Builder& builder, const std::string& name) {
 
 void read_dimension(Builder& builder, Reader& r) {
   render::Dimension d;
-  d.label = r.text("label");
-  d.since = r.number("since");
+  r.fill(d);
   const std::string name = r.text("body");
   if (name.empty()) {
     if (!r.has("from") || !r.has("to")) r.fail_here("needs a body, or from and to");
-    d.from = r.vector_if("from").value_or(engine::Vec3::Zero());
-    d.to = r.vector_if("to").value_or(engine::Vec3::Zero());
   } else {
     d.body = body_of(builder, name);
     const bool told = !builder.errors.empty() && builder.is_declared(name);
@@ -255,26 +266,8 @@ void read_dimension(Builder& builder, Reader& r) {
 
 void read_overlays(Builder& builder, Reader r) {
   render::Overlays& o = builder.scene.stage.overlays;
-  o.contacts = r.boolean("contacts");
-  o.forces = r.boolean("forces");
-  o.caption = r.boolean("caption");
-  o.traces = r.boolean("traces");
-  o.vehicle_paths = r.boolean("vehicle_paths");
-  o.wheel_traces = r.boolean("wheel_traces");
-  o.disclaimer = r.boolean("disclaimer");
-  o.scale_bar = r.boolean("scale_bar");
-  o.newtons_per_metre = r.number("force_scale");
-  o.legend = r.boolean("legend");
-  o.contact_history = r.boolean("contact_history");
-  o.contact_colour = static_cast<render::ContactColour>(r.choice("contact_colour"));
-  o.ghost_interval = r.number_if("ghost_interval").value_or(0);
-  o.ghost_distance = r.number_if("ghost_distance").value_or(0);
-  o.velocities = r.boolean("velocities");
-  o.velocity_scale = r.number("velocity_scale");
-  o.speed_chart = r.boolean("speed_chart");
-  o.energy_chart = r.boolean("energy_chart");
+  r.fill(o);
   for (Reader& dimension : r.tables("dimension")) read_dimension(builder, dimension);
-  o.trace_bodies = r.texts("trace_bodies");
   for (const std::string& name : o.trace_bodies) {
     const bool told = !builder.errors.empty() && builder.is_declared(name);
     if (builder.body_index(name) >= 0 || told) continue;
@@ -292,19 +285,17 @@ void read_overlays(Builder& builder, Reader r) {
 
 void read_output(Builder& builder, Reader r) {
   Output& out = builder.scene.output;
-  out.width = r.integer("width");
-  out.height = r.integer("height");
-  out.fps = r.number("fps");
-  out.quality = split_choices(r.section().find("quality")->choices)[static_cast<std::size_t>(r.choice("quality"))];
+  r.fill(out);
   for (const char* key : {"width", "height"}) {
     if (r.integer(key) % 2 != 0) r.fail(key, "must be even; the video's colour is stored for pairs of pixels");
   }
   for (Reader& still : r.tables("still")) {
-    const std::string camera = still.text("camera");
-    if (!camera.empty()) check_camera_name(builder, still, camera);
-    out.stills.push_back({still.number("time"), camera, still.has("card") ? still.integer("card") - 1 : -1});
+    Output::Still& drawn = out.stills.emplace_back();
+    still.fill(drawn);
+    if (!drawn.camera.empty()) check_camera_name(builder, still, drawn.camera);
+    if (still.has("card")) drawn.card = still.integer("card") - 1;
     const int cards = static_cast<int>(builder.scene.stage.cards.size());
-    if (out.stills.back().card >= cards) still.fail("card", fmt::format("must be one of the scene's {} cards", cards));
+    if (drawn.card >= cards) still.fail("card", fmt::format("must be one of the scene's {} cards", cards));
   }
 }
 
@@ -329,25 +320,20 @@ void read_ground_picture(Builder& builder, Reader& r, render::RoadLook& look) {
   const engine::Vec3 corner = r.vector("picture_corner");
   look.picture_x = corner.x();
   look.picture_y = corner.y();
-  look.picture_width = r.number("picture_width");
-  look.picture_turn = r.number("picture_heading");
 }
 
 void read_road_and_sky(Builder& builder, Reader road, Reader sky) {
   render::RoadLook& look = builder.scene.stage.road;
+  road.fill(look);
   look.road = road.choice("kind") == 0;
   const engine::Ground& ground = builder.scene.model.ground;
   // the drawn plane hides what dips below it: where only a terrain is the ground, it lies under all of that
   look.height = ground.plane || !ground.terrain ? ground.height : ground.terrain->bounds().lower.z() - 0.02;
-  look.width = road.number("width");
-  look.centre_y = road.number("centre_y");
-  look.lanes = road.integer("lanes");
   look.metre_grid = road.boolean("grid") || !look.road;
   look.zebra = road.has("zebra");
-  if (look.zebra) look.zebra_x = road.number("zebra");
   if (road.has("picture")) read_ground_picture(builder, road, look);
-  builder.scene.stage.sky = {sky.number("sun_azimuth"), sky.number("sun_elevation"), sky.number("haze")};
-  builder.scene.stage.north = sky.number_if("north");
+  sky.fill(builder.scene.stage.sky);
+  sky.fill(builder.scene.stage);
 }
 
 }  // namespace
@@ -393,7 +379,7 @@ void read_film(Builder& builder, Reader& scene) {
   for (Reader& camera : scene.tables("camera")) read_camera(builder, camera);
   if (builder.scene.stage.cameras.empty()) builder.scene.stage.cameras.push_back(overview(builder.scene.model));
   for (Reader& shot : scene.tables("shot")) read_shot(builder, shot);
-  for (Reader& card : scene.tables("card")) read_card(builder, card);
+  for (Reader& card : scene.tables("card")) card.fill(builder.scene.stage.cards.emplace_back());
   read_overlays(builder, section("overlays", kOverlaysSection));
   read_output(builder, section("output", kOutputSection));
   read_road_and_sky(builder, section("road", kRoadSection), section("sky", kSkySection));

@@ -9,7 +9,8 @@ namespace {
 const Key kPatchKeys[] = {
     {"from", Type::vector2, Dimension::length, kRequired, "World x, y of a corner."},
     {"to", Type::vector2, Dimension::length, kRequired, "World x, y of the opposite corner."},
-    {"friction", Type::schedule, Dimension::none, kRequired, "Coulomb coefficient: 0.8 dry, 0.5 wet, 0.1 ice.", kNotNegative},
+    bound<&engine::GroundPatch::friction>(
+        {"friction", Type::schedule, Dimension::none, kRequired, "Coulomb coefficient: 0.8 dry, 0.5 wet, 0.1 ice.", kNotNegative}),
 };
 const Section kPatchSection{"ground.patch", "[[ground.patch]]",
                             "A rectangle with a friction of its own; later ones lie over earlier ones.", kPatchKeys};
@@ -17,12 +18,13 @@ const Section kPatchSection{"ground.patch", "[[ground.patch]]",
 const Key kKeys[] = {
     {"kind", Type::choice, Dimension::none, "'plane'", "An infinite plane z = height, or none (free fall, or terrain only).", kAny,
      "plane|none"},
-    {"height", Type::number, Dimension::length, "'0 m'", "Height of the plane."},
+    bound<&engine::Ground::height>({"height", Type::number, Dimension::length, "'0 m'", "Height of the plane."}),
     {"friction", Type::schedule, Dimension::none, "1",
      "Coulomb coefficient of the ground. Of two objects the smaller acts, so 1 leaves it to the other.", kNotNegative},
     {"restitution", Type::schedule, Dimension::none, "0", "Restitution of the ground. Of two objects the larger acts.", kShare},
-    {"stiffness", Type::schedule, Dimension::stiffness, "'1000 MN/m'",
-     "S of the compliant contact law; two surfaces act in series.", kPositive},
+    bound<&engine::Ground::surface, &engine::SurfaceProperties::stiffness>(
+        {"stiffness", Type::schedule, Dimension::stiffness, "'1000 MN/m'",
+         "S of the compliant contact law; two surfaces act in series.", kPositive}),
     {"patch", Type::tables, Dimension::none, "", "Where the road is wet or icy.", kAny, {}, &kPatchSection},
     {"terrain", Type::path, Dimension::none, "", "A mesh file in world axes (z up), besides or in place of the plane."},
     CRASHREEL_MESH_KEYS,
@@ -36,14 +38,13 @@ void read_ground(Builder& builder, std::optional<Reader> reader) {
   Reader r = reader ? *reader : Reader(empty_table(), kGroundSection, "ground", builder.errors);
   engine::Ground& ground = builder.scene.model.ground;
   ground.plane = r.choice("kind") == 0;
-  ground.height = r.number("height");
+  r.fill(ground);
   ground.surface.friction_body = ground.surface.friction_ground = r.schedule("friction");
   ground.surface.restitution_body = ground.surface.restitution_ground = r.schedule("restitution");
-  ground.surface.stiffness = r.schedule("stiffness");
   for (Reader& patch : r.tables("patch")) {
     const engine::Vec3 p = patch.vector("from"), q = patch.vector("to");
     if (p.x() == q.x() || p.y() == q.y()) patch.fail("to", "must differ from the other corner in x and in y");
-    ground.patches.push_back({p.cwiseMin(q), p.cwiseMax(q), patch.schedule("friction")});
+    patch.fill(ground.patches.emplace_back(engine::GroundPatch{p.cwiseMin(q), p.cwiseMax(q)}));
   }
   if (r.has("terrain")) {
     if (const auto mesh = in_frame(builder, import_mesh(builder, r, "terrain"), given_frame(r))) {

@@ -7,16 +7,18 @@ namespace {
 const Key kKeys[] = {
     {"a", Type::text, Dimension::none, kRequired, "A vehicle or a body with a mesh."},
     {"b", Type::text, Dimension::none, kRequired, "The other."},
-    {"penetration_time", Type::number, Dimension::time, "'0.03 s'",
-     "From the first touch to the exchange of the impulse: the depth of penetration.", kNotNegative},
-    {"point", Type::vector3, Dimension::length, "",
-     "Where the first impulse acts, in the world. Left out: the centroid of the overlap at that moment."},
+    bound<&engine::ImpactSettings::penetration_time>(
+        {"penetration_time", Type::number, Dimension::time, "'0.03 s'",
+         "From the first touch to the exchange of the impulse: the depth of penetration.", kNotNegative}),
+    bound<&engine::ImpactSettings::point_W>(
+        {"point", Type::vector3, Dimension::length, "",
+         "Where the first impulse acts, in the world. Left out: the centroid of the overlap at that moment."}),
     {"normal", Type::vector3, Dimension::none, "",
      "Of the contact plane of the first impulse, in the world, either sign. Left out: from the line in which the surfaces cut."},
-    {"friction", Type::number, Dimension::none, "", "In the contact plane. Left out: the smaller of the two bodies'.",
-     kNotNegative},
-    {"restitution", Type::number, Dimension::none, "", "Multiplies the whole impulse. Left out: the larger of the two bodies'.",
-     kShare},
+    bound<&engine::ImpactSettings::friction>({"friction", Type::number, Dimension::none, "",
+                                              "In the contact plane. Left out: the smaller of the two bodies'.", kNotNegative}),
+    bound<&engine::ImpactSettings::restitution>({"restitution", Type::number, Dimension::none, "",
+                                                 "Multiplies the whole impulse. Left out: the larger of the two bodies'.", kShare}),
 };
 
 }  // namespace
@@ -35,16 +37,13 @@ void read_impact(Builder& builder, Reader r) {
     if (builder.scene.model.bodies[static_cast<std::size_t>(body)].collision_model != engine::CollisionModel::kudlich_slibar)
       r.fail(key, "must ask for Kudlich-Slibar, with collision = \"kudlich_slibar\"; Default-Auto has no settings of a pair");
   }
-  impact.penetration_time = r.number("penetration_time");
-  impact.point_W = r.vector_if("point");
+  r.fill(impact);
   if (const auto normal = r.vector_if("normal")) {
     if (normal->norm() < 1e-9)
       r.fail("normal", "must have a direction");
     else
       impact.normal_W = normal->normalized();
   }
-  if (r.has("friction")) impact.friction = r.number("friction");
-  if (r.has("restitution")) impact.restitution = r.number("restitution");
   builder.scene.model.impacts.push_back(impact);
 }
 

@@ -7,15 +7,17 @@
 namespace scenes {
 namespace {
 
-#define CRASHREEL_ANGLE_KEYS                                                                                             \
-  {"range", Type::range, Dimension::angle, "", "Lower and upper limit of the angle. Left out: free."},                   \
-      {"stiffness", Type::number, Dimension::angular_stiffness, "", "Resistive spring torque per angle.", kNotNegative}, \
-      {"rest", Type::number, Dimension::angle, "", "Angle at which the spring is slack."},                               \
-      {"damping", Type::number, Dimension::angular_damping, "", "Resistance per angular speed.", kNotNegative}, {        \
-    "friction_torque", Type::number, Dimension::torque, "", "Constant resistance against turning.", kNotNegative         \
-  }
+constexpr Key kStiffness = bound<&engine::JointCoordinate::stiffness>(
+    {"stiffness", Type::number, Dimension::angular_stiffness, "", "Resistive spring torque per angle.", kNotNegative});
+constexpr Key kRest =
+    bound<&engine::JointCoordinate::rest>({"rest", Type::number, Dimension::angle, "", "Angle at which the spring is slack."});
+constexpr Key kDamping = bound<&engine::JointCoordinate::damping>(
+    {"damping", Type::number, Dimension::angular_damping, "", "Resistance per angular speed.", kNotNegative});
+constexpr Key kFriction = bound<&engine::JointCoordinate::friction>(
+    {"friction_torque", Type::number, Dimension::torque, "", "Constant resistance against turning.", kNotNegative});
+constexpr Key kRange{"range", Type::range, Dimension::angle, "", "Lower and upper limit of the angle. Left out: free."};
 
-const Key kAngleKeys[] = {CRASHREEL_ANGLE_KEYS};
+const Key kAngleKeys[] = {kRange, kStiffness, kRest, kDamping, kFriction};
 const Section kAngleSection{
     "joint.angle", "[joint.x]",
     "One articulation angle, also [joint.y], [joint.z]: swing about x, swing about y, twist about z of the joint frame. "
@@ -24,12 +26,17 @@ const Section kAngleSection{
 
 const Key kSlideKeys[] = {
     {"range", Type::range, Dimension::length, "", "Lower and upper limit of the way. Left out: free."},
-    {"stiffness", Type::number, Dimension::stiffness, "0", "Resistive spring force per way.", kNotNegative},
-    {"rest", Type::number, Dimension::length, "0", "Way at which the spring is slack."},
-    {"damping", Type::number, Dimension::damping, "0", "Resistance per speed.", kNotNegative},
-    {"friction", Type::number, Dimension::force, "0", "Constant resistance against sliding.", kNotNegative},
-    {"stop_stiffness", Type::number, Dimension::stiffness, "0",
-     "Of the stops at the ends of the range, compliant contact law only; 0: rigid, as they are with Default-Auto.", kNotNegative},
+    bound<&engine::JointCoordinate::stiffness>(
+        {"stiffness", Type::number, Dimension::stiffness, "0", "Resistive spring force per way.", kNotNegative}),
+    bound<&engine::JointCoordinate::rest>({"rest", Type::number, Dimension::length, "0", "Way at which the spring is slack."}),
+    bound<&engine::JointCoordinate::damping>(
+        {"damping", Type::number, Dimension::damping, "0", "Resistance per speed.", kNotNegative}),
+    bound<&engine::JointCoordinate::friction>(
+        {"friction", Type::number, Dimension::force, "0", "Constant resistance against sliding.", kNotNegative}),
+    bound<&engine::JointCoordinate::stop_stiffness>(
+        {"stop_stiffness", Type::number, Dimension::stiffness, "0",
+         "Of the stops at the ends of the range, compliant contact law only; 0: rigid, as they are with Default-Auto.",
+         kNotNegative}),
 };
 const Section kSlideSection{
     "joint.slide", "[joint.slide]",
@@ -37,10 +44,11 @@ const Section kSlideSection{
 
 const Key kKeys[] = {
     {"name", Type::text, Dimension::none, "''", "Name in messages; left out: parent-child."},
-    {"kind", Type::choice, Dimension::none, "'spherical'",
-     "What it leaves: turns about axis; a cardan cross; all turns; all with limits; nothing; sliding along axis; sliding and "
-     "turning.",
-     kAny, "revolute|universal|spherical|ragdoll|fixed|prismatic|cylindrical"},
+    bound<&engine::Joint::kind>(
+        {"kind", Type::choice, Dimension::none, "'spherical'",
+         "What it leaves: turns about axis; a cardan cross; all turns; all with limits; nothing; sliding along axis; sliding and "
+         "turning.",
+         kAny, "revolute|universal|spherical|ragdoll|fixed|prismatic|cylindrical"}),
     {"parent", Type::text, Dimension::none, "'world'", "A body, or the world."},
     {"child", Type::text, Dimension::none, kRequired, "The body that hangs on the parent."},
     {"at", Type::vector3, Dimension::length, "", "The joint's centre at the start, in the world. Left out: the child's centre."},
@@ -50,9 +58,15 @@ const Key kKeys[] = {
      "of a cardan cross."},
     {"second_axis", Type::vector3, Dimension::none, "",
      "World direction of the joint frame's x, at right angles to axis: the child's arm of a cardan cross."},
-    CRASHREEL_ANGLE_KEYS,
-    {"stop_stiffness", Type::number, Dimension::angular_stiffness, "0",
-     "Of the stops at the ends of the ranges, compliant contact law only; 0: rigid, as they are with Default-Auto.", kNotNegative},
+    kRange,
+    kStiffness,
+    kRest,
+    kDamping,
+    kFriction,
+    bound<&engine::JointCoordinate::stop_stiffness>(
+        {"stop_stiffness", Type::number, Dimension::angular_stiffness, "0",
+         "Of the stops at the ends of the ranges, compliant contact law only; 0: rigid, as they are with Default-Auto.",
+         kNotNegative}),
     {"x", Type::table, Dimension::none, "", "The first swing angle.", kAny, {}, &kAngleSection},
     {"y", Type::table, Dimension::none, "", "The second swing angle; the angle of a revolute.", kAny, {}, &kAngleSection},
     {"z", Type::table, Dimension::none, "", "The twist.", kAny, {}, &kAngleSection},
@@ -101,28 +115,12 @@ const Section kJointSection{"joint", "[[joint]]",
 engine::JointCoordinate read_angle(Reader& r, engine::JointCoordinate out) {
   if (r.has("range"))
     std::tie(out.lower, out.upper) = [](std::array<double, 2> a) { return std::pair{a[0], a[1]}; }(r.range("range"));
-  if (r.has("stiffness")) out.stiffness = r.number("stiffness");
-  if (r.has("rest")) out.rest = r.number("rest");
-  if (r.has("damping")) out.damping = r.number("damping");
-  if (r.has("friction_torque")) out.friction = r.number("friction_torque");
+  r.fill(out);
   return out;
 }
 
 namespace {
 
-engine::JointCoordinate read_slide(Reader& r) {
-  engine::JointCoordinate out;
-  if (r.has("range"))
-    std::tie(out.lower, out.upper) = [](std::array<double, 2> a) { return std::pair{a[0], a[1]}; }(r.range("range"));
-  out.stiffness = r.number("stiffness");
-  out.rest = r.number("rest");
-  out.damping = r.number("damping");
-  out.friction = r.number("friction");
-  out.stop_stiffness = r.number("stop_stiffness");
-  return out;
-}
-
-/// What resists or ends a motion that this kind of joint does not have.
 void refuse_what_is_not_free(Reader& r, const engine::Joint& joint) {
   const engine::JointType& type = engine::type_of(joint.kind);
   const auto free = engine::joint_coordinates(joint, {}, {}).free;
@@ -140,7 +138,7 @@ void refuse_what_is_not_free(Reader& r, const engine::Joint& joint) {
 
 void read_joint(Builder& builder, Reader r) {
   engine::Joint joint;
-  joint.kind = static_cast<engine::JointKind>(r.choice("kind"));
+  r.fill(joint);
   joint.parent = find_body(builder, r, "parent");
   joint.child = find_body(builder, r, "child");
   joint.name = r.has("name") ? r.text("name") : r.text("parent") + "-" + r.text("child");
@@ -155,9 +153,8 @@ void read_joint(Builder& builder, Reader r) {
   joint.angles.fill(read_angle(r, {}));
   for (std::size_t i = 0; i < kAngleNames.size(); ++i) {
     if (auto angle = r.table(kAngleNames[i])) joint.angles[i] = read_angle(*angle, joint.angles[i]);
-    joint.angles[i].stop_stiffness = r.number("stop_stiffness");
   }
-  if (auto slide = r.table("slide")) joint.slide = read_slide(*slide);
+  if (auto slide = r.table("slide")) joint.slide = read_angle(*slide, {});
   builder.scene.model.joints.push_back(std::move(joint));
 }
 

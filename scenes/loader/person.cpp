@@ -26,13 +26,19 @@ const Key kRangeKeys[] = {{"*", Type::range, Dimension::angle, "", "Range of mot
 const Section kRangesSection{"person.joint.ranges", "[person.joint.NAME.ranges]", "Other ranges of motion.", kRangeKeys};
 
 const Key kJointKeys[] = {
-    {"damping", Type::number, Dimension::angular_damping, "", "Resistance per angular speed.", kNotNegative},
-    {"friction_torque", Type::number, Dimension::torque, "", "Constant resistance against turning.", kNotNegative},
-    {"stiffness", Type::number, Dimension::angular_stiffness, "", "Resistive spring towards standing.", kNotNegative},
-    {"stop_stiffness", Type::number, Dimension::angular_stiffness, "",
-     "Of the stops at the ends of the ranges, compliant contact law only; 0: rigid, as they are with Default-Auto.", kNotNegative},
-    {"passive_share", Type::number, Dimension::none, "",
-     "Share of an adult's passive elastic torque in hip, knee or ankle; 0: none.", kNotNegative},
+    bound<&FigureJoint::damping>(
+        {"damping", Type::number, Dimension::angular_damping, "", "Resistance per angular speed.", kNotNegative}),
+    bound<&FigureJoint::friction_torque>(
+        {"friction_torque", Type::number, Dimension::torque, "", "Constant resistance against turning.", kNotNegative}),
+    bound<&FigureJoint::stiffness>(
+        {"stiffness", Type::number, Dimension::angular_stiffness, "", "Resistive spring towards standing.", kNotNegative}),
+    bound<&FigureJoint::stop_stiffness>(
+        {"stop_stiffness", Type::number, Dimension::angular_stiffness, "",
+         "Of the stops at the ends of the ranges, compliant contact law only; 0: rigid, as they are with Default-Auto.",
+         kNotNegative}),
+    bound<&FigureJoint::passive_share>({"passive_share", Type::number, Dimension::none, "",
+                                        "Share of an adult's passive elastic torque in hip, knee or ankle; 0: none.",
+                                        kNotNegative}),
     {"ranges", Type::table, Dimension::none, "", "Ranges of motion.", kAny, {}, &kRangesSection},
 };
 const Section kJointSectionOfPerson{"person.joint", "[person.joint.NAME]",
@@ -77,10 +83,12 @@ const Key kKeys[] = {
     {"grip_force", Type::number, Dimension::force, "'400 N'", "Above it a hand lets go (mean over 10 ms).", kPositive},
     {"pedal_force", Type::number, Dimension::force, "'400 N'", "Above it a foot leaves its pedal or rest.", kPositive},
     {"seat_force", Type::number, Dimension::force, "'1.5 kN'", "Above it the rider leaves the saddle.", kPositive},
-    {"zero_condition", Type::boolean, Dimension::none, "true", "Keeps pose and velocity at no cost until something touches it."},
+    bound<&engine::Person::zero_condition>({"zero_condition", Type::boolean, Dimension::none, "true",
+                                            "Keeps pose and velocity at no cost until something touches it."}),
     {"appearance", Type::choice, Dimension::none, "'skin'", "Bare ellipsoids, the figure with its joints closed, or the wire grid.",
      kAny, "segments|skin|raster"},
-    {"collision", Type::choice, Dimension::none, "'default_auto'", "Collision model the person asks for.", kAny, "default_auto"},
+    bound<&engine::Body::collision_model>({"collision", Type::choice, Dimension::none, "'default_auto'",
+                                           "Collision model the person asks for.", kAny, "default_auto"}),
     CRASHREEL_SURFACE_KEYS,
     {"segment", Type::map, Dimension::none, "", "Changes to single parts.", kAny, {}, &kSegmentSection},
     {"joint", Type::map, Dimension::none, "", "Changes to single joints.", kAny, {}, &kJointSectionOfPerson},
@@ -139,11 +147,7 @@ void change_joints(Reader& r, Figure& figure) {
                                      : fmt::format("is no joint of this person; did you mean \"{}\"?", guess));
       continue;
     }
-    if (change.has("damping")) at->damping = change.number("damping");
-    if (change.has("friction_torque")) at->friction_torque = change.number("friction_torque");
-    if (change.has("stiffness")) at->stiffness = change.number("stiffness");
-    if (change.has("stop_stiffness")) at->stop_stiffness = change.number("stop_stiffness");
-    if (change.has("passive_share")) at->passive_share = change.number("passive_share");
+    change.fill(*at);
     if (auto ranges = change.table("ranges")) change_ranges(*ranges, *at);
   }
 }
@@ -311,7 +315,6 @@ void read_person(Builder& builder, Reader r) {
                    .value_or(r.number("speed") * engine::Vec3(engine::math::cos(heading), engine::math::sin(heading), 0));
   const engine::Vec3 w = r.vector("angular_velocity");
   const engine::Vec3 cg = centre_of_gravity(figure, X_WB);
-  const auto collision = static_cast<engine::CollisionModel>(r.choice("collision"));
 
   const int first = static_cast<int>(model.bodies.size());
   for (std::size_t i = 0; i < figure.segments.size(); ++i) {
@@ -323,7 +326,7 @@ void read_person(Builder& builder, Reader r) {
     body.shape = s.shape;
     body.surface = surfaces[i];
     if (!surfaces[i].stiffness_given) body.surface.stiffness = s.stiffness;
-    body.collision_model = collision;
+    r.fill(body);
     body.X_WB = X_WB[i];
     body.V_WB = {v + w.cross(X_WB[i].p - cg), w};
     body.person = static_cast<int>(model.persons.size());
@@ -342,7 +345,7 @@ void read_person(Builder& builder, Reader r) {
   }
   person.hips = first;
   person.stature = size.stature;
-  person.zero_condition = r.boolean("zero_condition");
+  r.fill(person);
   if (mount >= 0) hold_on(builder, r, mount, person);
   add_actor(builder, person.name, r.choice("appearance"), first, figure, X_WB);
   builder.scene.stage.speeds.emplace_back(first, person.name);

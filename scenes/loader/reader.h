@@ -60,6 +60,13 @@ class Reader {
   engine::Mat3 inertia(std::string_view key);
   std::array<float, 3> colour(std::string_view key);  // linear RGB
 
+  /// Sets the fields of the object that keys of the section are bound to (bound.h); those with neither value nor default stay.
+  template <class T>
+  void fill(T& object);
+  /// One of them. Of a choice an enumeration takes its place in the list, a text the word, a truth whether it is the second.
+  template <class T>
+  void read(std::string_view key, T& out);
+
   std::optional<Reader> table(std::string_view key);
   std::vector<Reader> tables(std::string_view key);
   /// Tables or values of a map, by name.

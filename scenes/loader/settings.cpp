@@ -18,42 +18,53 @@ const Section kEffectsSection{"simulation.effects", "[simulation.effects]", "Phy
 constexpr double kRightAngle = 1.5707963267948966;
 
 const Key kKeys[] = {
-    {"duration", Type::number, Dimension::time, "'4 s'", "Simulated time.", Range{0, 600, true}},
+    bound<&engine::Settings::duration>(
+        {"duration", Type::number, Dimension::time, "'4 s'", "Simulated time.", Range{0, 600, true}}),
     {"profile", Type::choice, Dimension::none, "'standard'",
      "Step and solver tolerance where the scene does not give them: draft 4 ms and 0.1 mm/s, standard 1 ms and 0.01 mm/s, fine "
      "0.25 ms and 0.001 mm/s, reference 0.0625 ms and 0.0001 mm/s.",
      kAny, "draft|standard|fine|reference"},
     {"step", Type::number, Dimension::time, "'1 ms'", "Time step.", Range{0, 0.1, true}, {}, nullptr, "1 ms is a good start"},
-    {"record_interval", Type::number, Dimension::time, "'5 ms'", "Time between recorded instants, rounded to whole steps.",
-     Range{0, 1, true}},
-    {"scheme", Type::choice, Dimension::none, "'stepping'",
-     "Integration. stepping: Runge-Kutta 4 for the smooth motion, contacts, limits and joint resistance implicit at the end of the "
-     "step. "
-     "rk4: joint resistance and compliant contacts too are evaluated anew in each of four stages. "
-     "adaptive: rk4 with steps no longer than `step`, divided until the error is below `adaptive_tolerance`.",
-     kAny, "stepping|rk4|adaptive"},
-    {"adaptive_tolerance", Type::number, Dimension::length, "'0.01 mm'",
-     "Error of one step's smooth motion, and a tenth of the penetration it may leave; scheme adaptive.", kPositive},
-    {"contact_law", Type::choice, Dimension::none, "'persons_yield'",
-     "persons_yield: a person's contacts and the ends of its joints' ranges by the compliant law, all else by default_auto. "
-     "default_auto: surfaces do not give way; impulses at first touch, at all touching points at once, restitution is a ratio of "
-     "speeds. compliant: force = stiffness x depth while closing, restitution x stiffness x depth while parting, so that "
-     "restitution is the share of energy that comes back.",
-     kAny, "default_auto|compliant|persons_yield"},
+    bound<&engine::Settings::record_interval>({"record_interval", Type::number, Dimension::time, "'5 ms'",
+                                               "Time between recorded instants, rounded to whole steps.", Range{0, 1, true}}),
+    bound<&engine::Settings::scheme>(
+        {"scheme", Type::choice, Dimension::none, "'stepping'",
+         "Integration. stepping: Runge-Kutta 4 for the smooth motion, contacts, limits and joint resistance implicit at the end of "
+         "the "
+         "step. "
+         "rk4: joint resistance and compliant contacts too are evaluated anew in each of four stages. "
+         "adaptive: rk4 with steps no longer than `step`, divided until the error is below `adaptive_tolerance`.",
+         kAny, "stepping|rk4|adaptive"}),
+    bound<&engine::Settings::adaptive_tolerance>(
+        {"adaptive_tolerance", Type::number, Dimension::length, "'0.01 mm'",
+         "Error of one step's smooth motion, and a tenth of the penetration it may leave; scheme adaptive.", kPositive}),
+    bound<&engine::Settings::contact_law>(
+        {"contact_law", Type::choice, Dimension::none, "'persons_yield'",
+         "persons_yield: a person's contacts and the ends of its joints' ranges by the compliant law, all else by default_auto. "
+         "default_auto: surfaces do not give way; impulses at first touch, at all touching points at once, restitution is a ratio "
+         "of "
+         "speeds. compliant: force = stiffness x depth while closing, restitution x stiffness x depth while parting, so that "
+         "restitution is the share of energy that comes back.",
+         kAny, "default_auto|compliant|persons_yield"}),
     {"gravity", Type::number, Dimension::acceleration, "'9.81 m/s^2'", "Acceleration of gravity; 0 for none.", kNotNegative},
     {"slope", Type::number, Dimension::angle, "'0 deg'",
      "Tilts the whole world: the ground stays z = height and gravity turns, so that +x runs downhill at this angle.",
      between(-kRightAngle, kRightAngle)},
     {"solver_tolerance", Type::number, Dimension::speed, "'0.01 mm/s'", "Residual at which the contact solver stops.", kPositive},
-    {"touch_distance", Type::number, Dimension::length, "'0.02 mm'",
-     "Rigid surfaces that close in exchange impulses from this distance on.", between(1e-9, 1e-3)},
-    {"contacts_per_pair", Type::integer, Dimension::none, "10",
-     "Points at most at which two meshes, or a mesh and the ground, hold each other at a time.", between(3, 100)},
-    {"locate_events", Type::boolean, Dimension::none, "true",
-     "Place impacts (and with rk4 touch, turn and separation of compliant contacts) inside the step."},
-    {"sleep", Type::boolean, Dimension::none, "false",
-     "What moves less than 0.02 mm in a second is left alone until something comes near: long waits cost little."},
-    {"stop_at_rest", Type::boolean, Dimension::none, "true", "End the run when everything has come to rest."},
+    bound<&engine::Settings::touch_distance>({"touch_distance", Type::number, Dimension::length, "'0.02 mm'",
+                                              "Rigid surfaces that close in exchange impulses from this distance on.",
+                                              between(1e-9, 1e-3)}),
+    bound<&engine::Settings::contacts_per_pair>(
+        {"contacts_per_pair", Type::integer, Dimension::none, "10",
+         "Points at most at which two meshes, or a mesh and the ground, hold each other at a time.", between(3, 100)}),
+    bound<&engine::Settings::locate_events>(
+        {"locate_events", Type::boolean, Dimension::none, "true",
+         "Place impacts (and with rk4 touch, turn and separation of compliant contacts) inside the step."}),
+    bound<&engine::Settings::sleep>(
+        {"sleep", Type::boolean, Dimension::none, "false",
+         "What moves less than 0.02 mm in a second is left alone until something comes near: long waits cost little."}),
+    bound<&engine::Settings::stop_at_rest>(
+        {"stop_at_rest", Type::boolean, Dimension::none, "true", "End the run when everything has come to rest."}),
     {"effects", Type::table, Dimension::none, "", "Effects forced on or off.", kAny, {}, &kEffectsSection},
 };
 
@@ -75,23 +86,14 @@ void read_settings(Builder& builder, std::optional<Reader> reader) {
   // an absent section is an empty one: the defaults of the table apply
   Reader r = reader ? *reader : Reader(empty_table(), kSimulationSection, "simulation", builder.errors);
   engine::Settings& s = builder.scene.model.settings;
-  s.duration = r.number("duration");
+  r.fill(s);
   const Profile& profile = kProfiles[r.choice("profile")];
   s.step = r.has("step") ? r.number("step") : profile.step;
-  s.record_interval = r.number("record_interval");
-  s.scheme = static_cast<engine::Scheme>(r.choice("scheme"));
-  s.contact_law = static_cast<engine::ContactLaw>(r.choice("contact_law"));
   const double g = r.number("gravity");
   const double slope = r.number("slope");
   s.gravity = {g * engine::math::sin(slope), 0, -g * engine::math::cos(slope)};
   if (slope == 0) s.gravity = {0, 0, -g};
-  s.adaptive_tolerance = r.number("adaptive_tolerance");
   s.solver_tolerance = r.has("solver_tolerance") ? r.number("solver_tolerance") : profile.solver_tolerance;
-  s.touch_distance = r.number("touch_distance");
-  s.contacts_per_pair = r.integer("contacts_per_pair");
-  s.locate_events = r.boolean("locate_events");
-  s.sleep = r.boolean("sleep");
-  s.stop_at_rest = r.boolean("stop_at_rest");
   if (s.step > 0 && s.record_interval < s.step) r.fail("record_interval", "must not be shorter than the step");
   if (auto effects = r.table("effects")) {
     for (const Entry& entry : effects->value().entries)

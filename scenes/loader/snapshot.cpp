@@ -22,17 +22,18 @@ const Key kLimitKeys[] = {
 const Section kLimitsSection{"snapshot.limits", "[snapshot.limits]", "How far a picture may be from its baseline.", kLimitKeys};
 
 const Key kMaskKeys[] = {
-    {"camera", Type::text, Dimension::none, "''", "Only in pictures of this camera; left out: in all."},
-    {"left", Type::integer, Dimension::none, "0", "Pixels from the left edge.", kNotNegative},
-    {"top", Type::integer, Dimension::none, "0", "Pixels from the upper edge.", kNotNegative},
-    {"width", Type::integer, Dimension::none, kRequired, "Pixels across.", at_least(1)},
-    {"height", Type::integer, Dimension::none, kRequired, "Pixels down.", at_least(1)},
+    bound<&SnapshotMask::camera>(
+        {"camera", Type::text, Dimension::none, "''", "Only in pictures of this camera; left out: in all."}),
+    bound<&SnapshotMask::left>({"left", Type::integer, Dimension::none, "0", "Pixels from the left edge.", kNotNegative}),
+    bound<&SnapshotMask::top>({"top", Type::integer, Dimension::none, "0", "Pixels from the upper edge.", kNotNegative}),
+    bound<&SnapshotMask::width>({"width", Type::integer, Dimension::none, kRequired, "Pixels across.", at_least(1)}),
+    bound<&SnapshotMask::height>({"height", Type::integer, Dimension::none, kRequired, "Pixels down.", at_least(1)}),
 };
 const Section kMaskSection{"snapshot.mask", "[[snapshot.mask]]", "A rectangle of the picture that is not compared.", kMaskKeys};
 
 const Key kSnapshotKeys[] = {
-    {"width", Type::integer, Dimension::none, "320", "Picture width in pixels.", between(16, 8192)},
-    {"height", Type::integer, Dimension::none, "180", "Picture height in pixels.", between(16, 8192)},
+    bound<&SnapshotTest::width>({"width", Type::integer, Dimension::none, "320", "Picture width in pixels.", between(16, 8192)}),
+    bound<&SnapshotTest::height>({"height", Type::integer, Dimension::none, "180", "Picture height in pixels.", between(16, 8192)}),
     {"limits", Type::table, Dimension::none, "", "Limits of the comparison.", kAny, {}, &kLimitsSection},
     {"mask", Type::tables, Dimension::none, "", "What is not compared.", kAny, {}, &kMaskSection},
 };
@@ -93,15 +94,14 @@ const Section kExpectSection{"expect", "[expect]",
 void read_snapshot(Builder& builder, std::optional<Reader> snapshot, std::optional<Reader> expect) {
   SnapshotTest& test = builder.scene.snapshot;
   if (snapshot) {
-    test.width = snapshot->integer("width");
-    test.height = snapshot->integer("height");
+    snapshot->fill(test);
     if (auto limits = snapshot->table("limits")) {
       for (const Entry& entry : limits->value().entries)
         if (kLimitsSection.find(entry.key)) test.limits[entry.key] = limits->number(entry.key);
     }
     for (Reader& mask : snapshot->tables("mask")) {
-      SnapshotMask out{mask.text("camera"), mask.integer("left"), mask.integer("top"), mask.integer("width"),
-                       mask.integer("height")};
+      SnapshotMask out;
+      mask.fill(out);
       const auto& cameras = builder.scene.stage.cameras;
       const auto same_name = [&out](const render::Camera& camera) { return camera.name == out.camera; };
       if (!out.camera.empty() && std::none_of(cameras.begin(), cameras.end(), same_name))

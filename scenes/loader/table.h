@@ -55,6 +55,7 @@ constexpr Range kExtent = between(1e-4, 1e3);
 constexpr double kLongestHold = 3600;
 
 struct Section;
+class Reader;
 
 constexpr std::string_view kRequired = "required";
 
@@ -69,6 +70,8 @@ struct Key {
   const Section* section = nullptr;  // of table, tables and map
   std::string_view remedy = {};      // follows the message of a value out of range
   Range usual = kAny;                // what a bare number is guessed by; kAny: `range`
+  const void* owner = nullptr;       // of a key bound to a field (bound.h): stands for the field's struct
+  void (*fill)(Reader&, std::string_view key, void* object) = nullptr;  // reads the key into that field
 };
 
 struct Section {

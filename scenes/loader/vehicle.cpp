@@ -15,28 +15,37 @@ namespace scenes {
 namespace {
 
 const Key kWheelKeys[] = {
-    {"name", Type::text, Dimension::none, kRequired, "Name, like front_left."},
-    {"at", Type::vector3, Dimension::length, kRequired, "Its centre at static load, in the mesh frame."},
-    {"radius", Type::number, Dimension::length, "'0.31 m'", "Radius of the loaded tyre.", kPositive},
-    {"width", Type::number, Dimension::length, "'0.2 m'", "Width of the tyre.", kPositive},
-    {"spring", Type::number, Dimension::stiffness, "'25 kN/m'", "Suspension, at the wheel.", kPositive},
-    {"anti_roll", Type::number, Dimension::stiffness, "'0 N/m'",
-     "Anti-roll bar to the wheel on the other side: force at the wheel per difference of their travels.", kNotNegative},
-    {"rolling_resistance", Type::number, Dimension::none, "0",
-     "Share of the load that resists rolling: 0.01 to 0.015 for car tyres.", kNotNegative},
-    {"damper", Type::number, Dimension::damping, "'2.5 kN s/m'", "Suspension, at the wheel.", kNotNegative},
-    {"travel", Type::number, Dimension::length, "'0.1 m'", "Each way to the stop.", kPositive},
-    {"friction", Type::number, Dimension::none, "0.8", "Tyre on the road; the ground's own friction limits it too.", kNotNegative},
-    {"tyre", Type::choice, Dimension::none, "'linear'",
-     "Lateral force: linear in the slip angle up to the friction circle, or TM-Easy.", kAny, "linear|tm_easy"},
-    {"saturation_angle", Type::number, Dimension::angle, "'10 deg'",
-     "Linear tyre: the slip angle at which it reaches the friction circle.", between(0.001, 1.2)},
-    {"brake_share", Type::number, Dimension::none, "",
-     "Share of the brake force; the shares sum to 1. Left out at all wheels: by what each carries at the moment, so that all reach "
-     "their limit together.",
-     kShare},
-    {"steered", Type::boolean, Dimension::none, "false", "Turns with steer."},
-    {"driven", Type::boolean, Dimension::none, "false", "Takes its part of drive_force."},
+    bound<&engine::Wheel::name>({"name", Type::text, Dimension::none, kRequired, "Name, like front_left."}),
+    bound<&engine::Wheel::hub_B>(
+        {"at", Type::vector3, Dimension::length, kRequired, "Its centre at static load, in the mesh frame."}),
+    bound<&engine::Wheel::radius>({"radius", Type::number, Dimension::length, "'0.31 m'", "Radius of the loaded tyre.", kPositive}),
+    bound<&engine::Wheel::width>({"width", Type::number, Dimension::length, "'0.2 m'", "Width of the tyre.", kPositive}),
+    bound<&engine::Wheel::spring>(
+        {"spring", Type::number, Dimension::stiffness, "'25 kN/m'", "Suspension, at the wheel.", kPositive}),
+    bound<&engine::Wheel::anti_roll>(
+        {"anti_roll", Type::number, Dimension::stiffness, "'0 N/m'",
+         "Anti-roll bar to the wheel on the other side: force at the wheel per difference of their travels.", kNotNegative}),
+    bound<&engine::Wheel::rolling_resistance>({"rolling_resistance", Type::number, Dimension::none, "0",
+                                               "Share of the load that resists rolling: 0.01 to 0.015 for car tyres.",
+                                               kNotNegative}),
+    bound<&engine::Wheel::damper>(
+        {"damper", Type::number, Dimension::damping, "'2.5 kN s/m'", "Suspension, at the wheel.", kNotNegative}),
+    bound<&engine::Wheel::travel>({"travel", Type::number, Dimension::length, "'0.1 m'", "Each way to the stop.", kPositive}),
+    bound<&engine::Wheel::friction>({"friction", Type::number, Dimension::none, "0.8",
+                                     "Tyre on the road; the ground's own friction limits it too.", kNotNegative}),
+    bound<&engine::Wheel::tyre>({"tyre", Type::choice, Dimension::none, "'linear'",
+                                 "Lateral force: linear in the slip angle up to the friction circle, or TM-Easy.", kAny,
+                                 "linear|tm_easy"}),
+    bound<&engine::Wheel::saturation_angle>({"saturation_angle", Type::number, Dimension::angle, "'10 deg'",
+                                             "Linear tyre: the slip angle at which it reaches the friction circle.",
+                                             between(0.001, 1.2)}),
+    bound<&engine::Wheel::brake_share>({"brake_share", Type::number, Dimension::none, "",
+                                        "Share of the brake force; the shares sum to 1. Left out at all wheels: by what each "
+                                        "carries at the moment, so that all reach "
+                                        "their limit together.",
+                                        kShare}),
+    bound<&engine::Wheel::steered>({"steered", Type::boolean, Dimension::none, "false", "Turns with steer."}),
+    bound<&engine::Wheel::driven>({"driven", Type::boolean, Dimension::none, "false", "Takes its part of drive_force."}),
     {"mesh", Type::path, Dimension::none, "", "Its own mesh, like twin tyres, in place of the vehicle's wheel_mesh."},
 };
 const Section kWheelSection{"vehicle.wheel", "[[vehicle.wheel]]", "A wheel.", kWheelKeys};
@@ -52,15 +61,19 @@ const Key kBrakeKeys[] = {
 const Section kBrakeSection{"vehicle.brake", "[vehicle.brake]", "One braking by the driver.", kBrakeKeys};
 
 const Key kDriverKeys[] = {
-    {"action", Type::choice, Dimension::none, "'brake'", "What is done. To coast needs no act.", kAny, "brake|accelerate"},
+    bound<&engine::DriverPhase::drives>(
+        {"action", Type::choice, Dimension::none, "'brake'", "What is done. To coast needs no act.", kAny, "brake|accelerate"}),
     {"from", Type::number, Dimension::time, "'0 s'", "When it begins; may be negative: before the scene begins."},
     {"lag", Type::number, Dimension::time, "'0 s'", "Reaction and lag until the first force.", kNotNegative},
-    {"build_up", Type::number, Dimension::time, "'0.2 s'", "From the first force to the full one.", kNotNegative},
-    {"until", Type::number, Dimension::time, "", "When it ends; left out: never."},
-    {"level", Type::number, Dimension::acceleration, "'0.7 g'",
-     "That the full force would give this mass; the tyres may give less. Negative acceleration reverses."},
-    {"wheels", Type::numbers, Dimension::none, "",
-     "Share of the force at each wheel in the order of the file; left out: as brake_share says, or evenly at the driven wheels."},
+    bound<&engine::DriverPhase::build_up>(
+        {"build_up", Type::number, Dimension::time, "'0.2 s'", "From the first force to the full one.", kNotNegative}),
+    bound<&engine::DriverPhase::until>({"until", Type::number, Dimension::time, "", "When it ends; left out: never."}),
+    bound<&engine::DriverPhase::force>(
+        {"level", Type::number, Dimension::acceleration, "'0.7 g'",
+         "That the full force would give this mass; the tyres may give less. Negative acceleration reverses."}),
+    bound<&engine::DriverPhase::share>({"wheels", Type::numbers, Dimension::none, "",
+                                        "Share of the force at each wheel in the order of the file; left out: as brake_share says, "
+                                        "or evenly at the driven wheels."}),
 };
 const Section kDriverSection{"vehicle.driver", "[[vehicle.driver]]",
                              "One act of the driver. Acts may overlap: their forces add up.", kDriverKeys};
@@ -71,9 +84,12 @@ const Key kPathPointKeys[] = {
 const Section kPathPointSection{"vehicle.path.point", "[[vehicle.path.point]]", "A point of the path, in order.", kPathPointKeys};
 const Key kPathKeys[] = {
     {"point", Type::tables, Dimension::none, "", "Two points or more.", kAny, {}, &kPathPointSection},
-    {"preview", Type::number, Dimension::time, "'0.6 s'", "How far the driver looks ahead, at least two metres.", kPositive},
-    {"largest", Type::number, Dimension::angle, "'35 deg'", "Of the wheel angle.", between(0.01, 1.2)},
-    {"rate", Type::number, Dimension::angular_speed, "'35 deg/s'", "At which the wheel angle may change.", kPositive},
+    bound<&engine::FollowedPath::preview>(
+        {"preview", Type::number, Dimension::time, "'0.6 s'", "How far the driver looks ahead, at least two metres.", kPositive}),
+    bound<&engine::FollowedPath::largest>(
+        {"largest", Type::number, Dimension::angle, "'35 deg'", "Of the wheel angle.", between(0.01, 1.2)}),
+    bound<&engine::FollowedPath::rate>(
+        {"rate", Type::number, Dimension::angular_speed, "'35 deg/s'", "At which the wheel angle may change.", kPositive}),
 };
 const Section kPathSection{"vehicle.path", "[vehicle.path]",
                            "A line on the ground that the driver steers along (pure pursuit), in place of steer.", kPathKeys};
@@ -91,15 +107,17 @@ const Key kKeys[] = {
      "The mesh for contact is thinned out; no point of either surface is farther than this from the other. 0: as it is.",
      kNotNegative},
     {"wheel_mesh", Type::path, Dimension::none, "", "One wheel about its centre, axle along y, outside towards +y."},
-    {"mass", Type::number, Dimension::mass, "", "Mass with occupants.", kPositive},
+    bound<&engine::Body::mass>({"mass", Type::number, Dimension::mass, "", "Mass with occupants.", kPositive}),
     {"cg", Type::vector3, Dimension::length, "", "Centre of mass in the mesh frame."},
-    {"inertia", Type::inertia, Dimension::inertia, "", "Roll, pitch, yaw moments about the centre of mass, or a tensor."},
+    bound<&engine::Body::inertia_B>(
+        {"inertia", Type::inertia, Dimension::inertia, "", "Roll, pitch, yaw moments about the centre of mass, or a tensor."}),
     {"position", Type::vector2, Dimension::length, "'0 0 m'", "World x, y of the mesh frame's origin."},
     {"front", Type::vector2, Dimension::length, "", "World x, y of the middle of the front bumper, in place of position."},
     {"heading", Type::number, Dimension::angle, "'0 deg'", "Where it points, from +x towards +y."},
     {"speed", Type::number, Dimension::speed, "'0 m/s'", "Along the heading."},
     {"velocity", Type::vector3, Dimension::speed, "", "Of the centre of mass in world axes, in place of speed."},
-    {"angular_velocity", Type::vector3, Dimension::angular_speed, "'0 0 0 rad/s'", "In world axes."},
+    bound<&engine::Body::V_WB, &engine::Twist::w>(
+        {"angular_velocity", Type::vector3, Dimension::angular_speed, "'0 0 0 rad/s'", "In world axes."}),
     {"lift", Type::number, Dimension::length, "'0 m'", "Height above its place on the wheels, for a vehicle in the air."},
     {"attitude", Type::vector3, Dimension::angle, "'0 0 0 deg'", "Roll, pitch, yaw on top of the heading."},
     {"quaternion", Type::numbers, Dimension::none, "", "The same as [w, x, y, z]."},
@@ -114,13 +132,16 @@ const Key kKeys[] = {
     {"brake", Type::table, Dimension::none, "", "Braking.", kAny, {}, &kBrakeSection},
     {"driver", Type::tables, Dimension::none, "", "What the driver does, act by act.", kAny, {}, &kDriverSection},
     {"path", Type::table, Dimension::none, "", "A line to steer along.", kAny, {}, &kPathSection},
-    {"steer", Type::schedule, Dimension::angle, "'0 deg'", "Angle of the steered wheels, left positive."},
-    {"drive_force", Type::schedule, Dimension::force, "'0 N'", "Shared by the driven wheels."},
+    bound<&engine::Vehicle::steer>(
+        {"steer", Type::schedule, Dimension::angle, "'0 deg'", "Angle of the steered wheels, left positive."}),
+    bound<&engine::Vehicle::drive_force>(
+        {"drive_force", Type::schedule, Dimension::force, "'0 N'", "Shared by the driven wheels."}),
     CRASHREEL_SURFACE_KEYS,
-    {"collision", Type::choice, Dimension::none, "'default_auto'",
-     "Collision model the vehicle asks for. Kudlich-Slibar acts between two meshes that both ask for it, Default-Auto in every "
-     "other case.",
-     kAny, "default_auto|kudlich_slibar"},
+    bound<&engine::Body::collision_model>(
+        {"collision", Type::choice, Dimension::none, "'default_auto'",
+         "Collision model the vehicle asks for. Kudlich-Slibar acts between two meshes that both ask for it, Default-Auto in every "
+         "other case.",
+         kAny, "default_auto|kudlich_slibar"}),
     {"colour", Type::colour, Dimension::none, "", "Of the paint, in place of the mesh's own."},
     {"wheel", Type::tables, Dimension::none, "", "Wheels.", kAny, {}, &kWheelSection},
 };
@@ -143,21 +164,9 @@ void read_wheels(Reader& r, const engine::Vec3& cg, engine::Vehicle& vehicle) {
   std::size_t given = 0;
   for (Reader& w : r.tables("wheel")) {
     engine::Wheel wheel;
-    wheel.name = w.text("name");
-    wheel.hub_B = w.vector("at") - cg;
-    wheel.radius = w.number("radius");
-    wheel.width = w.number("width");
-    wheel.spring = w.number("spring");
-    wheel.damper = w.number("damper");
-    wheel.travel = w.number("travel");
-    wheel.anti_roll = w.number("anti_roll");
-    wheel.rolling_resistance = w.number("rolling_resistance");
-    wheel.friction = w.number("friction");
-    wheel.tyre = static_cast<engine::TyreModel>(w.choice("tyre"));
-    wheel.saturation_angle = w.number("saturation_angle");
-    if (w.has("brake_share")) wheel.brake_share = w.number("brake_share"), ++given;
-    wheel.steered = w.boolean("steered");
-    wheel.driven = w.boolean("driven");
+    w.fill(wheel);
+    wheel.hub_B -= cg;
+    given += w.has("brake_share");
     shares += w.has("brake_share") ? wheel.brake_share : 0;
     vehicle.wheels.push_back(std::move(wheel));
   }
@@ -190,15 +199,12 @@ void read_brake(Reader& r, double mass, engine::Vehicle& vehicle) {
 void read_driver(Reader& r, double mass, engine::Vehicle& vehicle) {
   for (Reader& act : r.tables("driver")) {
     engine::DriverPhase phase;
-    phase.drives = act.choice("action") == 1;
+    act.fill(phase);
     phase.first_force = act.number("from") + act.number("lag");
-    phase.build_up = act.number("build_up");
-    if (act.has("until")) phase.until = act.number("until");
     if (phase.until < phase.first_force) act.fail("until", "must not be earlier than the first force");
-    phase.force = mass * act.number("level");
+    phase.force *= mass;
     if (!phase.drives && phase.force < 0) act.fail("level", "must not be negative for a brake");
     if (act.has("wheels")) {
-      phase.share = act.numbers("wheels");
       double sum = 0;
       for (const double share : phase.share) sum += share;
       if (phase.share.size() != vehicle.wheels.size())
@@ -217,9 +223,7 @@ void read_driver(Reader& r, double mass, engine::Vehicle& vehicle) {
     }
     if (vehicle.path.points.size() < 2) path->fail_here("has fewer than two points");
     if (r.has("steer")) r.fail("steer", "must not be given together with path");
-    vehicle.path.preview = path->number("preview");
-    vehicle.path.largest = path->number("largest");
-    vehicle.path.rate = path->number("rate");
+    path->fill(vehicle.path);
   }
 }
 
@@ -360,19 +364,16 @@ void read_vehicle(Builder& builder, Reader scene) {
       r.warn("mesh", fmt::format("is open at {} edges; what comes from behind its faces goes through", open));
 
   engine::Body body;
+  r.fill(body);
   body.name = vehicle.name;
-  body.mass = r.number("mass");
-  body.inertia_B = r.inertia("inertia");
   check_inertia(r, "inertia", body.inertia_B);
   body.surface = read_surface(r, {});
-  body.collision_model = static_cast<engine::CollisionModel>(r.choice("collision"));
   body.vehicle = static_cast<int>(model.vehicles.size());
   const engine::Vec3 cg = r.vector("cg");
   read_wheels(r, cg, vehicle);
   read_brake(r, body.mass, vehicle);
   read_driver(r, body.mass, vehicle);
-  vehicle.steer = r.schedule("steer");
-  vehicle.drive_force = r.schedule("drive_force");
+  r.fill(vehicle);
   if (!meshes.bodywork || !meshes.collision) return;
 
   const engine::Pose X_BM{-cg, engine::Quat::Identity()};
@@ -386,7 +387,6 @@ void read_vehicle(Builder& builder, Reader scene) {
   if (r.has("velocity") && r.has("speed")) r.fail("velocity", "must not be given together with speed");
   body.V_WB.v =
       r.vector_if("velocity").value_or(r.number("speed") * engine::Vec3(engine::math::cos(heading), engine::math::sin(heading), 0));
-  body.V_WB.w = r.vector("angular_velocity");
   if (const int tower = find_tower(builder, r); tower >= 0 && r.has("coupling"))
     couple(builder, r, tower, r.vector("coupling") - cg, body);
   if (r.has("saddle")) builder.saddles[vehicle.name] = r.vector("saddle") - cg;
