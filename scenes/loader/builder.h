@@ -43,7 +43,10 @@ void read_joint(Builder&, Reader);
 void read_impact(Builder&, Reader);
 void read_person(Builder&, Reader);
 void read_vehicle(Builder&, Reader);
-void read_film(Builder&, Reader& scene);  // camera, shot, overlays, output, road, sky
+void read_film(Builder&, Reader& scene);  // the four below, and output
+void read_cameras(Builder&, Reader& scene);
+void read_overlays(Builder&, Reader);
+void read_road_and_sky(Builder&, Reader road, Reader sky);
 void read_snapshot(Builder&, std::optional<Reader> snapshot, std::optional<Reader> expect);
 
 extern const Section kSimulationSection, kGroundSection, kBodySection, kJointSection, kImpactSection, kPersonSection,
@@ -65,6 +68,8 @@ void check_inertia(Reader&, std::string_view key, const engine::Mat3& inertia);
 /// range, stiffness, rest, damping, friction_torque on top of `base`.
 engine::JointCoordinate read_angle(Reader&, engine::JointCoordinate base);
 render::MaterialKind read_material_kind(Reader&, std::string_view key);
+/// Tells of a name that is no camera's.
+void check_camera_name(Builder&, Reader&, const std::string& name, std::string_view key);
 
 /// Keys that several sections list in their tables.
 inline constexpr Key kSurfaceFriction{"friction",
