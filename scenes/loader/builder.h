@@ -43,6 +43,10 @@ void read_joint(Builder&, Reader);
 void read_impact(Builder&, Reader);
 void read_person(Builder&, Reader);
 void read_vehicle(Builder&, Reader);
+/// Of a vehicle: the wheels, from its centre of mass `cg`, and what the driver does with this mass.
+void read_wheels(Reader&, const engine::Vec3& cg, engine::Vehicle&);
+void read_brake(Reader&, double mass, engine::Vehicle&);
+void read_driver(Reader&, double mass, engine::Vehicle&);
 void read_film(Builder&, Reader& scene);  // the four below, and output
 void read_cameras(Builder&, Reader& scene);
 void read_overlays(Builder&, Reader);
@@ -51,6 +55,7 @@ void read_snapshot(Builder&, std::optional<Reader> snapshot, std::optional<Reade
 
 extern const Section kSimulationSection, kGroundSection, kBodySection, kJointSection, kImpactSection, kPersonSection,
     kVehicleSection;
+extern const Section kWheelSection, kBrakeSection, kDriverSection, kPathSection;  // of a vehicle
 extern const Section kCameraSection, kShotSection, kCardSection, kOverlaysSection, kOutputSection, kRoadSection, kSkySection;
 extern const Section kSnapshotSection, kExpectSection;
 

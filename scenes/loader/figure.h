@@ -76,4 +76,14 @@ struct Pose {
 /// The named pose with the person's own `angles` on top; angles outside the range of motion are refused, naming the joint.
 Pose read_pose(Builder&, Reader& person, const Figure&);
 
+/// Attitudes and centres of all segments with the hips' centre at the origin.
+std::vector<engine::Pose> placed(const Figure&, const Pose&, const engine::Quat& q_root);
+engine::Vec3 centre_of_gravity(const Figure&, const std::vector<engine::Pose>& X_WB);
+/// Moves the person to its position and down to the ground, or to the height the scene gives.
+void set_down(Reader&, const engine::Ground&, const Figure&, std::vector<engine::Pose>& X_WB);
+/// The vehicle ridden, -1: none.
+int find_mount(Builder&, Reader&);
+/// Joints of hands, feet and seat with the mount, breakable; the mount waits in the zero condition with its rider.
+void hold_on(Builder&, Reader&, int mount, engine::Person&);
+
 }  // namespace scenes
