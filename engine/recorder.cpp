@@ -2,11 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <numbers>
-#include <sstream>
-#include <string>
 #include <utility>
 
 #include "engine/math/functions.h"
@@ -17,15 +13,7 @@ namespace {
 
 constexpr double kStillSpeed = 0.05;  // [m/s]
 constexpr double kStillTurn = 0.3;    // [rad/s]
-constexpr double kStillTime = 0.25;   // [s] that long below both: at rest
 constexpr double kAirborne = 0.05;    // [s] who lay there is off the ground after that long
-
-// What a run says by itself: less than this is asked of every hard case.
-constexpr double kDegree = std::numbers::pi / 180;  // [rad]
-constexpr double kToldUnsettled = 1e-3;             // [m/s] a hundred times the solver's tolerance
-constexpr double kToldInside = 2e-3;                // [m]
-constexpr double kToldBeyond = 0.5 * kDegree;       // [rad]
-constexpr double kToldCrossed = 0.05;               // [m] two vehicles: half the way between the points by which they are felt
 
 ContactState state_of(const Constraint& c, double gap_speed) {
   if (c.impulse[0] <= 0) return gap_speed < 0 ? ContactState::approach : ContactState::separate;
@@ -270,78 +258,6 @@ void Recorder::snapshot(const World& world, const State& state, Recording& recor
   energy_.weigh(state, s.energies);
   recording.snapshots.push_back(std::move(s));
   watch_rest(world, state, since);
-}
-
-void Recorder::warn_of_shortfalls(const World& world, std::vector<std::string>& warnings) const {
-  auto name = [&](int body) { return body >= 0 ? world.model.bodies[body].name : std::string("the ground"); };
-  auto at = [](const Shortfall& s) { return " at " + std::to_string(std::lround(1e3 * s.time)) + " ms"; };
-  auto told = [](double value) {
-    std::ostringstream text;
-    text << std::setprecision(value < 99.5 ? 2 : 4) << value;
-    return text.str();
-  };
-  constexpr const char* kCompare = "; see whether runs of other steps say the same of what follows";
-  if (too_deep_.amount > 0)
-    warnings.push_back(name(too_deep_.body_a) + " was pressed " + told(1e3 * too_deep_.amount) + " mm into " +
-                       name(too_deep_.body_b) + at(too_deep_) +
-                       ", more than its thickness: too soft for this blow; give them more stiffness");
-  if (world.log.unsettled.amount > kToldUnsettled)
-    warnings.push_back("the forces between " + name(world.log.unsettled.body_a) + " and " + name(world.log.unsettled.body_b) +
-                       at(world.log.unsettled) + " were solved to " + told(world.log.unsettled.amount) +
-                       " m/s only, something is jammed" + kCompare);
-  for (const auto& [inside, most] : {std::pair(stood_inside_, kToldInside), std::pair(crossed_, kToldCrossed)})
-    if (inside.amount > most)
-      warnings.push_back(name(inside.body_a) + " stood " + told(1e3 * inside.amount) + " mm inside " + name(inside.body_b) +
-                         at(inside) + kCompare);
-  if (overturned_.amount > kToldBeyond)
-    warnings.push_back(name(overturned_.body_a) + " was turned " + told(overturned_.amount / kDegree) +
-                       " deg beyond its range against " + name(overturned_.body_b) + at(overturned_) + kCompare);
-  if (overslid_.amount > kToldInside)
-    warnings.push_back(name(overslid_.body_a) + " slid " + told(1e3 * overslid_.amount) + " mm beyond its range against " +
-                       name(overslid_.body_b) + at(overslid_) + kCompare);
-}
-
-namespace {
-
-/// An [[impact]] settles the exchange of one pair: one that never came about is a question the run did not answer.
-void warn_of_idle_impacts(const World& world, std::vector<std::string>& warnings) {
-  const Model& model = world.model;
-  for (const ImpactSettings& s : model.impacts) {
-    const bool acted = std::any_of(world.log.exchanges.begin(), world.log.exchanges.end(), [&](const ContactRecord& c) {
-      return std::minmax(c.body_a, c.body_b) == std::minmax(s.body_a, s.body_b);
-    });
-    if (acted) continue;
-    const Body &A = model.bodies[s.body_a], &B = model.bodies[s.body_b];
-    const bool asked = model_between(A.collision_model, B.collision_model) == CollisionModel::kudlich_slibar;
-    warnings.push_back("[[impact]] of " + A.name + " with " + B.name + " never acted: " +
-                       (asked ? "they exchanged no impulse" : "they do not both have collision = \"kudlich_slibar\""));
-  }
-}
-
-}  // namespace
-
-void Recorder::finish(const World& world, const State& state, Recording& recording) {
-  for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
-    if (still_since_[t] < 0 || state.time - still_since_[t] < 0.9 * kStillTime) continue;
-    const int root = world.topology.links[world.topology.trees[t].end - 1].body;
-    const int person = world.model.bodies[root].person;
-    if (person >= 0 && !state.released[person]) continue;
-    events_.push_back({std::min(halted_[t], state.time), "rest", root, -1, state.X_WB[root].p, 0});
-  }
-  recording.events = world.log.events;
-  recording.events.insert(recording.events.end(), events_.begin(), events_.end());
-  std::stable_sort(recording.events.begin(), recording.events.end(),
-                   [](const Event& a, const Event& b) { return a.time < b.time; });
-  recording.diagnostics = world.log.diagnostics;
-  energy_.close(world, recording.diagnostics);
-  recording.diagnostics.max_compression = compression_;
-  warn_of_shortfalls(world, recording.diagnostics.warnings);
-  warn_of_idle_impacts(world, recording.diagnostics.warnings);
-  // the depth of a compliant contact is a deformation, not an error
-  const auto part = [&](int b) { return b >= 0 && world.model.bodies[b].person >= 0 && world.model.bodies[b].vehicle < 0; };
-  for (const ContactRecord& c : recording.snapshots.back().contacts)
-    if (!yields(world.model.settings.contact_law, part(c.body_a) || part(c.body_b)))
-      recording.diagnostics.rest_penetration = std::max(recording.diagnostics.rest_penetration, c.depth);
 }
 
 }  // namespace engine

@@ -29,6 +29,8 @@ class Recorder {
   bool all_at_rest(const World&, const State&) const;
 
  private:
+  static constexpr double kStillTime = 0.25;   // [s] that long below both speeds of rest: at rest
+  static constexpr double kToldInside = 2e-3;  // [m] rigid contacts and ends of slides: less than this is asked of every hard case
   struct Tally {
     std::uint64_t key;
     ContactRecord record;

@@ -1,0 +1,67 @@
+#include "engine/effects/footing.h"
+
+#include "engine/contact/round_tyre.h"
+
+namespace engine {
+namespace {
+
+/// A plane through `on`, met by a tyre round across as it is along (a torus): leaning, it rolls on its shoulder and ends on its
+/// flank.
+Footing on_plane(const Wheel& spec, const Pose& X, const Vec3& on, const Vec3& normal) {
+  const Vec3 up = X.q * Vec3::UnitZ(), axle = X.q * Vec3::UnitY();
+  const Vec3 across = normal - axle.dot(normal) * axle;
+  const double lean = across.norm(), crown = crown_radius(spec);
+  const double height = (spec.radius - crown) * lean + crown;  // [m] of the hub over what it touches
+  const double facing = up.dot(normal);
+  const Vec3 hub = X * spec.hub_B;
+  Footing footing;
+  footing.normal = normal;
+  footing.near = facing <= kWheelFacing;
+  if (footing.near) return footing;
+  footing.compression = (height - normal.dot(hub - on)) / facing;
+  footing.point = hub + footing.compression * up - crown * normal;
+  if (lean > 0) footing.point -= (spec.radius - crown) / lean * across;
+  return footing;
+}
+
+}  // namespace
+
+Footing footing_of(const Ground& ground, const Wheel& spec, const Pose& X, double droop) {
+  const Vec3 hub = X * spec.hub_B, up = X.q * Vec3::UnitZ();
+  Footing best;
+  best.compression = -droop;
+  auto look_at = [&](const Vec3& on, const Vec3& normal) {
+    const Footing f = on_plane(spec, X, on, normal);
+    best.near = best.near || (f.near && normal.dot(hub - on) < spec.radius + droop);
+    if (f.near || f.compression <= best.compression) return;
+    const bool near = best.near;
+    best = f;
+    best.found = true;
+    best.near = near;
+  };
+  if (ground.plane) look_at(Vec3(hub.x(), hub.y(), ground.height), Vec3::UnitZ());
+  if (ground.terrain) {
+    constexpr double kAbove = 0.6;  // [m] start over the hub, so that a wheel pushed into a kerb still finds the surface
+    double s = 0;
+    int triangle = -1;
+    const double farthest = kAbove + spec.radius / kWheelFacing + droop;  // a leaning wheel's shoulder is nearer than what is below
+    if (ground.terrain->raycast(hub + kAbove * up, -up, farthest, s, triangle))
+      look_at(hub + (kAbove - s) * up, ground.terrain->face_normals()[triangle]);
+  }
+  return best;
+}
+
+void step_on_bodies(const Outlook& outlook, std::span<const TyrePair> pairs, Footing& best) {
+  for (const TyrePair& pair : pairs) {
+    if (!near(outlook, pair, 0)) continue;
+    const auto touch = stands_on(outlook, pair, best.compression);
+    if (!touch) continue;
+    best.found = true;
+    best.body = pair.body;
+    best.compression = touch->way;
+    best.point = touch->point;
+    best.normal = touch->normal;
+  }
+}
+
+}  // namespace engine

@@ -1,0 +1,25 @@
+// What a wheel stands on: a level or a triangle's plane under its hub, or somebody it rolls over.
+#pragma once
+
+#include <span>
+
+#include "engine/contact/contact.h"
+
+namespace engine {
+
+struct Footing {
+  int body = -1;           // -1: the ground
+  bool found = false;      // the wheel reaches it
+  bool near = false;       // it is there, but too steep to the vehicle to roll on: the car lies on its side
+  double compression = 0;  // [m] of the suspension from static ride, at which the tyre just touches
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::UnitZ();
+};
+
+/// The surface under the hub that compresses the suspension most.
+Footing footing_of(const Ground&, const Wheel&, const Pose& X_WB, double droop);
+
+/// A round body under the wheel that compresses the suspension more than what it stands on otherwise. `pairs` are the wheel's.
+void step_on_bodies(const Outlook&, std::span<const TyrePair> pairs, Footing& best);
+
+}  // namespace engine
