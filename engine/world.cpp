@@ -41,6 +41,10 @@ World::World(const Model& m, const Plan& p, const RunOptions& o)
       reach[b] = far.norm() + shape->X_BM.p.norm();
     }
   }
+  for (const Vehicle& vehicle : m.vehicles)
+    for (const Wheel& wheel : vehicle.wheels)
+      reach[vehicle.body] =
+          std::max(reach[vehicle.body], wheel.hub_B.norm() + wheel.radius + crown_radius(wheel) + 2 * wheel.travel);
   for (const Topology::Tree& tree : topology.trees) {
     double mass = 0;
     for (int l = tree.begin; l < tree.end; ++l) mass += m.bodies[topology.links[l].body].mass;

@@ -1,6 +1,7 @@
 #include "engine/contact/mesh_points.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "engine/geometry/mesh_overlap.h"
@@ -9,12 +10,26 @@
 #include "engine/world.h"
 
 namespace engine {
+
+Vec3 rim_point(const Wheel& wheel, int i) {
+  static const auto kSpokes = [] {
+    std::array<Vec3, kRing> out;
+    for (int k = 0; k < kRing; ++k) {
+      const double angle = 2 * std::numbers::pi * k / kRing;
+      out[static_cast<std::size_t>(k)] = {math::cos(angle), 0, math::sin(angle)};
+    }
+    return out;
+  }();
+  const int side = i / kRing - 1;
+  const double radius = wheel.radius - (side == 0 ? 0 : crown_radius(wheel));
+  return wheel.hub_B + radius * kSpokes[static_cast<std::size_t>(i % kRing)] + 0.5 * side * wheel.width * Vec3::UnitY();
+}
+
 namespace {
 
 constexpr double kSpacing = 0.10;       // [m] between the points that stand for a mesh
 constexpr double kDeepestPoint = 0.15;  // [m] a point farther behind a surface has come from its other side
 constexpr double kClear = 0.05;         // [m] from a coupled vehicle: nearer at the start, and they never meet there
-constexpr int kRing = 24;               // points round a wheel, in the middle and on either flank
 
 /// Points that stand for a body's mesh and, of a vehicle, for its wheels, of which `first_wheel` is the number of the first.
 std::vector<SurfacePoint> points_of(const Model& model, const Body& body, int first_wheel) {
@@ -23,13 +38,7 @@ std::vector<SurfacePoint> points_of(const Model& model, const Body& body, int fi
   for (const Vec3& p : representative_points(*shape.mesh, kSpacing)) out.push_back({shape.X_BM * p});
   if (body.vehicle < 0) return out;
   for (const Wheel& wheel : model.vehicles[body.vehicle].wheels) {
-    for (const double side : {-1.0, 0.0, 1.0})
-      for (int i = 0; i < kRing; ++i) {
-        const double angle = 2 * std::numbers::pi * i / kRing;
-        const double radius = wheel.radius - (side == 0 ? 0 : crown_radius(wheel));
-        const Vec3 spoke(radius * math::cos(angle), 0.5 * side * wheel.width, radius * math::sin(angle));
-        out.push_back({wheel.hub_B + spoke, first_wheel});
-      }
+    for (int i = 0; i < kRimPoints; ++i) out.push_back({rim_point(wheel, i), first_wheel});
     ++first_wheel;
   }
   return out;
@@ -68,6 +77,18 @@ bool meshes_meet(const Model& model, int a, int b) {
   if (!is_mesh(A) || !is_mesh(B) || (A.fixed && B.fixed) || (A.person >= 0 && A.person == B.person)) return false;
   if (jointed(model, a, b)) return coupled(model, a, b);
   return model_between(A.collision_model, B.collision_model) != CollisionModel::kudlich_slibar;
+}
+
+std::vector<BodyPair> wheeled_pairs(const Model& model) {
+  std::vector<BodyPair> out;
+  for (std::size_t i = 0; i < model.vehicles.size(); ++i)
+    for (std::size_t k = i + 1; k < model.vehicles.size(); ++k) {
+      const int a = model.vehicles[i].body, b = model.vehicles[k].body;
+      const auto law = model_between(model.bodies[a].collision_model, model.bodies[b].collision_model);
+      const bool wheels = !model.vehicles[i].wheels.empty() && !model.vehicles[k].wheels.empty();
+      if (wheels && law == CollisionModel::default_auto && !jointed(model, a, b)) out.push_back({a, b});
+    }
+  return out;
 }
 
 void list_mesh_pairs(const Model& model, ContactPairs& pairs) {

@@ -14,6 +14,13 @@ bool coupled(const Model&, int a, int b);
 /// May two meshes touch by Default-Auto?
 bool meshes_meet(const Model&, int a, int b);
 
+/// Vehicles whose wheels may meet: by Default-Auto, and not coupled.
+std::vector<BodyPair> wheeled_pairs(const Model&);
+
+/// Points round a wheel at static ride, in the middle and on either flank, from the vehicle's centre of mass, body axes.
+constexpr int kRing = 24, kRimPoints = 3 * kRing;
+Vec3 rim_point(const Wheel&, int i);
+
 /// The points of all bodies with a mesh, and the pairs that meet, to `points`, `bodywork` and `bodywork_points`.
 void list_mesh_pairs(const Model&, ContactPairs&);
 

@@ -27,6 +27,7 @@ constexpr std::array kTable = {
     row<mesh, plane>("ground", Stiffness::of_each_point),
     row<mesh, terrain>("terrain", Stiffness::of_each_point),
     row<mesh, mesh>("vehicle_pair", Stiffness::of_each_point),
+    row<tyre, tyre>("vehicle_pair", Stiffness::of_each_point),
 };
 
 }  // namespace

@@ -12,18 +12,18 @@ const Wheel& wheel_of(const World& world, const TyrePair& pair) {
   return world.model.vehicles[pair.vehicle].wheels[pair.wheel_of_vehicle];
 }
 
-/// The tyre with its strut at static ride, or as far up as the state says.
-Tyre tyre_of(const Outlook& outlook, const TyrePair& pair, double lift) {
-  const Wheel& wheel = wheel_of(outlook.world, pair);
-  const Pose& X = outlook.at.X_WB[pair.vehicle_body];
-  const Vec3 axle = X.q * Vec3::UnitY();  // a steered wheel turns about its strut: its axle stays across it
-  const double steer = outlook.state.wheels[pair.wheel].steer;
-  const Vec3 forward = X.q * Vec3::UnitX();
-  return {X * wheel.hub_B + lift * (X.q * Vec3::UnitZ()), math::cos(steer) * axle - math::sin(steer) * forward, wheel.radius,
-          crown_radius(wheel)};
-}
-
 }  // namespace
+
+Tyre tyre_of(const Outlook& outlook, int wheel, double lift) {
+  const WheelState& state = outlook.state.wheels[wheel];
+  const Vehicle& vehicle = outlook.world.model.vehicles[state.vehicle];
+  const Wheel& spec = vehicle.wheels[state.wheel];
+  const Pose& X = outlook.at.X_WB[vehicle.body];
+  const Vec3 axle = X.q * Vec3::UnitY();  // a steered wheel turns about its strut: its axle stays across it
+  const Vec3 forward = X.q * Vec3::UnitX();
+  return {X * spec.hub_B + lift * (X.q * Vec3::UnitZ()), math::cos(state.steer) * axle - math::sin(state.steer) * forward,
+          spec.radius, crown_radius(spec)};
+}
 
 std::vector<TyrePair> tyre_pairs(const Model& model) {
   std::vector<TyrePair> out;
@@ -50,7 +50,7 @@ bool near(const Outlook& outlook, const TyrePair& pair, double margin) {
 std::optional<TyreTouch> stands_on(const Outlook& outlook, const TyrePair& pair, double least) {
   const auto& shape = std::get<HyperEllipsoid>(outlook.world.model.bodies[pair.body].shape);
   const Vec3 up = outlook.at.X_WB[pair.vehicle_body].q * Vec3::UnitZ();
-  const auto touch = move_clear(tyre_of(outlook, pair, 0), shape, outlook.at.X_WB[pair.body], up, kWheelFacing, least);
+  const auto touch = move_clear(tyre_of(outlook, pair.wheel, 0), shape, outlook.at.X_WB[pair.body], up, kWheelFacing, least);
   if (!touch || touch->way > 2 * wheel_of(outlook.world, pair).travel) return std::nullopt;
   // one that rolls up has not got farther than the last step took it: what is deeper has come from the side
   const double rise = pair_margin(outlook, pair.body, pair.vehicle_body) / touch->normal.dot(up);
@@ -61,18 +61,16 @@ std::optional<TyreTouch> stands_on(const Outlook& outlook, const TyrePair& pair,
 template <>
 Touches touches_between<ShapeKind::round, ShapeKind::tyre>(const Outlook& outlook, const ContactPair& at) {
   constexpr double kDeepest = 0.15;  // [m] what lies farther inside has come from behind
-  // [m] rubber gives: 200 kN/m (vertical stiffness of a passenger car's tyre) under its 3.7 kN by 19 mm, in a blow by more
-  constexpr double kGives = 0.03;
   constexpr std::uint32_t kTyres = 0x800000u;
   World& world = outlook.world;
   const TyrePair& pair = world.pairs.tyres[at.at];
   const double margin = pair_margin(outlook, pair.body, pair.vehicle_body);
   if (!near(outlook, pair, margin)) return {};
   const auto& shape = std::get<HyperEllipsoid>(world.model.bodies[pair.body].shape);
-  auto contact =
-      contact_with_tyre(shape, outlook.at.X_WB[pair.body], tyre_of(outlook, pair, outlook.state.wheels[pair.wheel].lift), margin);
+  auto contact = contact_with_tyre(shape, outlook.at.X_WB[pair.body],
+                                   tyre_of(outlook, pair.wheel, outlook.state.wheels[pair.wheel].lift), margin);
   if (!contact || contact->gap < -kDeepest) return {};
-  if (contact->gap < 0) contact->gap = std::min(0.0, contact->gap + kGives);  // pinched, as beside a wheel that rolls over
+  if (contact->gap < 0) contact->gap = std::min(0.0, contact->gap + kTyreGives);  // pinched, as beside a wheel that rolls over
   contact->key = kTyres | static_cast<std::uint32_t>(pair.wheel);
   world.pairs.touches.clear();
   world.pairs.touches.push_back(*contact);

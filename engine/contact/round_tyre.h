@@ -13,6 +13,13 @@ namespace engine {
 /// All wheels with all segments and free bodies that do not ride on them.
 std::vector<TyrePair> tyre_pairs(const Model&);
 
+/// The tyre of a wheel of State::wheels, its strut `lift` [m] up from static ride.
+Tyre tyre_of(const Outlook&, int wheel, double lift);
+
+/// [m] by which rubber gives where it is pinched: 200 kN/m (vertical stiffness of a passenger car's tyre) under its 3.7 kN by
+/// 19 mm, in a blow by more.
+constexpr double kTyreGives = 0.03;
+
 /// Spheres about the two, with the ways of the strut: near enough to look?
 bool near(const Outlook&, const TyrePair&, double margin);
 

@@ -53,7 +53,9 @@ class BodyworkContact final : public Effect {
   static Finding look(const Model& model) { return look_at(model); }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
-  BodyworkContact(World& world, int self) : Effect(self) { list_mesh_pairs(world.model, world.pairs); }
+  BodyworkContact(World& world, int self) : Effect(self), wheeled_(wheeled_pairs(world.model)) {
+    list_mesh_pairs(world.model, world.pairs);
+  }
 
   void find_contacts(ContactSearch& search) override {
     const World& world = search.world;
@@ -72,12 +74,19 @@ class BodyworkContact final : public Effect {
         add_contacts(search, mesh_, {pairs[i].b, a, i}, self_);
       }
     }
+    for (const BodyPair& pair : wheeled_) {
+      if (!world.pairs.broad_phase.close(tree[pair.a], tree[pair.b])) continue;
+      add_contacts(search, tyre_, {pair.a, pair.b}, self_);
+      add_contacts(search, tyre_, {pair.b, pair.a}, self_);
+    }
   }
 
  private:
   const PairKind& plane_ = pair_kind({ShapeKind::mesh, ShapeKind::plane});
   const PairKind& terrain_ = pair_kind({ShapeKind::mesh, ShapeKind::terrain});
   const PairKind& mesh_ = pair_kind({ShapeKind::mesh, ShapeKind::mesh});
+  const PairKind& tyre_ = pair_kind({ShapeKind::tyre, ShapeKind::tyre});
+  const std::vector<BodyPair> wheeled_;
 };
 template struct Registered<BodyworkContact>;
 

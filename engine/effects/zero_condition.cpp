@@ -2,6 +2,7 @@
 // costs a bounding test a step. The first touch by anything but its support releases it (source 000, "zero condition").
 #include <algorithm>
 
+#include "engine/contact/mesh_points.h"
 #include "engine/effects/body_pairs.h"
 #include "engine/effects/registration.h"
 #include "engine/effects/riding.h"
@@ -66,7 +67,7 @@ class ZeroCondition final : public Effect {
   static constexpr const char* kName = "zero_condition";
   static Finding look(const Model& model) { return look_at(model); }
 
-  ZeroCondition(const World&, int self) : Effect(self) {}
+  ZeroCondition(const World& world, int self) : Effect(self), wheeled_(wheeled_pairs(world.model)) {}
 
   void before_step(World& world, State& state, double step) override {
     if (std::all_of(state.released.begin(), state.released.end(), [](char r) { return r != 0; })) return;
@@ -82,6 +83,7 @@ class ZeroCondition final : public Effect {
       if (pairs.mesh[i].mesh_body >= 0) watch(outlook, on_mesh_, {pairs.mesh[i].body, pairs.mesh[i].mesh_body, i}, warn);
     for (std::size_t i = 0; i < pairs.tyres.size() && !state.wheels.empty(); ++i)
       watch(outlook, on_tyre_, {pairs.tyres[i].body, pairs.tyres[i].vehicle_body, i}, false);
+    for (const BodyPair& pair : wheeled_) watch(outlook, tyre_on_tyre_, {pair.a, pair.b}, false);
     pairs.broad_phase.look(outlook);
     for (std::size_t r = 0; r < pairs.round.size(); ++r) {
       const BodyPairRun& run = pairs.round[r];
@@ -113,7 +115,9 @@ class ZeroCondition final : public Effect {
   const PairKind& rounds_ = pair_kind({ShapeKind::round, ShapeKind::round});
   const PairKind& on_mesh_ = pair_kind({ShapeKind::round, ShapeKind::mesh});
   const PairKind& on_tyre_ = pair_kind({ShapeKind::round, ShapeKind::tyre});
+  const PairKind& tyre_on_tyre_ = pair_kind({ShapeKind::tyre, ShapeKind::tyre});
   const PairKind& mesh_on_mesh_ = pair_kind({ShapeKind::mesh, ShapeKind::mesh});
+  const std::vector<BodyPair> wheeled_;
 };
 template struct Registered<ZeroCondition>;
 

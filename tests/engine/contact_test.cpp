@@ -17,6 +17,20 @@ Body puck(double mu) {
   return body;
 }
 
+/// Bodies are hyper-ellipsoids or meshes, vehicles meshes on tyres; what a tyre meets of ground and meshes is its suspension's, or
+/// its vehicle's mesh brings the points of rim and flanks.
+TEST(PairTable, HasOneRowForEveryTwoShapesThatCanMeet) {
+  using enum ShapeKind;
+  std::vector<ShapePair> missing = {{round, plane}, {round, terrain}, {round, mesh}, {round, tyre}, {round, round},
+                                    {mesh, plane},  {mesh, terrain},  {mesh, mesh},  {tyre, tyre},  {round, round, true}};
+  for (const PairKind& kind : pair_table()) {
+    EXPECT_EQ(std::erase(missing, kind.shapes), 1u) << kind.name << ": twice in the table, or new";
+    EXPECT_EQ(&pair_kind(kind.shapes), &kind);
+    EXPECT_STREQ(name_of(kind.shapes), kind.name);
+  }
+  EXPECT_TRUE(missing.empty());
+}
+
 TEST(Clearance, KeepsToWhatCannotHaveLeftYet) {
   // a limb 17 mm inside slides over a crack, where a look finds nothing of it, and on
   constexpr double kReach = 0.1;

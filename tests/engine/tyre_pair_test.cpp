@@ -1,7 +1,7 @@
 // A wheel and what lies in its way: where they touch, and what it does to both.
 #include <gtest/gtest.h>
 
-#include "engine/geometry/hyper_ellipsoid_tyre.h"
+#include "engine/geometry/point_tyre.h"
 #include "tests/engine/experiment.h"
 
 namespace engine::test {
@@ -157,6 +157,49 @@ TEST(Wheel, GivesAsRubberDoes) {
     for (const ContactRecord& c : run.snapshots.at(1).contacts) depth = std::max(depth, c.depth);
     EXPECT_NEAR(depth, std::max(0.0, overlap - 0.03), 2e-3) << overlap;
   }
+}
+
+TEST(TyrePair, APointIsAsFarFromATyreAsFromTheDiscInItsCrown) {
+  const Tyre tyre{Vec3(1, 2, 3), Vec3::UnitY(), 0.3, 0.1};
+  const auto gap = [&](double x, double y) { return point_on_tyre(tyre.centre + Vec3(x, y, 0), tyre).gap; };
+  EXPECT_NEAR(gap(0.35, 0), 0.05, 1e-12) << "before the tread";
+  EXPECT_NEAR(gap(0.1, 0.12), 0.02, 1e-12) << "beside the wall";
+  EXPECT_NEAR(gap(0.2 + 0.3, 0.4), 0.5 - 0.1, 1e-12) << "off the shoulder";
+  EXPECT_NEAR(gap(0.28, 0), -0.02, 1e-12) << "inside";
+  const SurfaceContact c = point_on_tyre(tyre.centre + Vec3(0, 0.12, -0.15), tyre);
+  EXPECT_LT((c.normal - Vec3::UnitY()).norm(), 1e-12);
+  EXPECT_LT((c.p_b - tyre.centre - Vec3(0, 0.1, -0.15)).norm(), 1e-12);
+}
+
+/// Two cars without bodywork whose left and right wheels stand side by side, treads 20 cm apart, gliding towards each other.
+Model two_abreast(double closing) {
+  Model model = car_on_road(0, 0.8);
+  model.settings.effects["bodywork_contact"] = Force::on;
+  Body other = model.bodies[0];
+  other.name = "other";
+  other.vehicle = 1;
+  other.X_WB.p.y() = 2 * 0.75 + 0.2 + 0.2;
+  other.V_WB.v.y() = -closing;
+  model.bodies.push_back(other);
+  Vehicle second = model.vehicles[0];
+  second.name = "other";
+  second.body = 1;
+  model.vehicles.push_back(second);
+  for (Vehicle& vehicle : model.vehicles)
+    for (Wheel& wheel : vehicle.wheels) wheel.friction = 0;
+  return model;
+}
+
+TEST(Wheel, BesideAnotherCarsWheelPushesItAwayAndKeepsTheMomentumOfBoth) {
+  const Model model = two_abreast(1);
+  const Recording run = simulate(model);
+  const Snapshot& end = run.snapshots.back();
+  EXPECT_LT(end.bodies[0].V_WB.v.y(), -0.3) << "struck";
+  EXPECT_NEAR(end.bodies[0].V_WB.v.y() + end.bodies[1].V_WB.v.y(), -1, 1e-6);
+  double nearest = 1;
+  for (const Snapshot& s : run.snapshots) nearest = std::min(nearest, s.wheels[4 + 1].hub.y() - s.wheels[0].hub.y());
+  EXPECT_NEAR(nearest, 0.2, 1e-3) << "flank on flank the crowns touch, and restitution is zero";
+  EXPECT_STREQ(name_of(ShapePair{ShapeKind::tyre, ShapeKind::tyre}), "vehicle_pair");
 }
 
 }  // namespace
