@@ -135,12 +135,40 @@ double engine_share(const Constraint& c) {
 
 }  // namespace
 
-class Tyres final : public Effect {
+/// A strut whose wheel has come from its flank down onto its tread. Nothing moved along it there, so it goes on from where it
+/// stood: what the road now asks of it beyond that is slack, which only lessens.
+struct StrutMemory {
+  bool lying = false;  // on its flank at the last look
+  double slack = 0;    // [m]
+
+  /// How far the strut is pressed in on this footing, where it was by `before` [m].
+  double pressed(const Footing& footing, double before, double droop) {
+    if (lying && footing.found) slack = std::max(0.0, footing.compression - before);
+    lying = footing.near && !footing.found;
+    if (lying) return before;
+    slack = std::min(slack, std::max(0.0, footing.compression + droop));
+    return footing.compression - slack;
+  }
+  template <class S>
+  static auto fields(S& s) {
+    return std::tie(s.lying, s.slack);
+  }
+};
+struct TyresMemory {
+  std::vector<StrutMemory> struts;  // as State::wheels
+
+  template <class S>
+  static auto fields(S& s) {
+    return std::tie(s.struts);
+  }
+};
+
+class Tyres final : public EffectWith<TyresMemory> {
  public:
   static constexpr const char* kName = "tyres";
   static Finding look(const Model& model) { return look_at(model); }
 
-  Tyres(World& world, int self) : Effect(self) { world.pairs.tyres = tyre_pairs(world.model); }
+  Tyres(World& world, int self) : EffectWith(self) { world.pairs.tyres = tyre_pairs(world.model); }
 
   void begin(World& world, State& state) override {
     const std::vector<double> loads = static_wheel_loads(world.model, world.topology);
@@ -152,12 +180,13 @@ class Tyres final : public Effect {
         wheel.static_load = loads[state.wheels.size()];
         state.wheels.push_back(wheel);
       }
+    memory(state).struts.resize(state.wheels.size());
   }
 
   void find(StepContext& step) override {
     World& world = step.world;
     State& state = step.state;
-    book_springs(state, stand(world, state, step.length, state.wheels));
+    book_springs(state, stand(world, state, step.length, state.wheels, memory(state).struts));
     for (std::size_t i = 0; i < footings_.size(); ++i) {
       WheelState& wheel = state.wheels[i];
       wheel.impulse.setZero();
@@ -185,12 +214,13 @@ class Tyres final : public Effect {
     }
     // what the springs hold now, and not at the start of the next step: its length may be another
     at_end_ = state.wheels;
-    book_springs(state, stand(step.world, state, step.length, at_end_));
+    struts_at_end_ = memory(state).struts;
+    book_springs(state, stand(step.world, state, step.length, at_end_, struts_at_end_));
   }
 
  private:
   /// Where the wheels stand in this state, to `wheels`, and what they stand on; returns what their springs hold [J].
-  double stand(World& world, State& state, double within, std::vector<WheelState>& wheels) {
+  double stand(World& world, State& state, double within, std::vector<WheelState>& wheels, std::vector<StrutMemory>& struts) {
     footings_.clear();
     const Outlook outlook{world, state, state, within};
     auto pair = world.pairs.tyres.begin();
@@ -206,8 +236,7 @@ class Tyres final : public Effect {
       const auto first = pair;
       while (pair != world.pairs.tyres.end() && pair->wheel == i) ++pair;
       step_on_bodies(outlook, {first, pair}, footing);
-      // lying on its flank it stays as it was pressed in: nothing moves along the strut
-      if (footing.found || !footing.near) wheel.compression = footing.compression;
+      wheel.compression = struts[static_cast<std::size_t>(i)].pressed(footing, wheel.compression, droop);
       wheel.lift = std::clamp(wheel.compression, -droop, 2 * spec.travel);
       wheel.hub = X * spec.hub_B + wheel.lift * up;
       wheel.contact = footing.found ? footing.point : Vec3(wheel.hub - spec.radius * up);
@@ -229,6 +258,7 @@ class Tyres final : public Effect {
   }
 
   std::vector<WheelState> at_end_;
+  std::vector<StrutMemory> struts_at_end_;
   std::vector<Footing> footings_;  // of the step at hand; room is kept from step to step
 };
 template struct Registered<Tyres>;

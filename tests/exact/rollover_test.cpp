@@ -92,7 +92,9 @@ TEST(Rollover, DownABankOfTrianglesComesToRestOnThem) {
   }));
   EXPECT_LT(run.snapshots.back().bodies[0].V_WB.v.norm(), 0.05);
   EXPECT_LT(run.diagnostics.rest_penetration, 5e-3);
-  EXPECT_LT(run.diagnostics.max_energy_rise, 2e-3 * 0.5 * 1500 * 11.1 * 11.1);
+  // it comes back onto its wheels, whose struts go on from where they stood on their flanks; set to what the road asks of them at
+  // once, they gave 21 J. What remains is a part of a step of what springs take, of 0.5 * 1500 * 11.1^2 = 92 kJ
+  EXPECT_LT(run.diagnostics.max_energy_rise, 5);
 }
 
 TEST(CarAgainstCar, ByDefaultAutoKeepsMomentumAndDoesNotPassThrough) {
