@@ -1,5 +1,5 @@
 // What the engine does in a second, and how well: `build/tests/benchmark_engine [part...] [--peer name=program]...`
-// Parts: scenes, ensemble, persons, triangles, plan. Times are medians on one core; ratios compare runs of the same call.
+// Parts: scenes, ensemble, persons, triangles, plan, dense. Times are medians on one core; ratios compare runs of the same call.
 // A peer is a program that takes `scene=NAME dt=SECONDS reps=N pert=MICROMETRES damp=NMS` and prints comma separated values with
 // steps/s in column six and where the figure ends in column twenty.
 #include <algorithm>
@@ -18,6 +18,7 @@
 #include "scenes/loader/builder.h"
 #include "scenes/scene.h"
 #include "tests/benchmark/common_scenes.h"
+#include "tests/benchmark/dense_algebra.h"
 
 namespace {
 
@@ -320,4 +321,5 @@ int main(int argc, char** argv) {
   if (wanted("persons")) persons();
   if (wanted("triangles")) triangles();
   if (wanted("plan")) plan();
+  if (wanted("dense")) dense_algebra_beside_eigen();
 }
