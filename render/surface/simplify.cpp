@@ -18,6 +18,7 @@ namespace {
 using Corner = std::uint32_t;  // a place; several vertices may lie there
 using Quadric = Eigen::Matrix4d;
 
+constexpr std::array kTolerances{0.0005, 0.001, 0.002, 0.004, 0.008, 0.016};  // [m]
 constexpr double kTurn = 0.5;        // [-] least cosine between a triangle before and after
 constexpr double kSmoothEdge = 0.9;  // [-] least cosine between normals of one place that are no crease
 
@@ -44,16 +45,21 @@ class Collapse {
         if (c < other) push(c, other);
   }
 
-  void run(double tolerance) {
-    while (!heap_.empty() && heap_.top().cost <= tolerance * tolerance) {
+  /// Levels are made in their order. The heap holds the candidates of one: a deep one costs most of the time.
+  Mesh::Level level(std::size_t i) {
+    level_ = i;
+    for (const Candidate& c : waiting_[i])
+      if (current(c)) heap_.push(c);
+    while (!heap_.empty()) {
       const Candidate next = heap_.top();
       heap_.pop();
-      if (stamp_[next.from] == next.stamp_from && stamp_[next.onto] == next.stamp_onto && allowed(next.from, next.onto))
-        fall(next.from, next.onto);
+      if (current(next) && allowed(next.from, next.onto)) fall(next.from, next.onto);
     }
+    return triangles_left(kTolerances[i]);
   }
 
-  Mesh::Level level(double tolerance) const {
+ private:
+  Mesh::Level triangles_left(double tolerance) const {
     Mesh::Level out;
     out.tolerance = tolerance;
     for (std::size_t p = 0; p < parts_.size(); ++p) {
@@ -67,7 +73,6 @@ class Collapse {
     return out;
   }
 
- private:
   struct Candidate {
     double cost;
     Corner from, onto;
@@ -153,8 +158,16 @@ class Collapse {
     const auto cost = [&](Corner c) { return std::max(0.0, at(c).homogeneous().dot(q * at(c).homogeneous())); };
     const double onto_a = cost(a), onto_b = cost(b);
     if (onto_a < onto_b) std::swap(a, b);
-    heap_.push({std::min(onto_a, onto_b), a, b, stamp_[a], stamp_[b]});
+    const Candidate c{std::min(onto_a, onto_b), a, b, stamp_[a], stamp_[b]};
+    std::size_t level = level_;
+    while (level < kTolerances.size() && c.cost > kTolerances[level] * kTolerances[level]) ++level;
+    if (level == level_)
+      heap_.push(c);
+    else if (level < kTolerances.size())
+      waiting_[level].push_back(c);
   }
+
+  bool current(const Candidate& c) const { return stamp_[c.from] == c.stamp_from && stamp_[c.onto] == c.stamp_onto; }
 
   // the surface stays a surface, and no triangle turns away from where it and its normals look
   bool allowed(Corner from, Corner onto) const {
@@ -220,8 +233,10 @@ class Collapse {
   std::vector<Triangle> triangles_;
   std::vector<std::vector<std::uint32_t>> around_;  // triangles at each corner
   std::vector<Quadric> q_;
-  std::vector<std::uint32_t> stamp_;  // counts a corner's changes: older candidates are void
-  std::priority_queue<Candidate> heap_;
+  std::vector<std::uint32_t> stamp_;                                // counts a corner's changes: older candidates are void
+  std::size_t level_ = 0;                                           // in the making
+  std::priority_queue<Candidate> heap_;                             // its own ...
+  std::array<std::vector<Candidate>, kTolerances.size()> waiting_;  // ... and those of coarser ones
 };
 
 }  // namespace
@@ -255,14 +270,10 @@ const std::vector<Mesh::Level>& Mesh::levels() const {
 
 std::vector<Mesh::Level> coarser_levels(const Mesh& mesh) {
   constexpr std::size_t kFewest = 500, kMost = 400'000;  // triangles: below it does not pay, above it takes seconds
-  constexpr double kTolerances[] = {0.0005, 0.001, 0.002, 0.004, 0.008, 0.016};  // [m]
   std::vector<Mesh::Level> out;
   if (mesh.indices.size() < 3 * kFewest || mesh.indices.size() > 3 * kMost) return out;
   Collapse collapse(mesh);
-  for (const double tolerance : kTolerances) {
-    collapse.run(tolerance);
-    out.push_back(collapse.level(tolerance));
-  }
+  for (std::size_t i = 0; i < kTolerances.size(); ++i) out.push_back(collapse.level(i));
   return out;
 }
 
