@@ -22,6 +22,7 @@
 #include <thread>
 
 #include "render/error.h"
+#include "render/gl/context.h"
 #include "render/image/png.h"
 #include "render/painter.h"
 #include "render/parallel.h"
@@ -182,6 +183,7 @@ void prepare(const Stage& stage) {
     if (person.look == PersonLook::skin) meshes.insert(person.skin()->mesh.get());
   const std::vector<const Mesh*> all(meshes.begin(), meshes.end());
   in_parallel(all.size(), [&all](std::size_t i) { all[i]->levels(); });
+  load_gl();
   malloc_trim(0);  // what building has let go of would count as every worker's own
 }
 

@@ -8,11 +8,17 @@
 
 #include "render/error.h"
 #include "render/gl/gl.h"
+#include "render/late_library.h"
 #include "render/renderer.h"
 
 namespace render {
+
+#define RENDER_DEFINE(name) decltype(&::name) name = nullptr;
+RENDER_GL_FUNCTIONS(RENDER_DEFINE)
+
 namespace {
 
+constexpr const char* kOsMesa = "libOSMesa.so.8";
 constexpr const char* kChosen = "CRASHREEL_GL";  // handed on to the processes that draw
 constexpr int kSide = 16;                        // [pixels] of OSMesa's own buffer
 
@@ -20,6 +26,16 @@ bool egl_is_chosen() {
   const char* chosen = std::getenv(kChosen);
   return chosen && std::string(chosen) == "egl";
 }
+
+/// A function of libOSMesa by name.
+template <typename Function>
+void find(Function& function, const char* name) {
+  function = reinterpret_cast<Function>(late_function(kOsMesa, name));
+}
+
+decltype(&::OSMesaCreateContextAttribs) create_osmesa = nullptr;
+decltype(&::OSMesaMakeCurrent) make_osmesa_current = nullptr;
+decltype(&::OSMesaDestroyContext) destroy_osmesa = nullptr;
 
 }  // namespace
 
@@ -30,11 +46,25 @@ void choose_gl(const std::string& name) {
 GlContext::GlContext(Threads threads) {
   // one process a core: threads inside would only wait for each other, and none of them would be there after a fork
   if (threads == Threads::none) setenv("LP_NUM_THREADS", "0", 1);
+  load_gl();
   if (egl_is_chosen())
     open_egl();
   else
     open_osmesa();
   make_current();
+}
+
+void load_gl() {
+  if (egl_is_chosen()) {
+#define RENDER_FIND_EGL(name) name = reinterpret_cast<decltype(name)>(eglGetProcAddress(#name));
+    RENDER_GL_FUNCTIONS(RENDER_FIND_EGL)
+    return;
+  }
+#define RENDER_FIND(name) find(name, #name);
+  RENDER_GL_FUNCTIONS(RENDER_FIND)
+  find(create_osmesa, "OSMesaCreateContextAttribs");
+  find(make_osmesa_current, "OSMesaMakeCurrent");
+  find(destroy_osmesa, "OSMesaDestroyContext");
 }
 
 void GlContext::open_osmesa() {
@@ -47,7 +77,7 @@ void GlContext::open_osmesa() {
                         OSMESA_CONTEXT_MINOR_VERSION,
                         3,
                         0};
-  context_ = OSMesaCreateContextAttribs(wanted, nullptr);
+  context_ = create_osmesa(wanted, nullptr);
   if (!context_) throw RenderError("OpenGL 3.3 core was asked of OSMesa; it gave no context: Mesa too old, or not enough memory");
   buffer_.resize(4 * kSide * kSide);
 }
@@ -74,7 +104,7 @@ void GlContext::open_egl() {
 void GlContext::make_current() const {
   const bool done =
       display_ ? eglMakeCurrent(display_, nullptr, nullptr, context_) != 0
-               : OSMesaMakeCurrent(static_cast<OSMesaContext>(context_), buffer_.data(), GL_UNSIGNED_BYTE, kSide, kSide) != 0;
+               : make_osmesa_current(static_cast<OSMesaContext>(context_), buffer_.data(), GL_UNSIGNED_BYTE, kSide, kSide) != 0;
   if (!done) throw RenderError(fmt::format("{} made an OpenGL 3.3 context that it cannot use", display_ ? "EGL" : "OSMesa"));
 }
 
@@ -82,7 +112,7 @@ GlContext::~GlContext() {
   if (display_)
     eglDestroyContext(display_, context_);  // other contexts use the display too
   else
-    OSMesaDestroyContext(static_cast<OSMesaContext>(context_));
+    destroy_osmesa(static_cast<OSMesaContext>(context_));
 }
 
 std::string GlContext::description() const {

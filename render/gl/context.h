@@ -7,6 +7,10 @@
 
 namespace render {
 
+/// Finds the functions of the back end that choose_gl named. A context does so itself; done before a fork, its children share what
+/// was loaded. Throws RenderError.
+void load_gl();
+
 class GlContext {
  public:
   enum class Threads { none, own };  // of llvmpipe, beside the caller's

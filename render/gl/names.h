@@ -9,7 +9,7 @@
 namespace render::gl {
 
 /// Owns one GL name; the context must be current when it dies.
-template <void (*make)(GLsizei, GLuint*), void (*remove)(GLsizei, const GLuint*)>
+template <auto& make, auto& remove>
 class Name {
  public:
   Name() { make(1, &id_); }

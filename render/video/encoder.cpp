@@ -11,12 +11,7 @@
 #include "render/error.h"
 #include "render/publish.h"
 #include "render/shade/kernels.h"
-
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/opt.h>
-}
+#include "render/video/libav.h"
 
 namespace render {
 namespace {
@@ -291,6 +286,7 @@ VideoEncoder::VideoEncoder(const std::filesystem::path& output, int width, int h
   if (!m.lossless && (width % 2 || height % 2))
     throw RenderError(fmt::format("an MP4 needs an even size, not {}x{}: try --size {}x{}", width, height, width + width % 2,
                                   height + height % 2));
+  load_libav();
   av_log_set_level(AV_LOG_ERROR);
   m.output = output;
   m.part.emplace(output);
@@ -324,6 +320,7 @@ void VideoEncoder::finish() {
 }
 
 std::map<std::string, std::string> read_film_metadata(const std::filesystem::path& film) {
+  load_libav();
   av_log_set_level(AV_LOG_QUIET);
   AVFormatContext* in = open_film(film.string(), film.extension() == ".mkv" ? "matroska" : "mov");
   std::map<std::string, std::string> out;

@@ -7,10 +7,9 @@
 #include "render/matrix.h"
 #include "render/text/labels.h"
 
-namespace benchmark {
+namespace render {
 namespace {
 
-using namespace render;
 using namespace render::gl;
 
 constexpr int kSamples = 4, kShadowSize = 2048;
@@ -239,4 +238,4 @@ void PlainRenderer::draw(const DrawList& list, Image& out) {
   draw_labels(list, out);
 }
 
-}  // namespace benchmark
+}  // namespace render

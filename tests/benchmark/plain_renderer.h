@@ -12,7 +12,7 @@
 #include "render/gl/program.h"
 #include "render/image/image.h"
 
-namespace benchmark {
+namespace render {
 
 class PlainRenderer {
  public:
@@ -42,4 +42,4 @@ class PlainRenderer {
   render::gl::OverlayPass overlays_;
 };
 
-}  // namespace benchmark
+}  // namespace render

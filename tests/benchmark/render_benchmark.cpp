@@ -75,7 +75,7 @@ double plain_rate(const Bench& b, const std::string& camera, int width, int heig
     Image image;
     std::vector<std::uint8_t> i420(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3 / 2);
     const double t = seconds([&] {
-      benchmark::PlainRenderer renderer(width, height);
+      PlainRenderer renderer(width, height);
       VideoEncoder encoder(film, width, height, 60, {}, {});
       for (int i = 0; i < frames; ++i) {
         renderer.draw(arrange(b.scene.stage, b.run, {0.05 + i / 60.0, camera, 1}, static_cast<double>(width) / height), image);

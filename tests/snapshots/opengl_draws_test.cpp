@@ -1,9 +1,9 @@
 // OpenGL draws every picture: where a kind of its draw calls does nothing, that kind of thing is missing from the picture, and
-// nothing else is. The program's own glDraw* calls come here first.
-#include <dlfcn.h>
+// nothing else is. The program's glDrawArrays comes here first.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <utility>
 
 #include "render/gl/gl.h"
 #include "render/renderer.h"
@@ -11,28 +11,25 @@
 
 namespace {
 
+using namespace render;
+
 enum class Kind { none, things, shadows, marks, lines };
 Kind lost = Kind::none;
+decltype(render::glDrawArrays) draw_arrays = nullptr;
 
 /// What the shaders in use draw, by what they are told of a corner.
 Kind kind_of_call() {
   GLint program = 0;
-  glGetIntegerv(GL_CURRENT_PROGRAM, &program);
-  const auto told = [program](const char* attribute) { return glGetAttribLocation(static_cast<GLuint>(program), attribute) >= 0; };
+  render::glGetIntegerv(GL_CURRENT_PROGRAM, &program);
+  const auto told = [program](const char* attribute) {
+    return render::glGetAttribLocation(static_cast<GLuint>(program), attribute) >= 0;
+  };
   return told("number") ? Kind::things : told("mark") ? Kind::marks : told("tint") ? Kind::lines : Kind::shadows;
 }
 
-}  // namespace
-
-extern "C" void glDrawArrays(GLenum mode, GLint first, GLsizei count) {
-  if (kind_of_call() == lost) return;
-  static const auto next = reinterpret_cast<void (*)(GLenum, GLint, GLsizei)>(dlsym(RTLD_NEXT, "glDrawArrays"));
-  next(mode, first, count);
+void draw_what_is_not_lost(GLenum mode, GLint first, GLsizei count) {
+  if (kind_of_call() != lost) draw_arrays(mode, first, count);
 }
-
-namespace {
-
-using namespace render;
 
 constexpr int kWidth = 480, kHeight = 320;
 
@@ -66,6 +63,7 @@ Found found(Kind without) {
   DrawList bare = list;
   bare.ellipsoids.clear(), bare.strips.clear(), bare.lines.clear();
   Renderer renderer(kWidth, kHeight, Quality::standard);
+  draw_arrays = std::exchange(render::glDrawArrays, draw_what_is_not_lost);  // found anew with every context
   Image picture, ground;
   lost = Kind::none;
   renderer.draw(bare, ground);

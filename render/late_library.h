@@ -1,0 +1,10 @@
+// Libraries that take long to load and that most runs do without are loaded where they are first needed: libav* 35 ms, OSMesa 14
+// ms.
+#pragma once
+
+namespace render {
+
+/// A function of a shared library, which is loaded where it is not yet. Throws RenderError: no such library or function.
+void* late_function(const char* library, const char* function);
+
+}  // namespace render
