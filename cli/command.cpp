@@ -147,11 +147,12 @@ std::vector<std::string> option_names(const CLI::App& app) {
   throw UsageError(fmt::format("{}: unexpected argument \"{}\"", who, first));
 }
 
-[[noreturn]] void refuse_command(const std::string& word) {
-  std::vector<std::string> names;
-  for (const Command& command : kCommands) names.push_back(command.name);
-  if (word.empty()) throw UsageError(fmt::format("no command given; take one of {}; see crashreel --help", fmt::join(names, ", ")));
-  throw UsageError(fmt::format("unknown {} {}{}", word.starts_with("-") ? "option" : "command", word, did_you_mean(word, names)));
+/// A missing option as it is typed: "-o DIR is required".
+std::string as_typed(const CLI::App& app, const std::string& what) {
+  for (const CLI::Option* option : app.get_options())
+    if (!option->get_snames().empty() && what == option->get_name() + " is required")
+      return fmt::format("-{} {} is required", option->get_snames().front(), option->get_type_name());
+  return what;
 }
 
 /// What --help of a command, or of the program, prints.
@@ -179,6 +180,13 @@ std::vector<std::string> as_commands(int argc, const char* const* argv) {
 
 std::span<const Command> commands() {
   return kCommands;
+}
+
+void refuse_command(const std::string& word) {
+  std::vector<std::string> names;
+  for (const Command& command : kCommands) names.push_back(command.name);
+  if (word.empty()) throw UsageError(fmt::format("no command given; take one of {}; see crashreel --help", fmt::join(names, ", ")));
+  throw UsageError(fmt::format("unknown {} {}{}", word.starts_with("-") ? "option" : "command", word, did_you_mean(word, names)));
 }
 
 void Arguments::positional(const std::string& name, std::string& target, const std::string& help) {
@@ -287,6 +295,7 @@ int run_command_line(int argc, const char* const* argv) {
     return actions.at(&sub)();
   } catch (const CLI::CallForHelp&) {
     const auto asked = app.get_subcommands();
+    if (asked.empty() && !app.remaining().empty()) refuse_command(app.remaining().front());
     fmt::print("{}", help_text(asked.empty() ? "" : asked.front()->get_name()));
     return kDone;
   } catch (const CLI::ParseError& error) {
@@ -296,7 +305,8 @@ int run_command_line(int argc, const char* const* argv) {
       // a missing scene is often a mistyped option that swallowed it
       if (!chosen.front()->remaining().empty()) refuse_leftovers(*chosen.front(), who);
     }
-    throw UsageError(fmt::format("{}: {}; see {} --help", who, error.what(), who));
+    const std::string what = chosen.empty() ? error.what() : as_typed(*chosen.front(), error.what());
+    throw UsageError(fmt::format("{}: {}; see {} --help", who, what, who));
   }
 }
 

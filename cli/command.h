@@ -42,6 +42,8 @@ struct CommandHelp {
 std::vector<CommandHelp> help_of_commands();
 
 std::span<const Command> commands();
+/// Throws UsageError: no such command, with the one that may be meant.
+[[noreturn]] void refuse_command(const std::string& word);
 
 /// Reads the command line, runs the command it names and returns the exit code. --help goes to standard output. Throws UsageError.
 int run_command_line(int argc, const char* const* argv);

@@ -72,7 +72,7 @@ Estimate of_results(const scenes::Scene& scene, const Probe& probe) {
   for (const engine::HeadMotion& head : r.heads) kept += 2 * static_cast<double>(head.time.capacity() * sizeof(double));
   // a growing vector holds its old self and a new one of twice the size for a moment
   out.recording = kProgram + 2 * kept * probe.stretch;
-  out.disk = kRow * rows * probe.stretch;
+  out.disk = (kRow * rows + kept) * probe.stretch;  // recording.bin has what memory has
   return out;
 }
 

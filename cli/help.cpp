@@ -81,7 +81,8 @@ const std::vector<std::pair<const char*, const char*>>& exit_codes() {
       {"2", "the scene or the command line is wrong; the message says where and what to write instead"},
       {"3", "the machine failed: a file, GL, the encoder"},
       {"4", "the model diverged; the recording up to there has been written or drawn"},
-      {"130, 143", "stopped by SIGINT or SIGTERM"}};
+      {"129, 130, 143", "stopped by SIGHUP, SIGINT or SIGTERM"},
+      {"141", "nobody reads standard output any more, as with | head; files are whole"}};
   return codes;
 }
 

@@ -10,6 +10,7 @@
 #include "cli/estimate.h"
 #include "cli/exit.h"
 #include "cli/foresight.h"
+#include "cli/output/recording_file.h"
 #include "cli/output/summary.h"
 #include "cli/process.h"
 #include "engine/simulate.h"
@@ -133,8 +134,15 @@ engine::Plan plan_of(const scenes::Scene& scene) {
   return plan;
 }
 
-engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan, const SceneArguments& wish, Costs costs) {
-  if (wish.verbose) tell_plan(plan);
+namespace {
+
+/// What `simulate` has kept of this very run, where its folder is named and nothing is changed.
+std::optional<engine::Recording> kept_run(const scenes::Scene& scene, const SceneArguments& wish) {
+  if (!std::filesystem::is_directory(wish.scene) || !wish.set.empty() || !wish.effects.empty()) return std::nullopt;
+  return read_recording(std::filesystem::path(wish.scene) / kRecordingFile, scene);
+}
+
+engine::Recording simulated(const scenes::Scene& scene, const engine::Plan& plan, const SceneArguments& wish, Costs costs) {
   Progress progress("simulate", "s", scene.model.settings.duration, progress_of(wish));
   engine::RunOptions options;
   if (costs == Costs::timed || wish.verbose) options.clock = clock_seconds;
@@ -148,6 +156,15 @@ engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan
   recording.wall_s = clock_seconds() - start;
   progress.finish(recording.end_time());
   check_interrupted();
+  return recording;
+}
+
+}  // namespace
+
+engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan, const SceneArguments& wish, Costs costs) {
+  if (wish.verbose) tell_plan(plan);
+  std::optional<engine::Recording> kept = costs == Costs::counted ? kept_run(scene, wish) : std::nullopt;
+  engine::Recording recording = kept ? std::move(*kept) : simulated(scene, plan, wish, costs);
   if (wish.verbose) tell_costs(recording);
 
   // a run that left something out says so wherever its results go

@@ -21,7 +21,7 @@ int man(const std::string& name) {
     fmt::print("{}", man_page_of(help));
     return kDone;
   }
-  throw UsageError(fmt::format("crashreel man: there is no command {}", name));
+  refuse_command(name);
 }
 
 }  // namespace

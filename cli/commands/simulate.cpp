@@ -1,4 +1,4 @@
-// crashreel simulate SCENE -o DIR: trajectory.csv, contacts.csv, impacts.csv, summary.json.
+// crashreel simulate SCENE -o DIR: trajectory.csv, contacts.csv, impacts.csv, recording.bin, summary.json.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include "cli/output/csv.h"
 #include "cli/output/fingerprint.h"
 #include "cli/output/lock.h"
+#include "cli/output/recording_file.h"
 #include "cli/output/summary.h"
 #include "cli/output/whole_file.h"
 #include "cli/process.h"
@@ -31,18 +32,19 @@ struct SimulateWish {
   std::string max_memory;
 };
 
-constexpr const char* kFiles[] = {"trajectory.csv", "contacts.csv", "impacts.csv", "summary.json"};
+constexpr const char* kSummary = "summary.json";
+constexpr const char* kFiles[] = {"trajectory.csv", "contacts.csv", "impacts.csv", kRecordingFile, kSummary};
 
 /// The summary of the whole result of this run, where the folder holds it: the summary gets its name last.
 std::optional<nlohmann::ordered_json> finished(const std::filesystem::path& folder, const std::string& mark) {
-  std::ifstream file(folder / "summary.json");
+  std::ifstream file(folder / kSummary);
   if (!file) return std::nullopt;
   auto found = nlohmann::ordered_json::parse(file, nullptr, false);
   if (!found.is_object() || found.value("fingerprint", nlohmann::ordered_json()) != mark)
     throw UsageError(
         fmt::format("{} was not made by this scene with these assets, options and version; give --overwrite in place of "
                     "--resume, or another -o",
-                    (folder / "summary.json").string()));
+                    (folder / kSummary).string()));
   std::error_code missing;
   for (const char* name : kFiles)
     if (!std::filesystem::is_regular_file(folder / name, missing)) return std::nullopt;
@@ -66,7 +68,7 @@ int simulate(const SimulateWish& wish, const Arguments& arguments) {
   if (wish.dry_run) return tell_estimate(scene, wish);
   make_writable_folder(folder);
   if (wish.resume && wish.overwrite) throw UsageError("--resume keeps what --overwrite replaces; give one of them");
-  const OutputLock lock(folder / kFiles[3], [](const std::string& name) {
+  const OutputLock lock(folder / kSummary, [](const std::string& name) {
     return std::find(std::begin(kFiles), std::end(kFiles), name) != std::end(kFiles);
   });
   for (const char* name : kFiles) refuse_existing(folder / name, wish.overwrite || wish.resume);
@@ -92,22 +94,24 @@ int simulate(const SimulateWish& wish, const Arguments& arguments) {
   WholeFile trajectory(folder / "trajectory.csv");
   WholeFile contacts(folder / "contacts.csv");
   WholeFile impacts(folder / "impacts.csv");
-  WholeFile summary_file(folder / "summary.json");
+  WholeFile recording_file(folder / kRecordingFile);
+  WholeFile summary_file(folder / kSummary);
   write_trajectory(recording, trajectory);
   write_contacts(recording, contacts);
   write_impacts(engine::impacts_of(scene.model, recording), impacts);
+  recording_file.write(recording_bytes(scene, recording));
   summary_file.write(summary.dump(2) + "\n");
-  for (WholeFile* file : {&trajectory, &contacts, &impacts, &summary_file}) file->close();
+  for (WholeFile* file : {&trajectory, &contacts, &impacts, &recording_file, &summary_file}) file->close();
   // an old summary must not stand beside a new trajectory, whenever the power fails
   std::error_code none;
-  std::filesystem::remove(folder / kFiles[3], none);
-  for (WholeFile* file : {&trajectory, &contacts, &impacts, &summary_file}) file->publish();
+  std::filesystem::remove(folder / kSummary, none);
+  for (WholeFile* file : {&trajectory, &contacts, &impacts, &recording_file, &summary_file}) file->publish();
 
   if (wish.scene.json) {
     fmt::print("{}\n", summary.dump(2));
   } else {
     fmt::print("{}", summary_text(scene, recording, metrics));
-    fmt::print("{}: trajectory.csv, contacts.csv, impacts.csv, summary.json\n", folder.string());
+    fmt::print("{}: trajectory.csv, contacts.csv, impacts.csv, recording.bin, summary.json\n", folder.string());
   }
   return exit_code_of(recording);
 }
@@ -118,7 +122,7 @@ std::function<int()> declare_simulate(Arguments& arguments) {
   const auto wish = std::make_shared<SimulateWish>();
   declare_scene(arguments, wish->scene);
   declare_progress(arguments, wish->scene);
-  arguments.required_option("-o,--output", wish->folder, "DIR", "folder for the four files; made if missing");
+  arguments.required_option("-o,--output", wish->folder, "DIR", "folder for the files; made if missing");
   arguments.flag("--overwrite", wish->overwrite, "replace files that exist");
   arguments.flag("--resume", wish->resume, "begin, or go on where the same command was stopped; keeps a finished result");
   arguments.flag("--dry-run", wish->dry_run, "print the steps, bytes and seconds to expect, and stop");

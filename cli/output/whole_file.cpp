@@ -17,7 +17,13 @@ void make_writable_folder(const fs::path& folder) {
   const fs::path place = folder.empty() ? "." : folder;
   std::error_code problem;
   if (!fs::exists(place, problem)) fs::create_directories(place, problem);
-  if (problem) throw MachineError(fmt::format("making the folder {}: {}", place.string(), problem.message()));
+  if (problem) {
+    fs::path there = place;  // as far as the path leads
+    while (there.has_relative_path() && !fs::exists(there)) there = there.parent_path();
+    const bool file = !there.empty() && !fs::is_directory(there);
+    throw MachineError(
+        fmt::format("making the folder {}: {}", place.string(), file ? there.string() + " is a file" : problem.message()));
+  }
   if (!fs::is_directory(place)) throw MachineError(fmt::format("writing into {}: it is not a folder", place.string()));
   if (access(place.c_str(), W_OK | X_OK) != 0) {
     throw MachineError(fmt::format("writing into {}: {}", place.string(), std::strerror(errno)));

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "cli/exit.h"
 #include "cli/study/words.h"
@@ -64,8 +65,10 @@ void check_target(const Target& target, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     if (fits(name, target.quantity)) return;
   const std::string near = scenes::nearest(target.quantity, names);
+  std::set<std::string> keys;  // without whose they are
+  for (const std::string& name : names) keys.insert(name.substr(0, name.find(' ')));
   throw UsageError(fmt::format("--target: the scene has no measure {}{}; it has {}", target.quantity,
-                               near.empty() ? "" : fmt::format("; did you mean {}?", near), fmt::join(names, ", ")));
+                               near.empty() ? "" : fmt::format("; did you mean {}?", near), fmt::join(keys, ", ")));
 }
 
 TargetAnswer search(const Study& study, const Target& target) {

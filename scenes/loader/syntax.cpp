@@ -217,6 +217,7 @@ void refuse_other_files(std::string_view text, const std::string& name) {
   for (const Signature& other : kOthers)
     if (text.starts_with(other.bytes)) refuse(fmt::format("is {}, no scene file", other.kind), 0);
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) refuse("is written in UTF-16; save it as UTF-8", 0);
+  if (text.find('\0') != std::string_view::npos) refuse("is a binary file, no scene file", 0);
   const std::size_t bad = not_utf8(text);
   if (bad == std::string_view::npos) return;
   const auto line = static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(bad), '\n')) + 1;

@@ -207,7 +207,10 @@ void read_vehicle(Builder& builder, Reader scene) {
   need(r, "mass", "\"1500 kg\"");
   need(r, "cg", "\"0.1 0 0.55 m\"");
   need(r, "inertia", "\"550 2500 2700 kg m^2\"");
-  if (builder.errors.count() != errors_before) return;
+  if (builder.errors.count() != errors_before) {
+    if (r.has("mesh")) import_mesh(builder, r, "mesh");  // what is wrong with it is told at once
+    return;
+  }
   // the library has its trailers, buses and bicycles; a mesh of the user's is most likely a car
   const Origin origin = scene.has("mesh") || !scene.has("model") ? Origin::user : Origin::library;
   const Meshes meshes = read_meshes(builder, r, origin);

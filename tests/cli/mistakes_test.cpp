@@ -111,6 +111,11 @@ INSTANTIATE_TEST_SUITE_P(
              "a.toml:2: holds a letter that is not UTF-8, as files in Latin-1 or Windows-1252 do; save the file as UTF-8\n    2 | "
              "title = \"Stra\xdf"
              "e\"\n"},
+        Slip{"a_program",
+             std::string("\x7f"
+                         "ELF\0\1",
+                         6),
+             "a.toml: is a binary file, no scene file\n"},
         Slip{"a_picture", "\x89PNG\r\n\x1a\n", "a.toml: is a PNG picture, no scene file\n"},
         Slip{"a_pose_nobody_has", kPerson + "pose = \"standin\"\n",
              "a.toml:3:8: person.p.pose is \"standin\": there is no such pose; did you mean \"standing\"? available: cat, cyclist, "
@@ -176,6 +181,34 @@ TEST(Mistakes, OptionsThatMeanAValueOfTheScene) {
       "km/h\"\n");
   EXPECT_EQ(run(folder, {"check", "ball.toml", "--set", "body.bal.mass=1 kg"}).err,
             "crashreel: --set body.bal.mass=1 kg: there is no body named or numbered \"bal\"\n");
+}
+
+TEST(Mistakes, AMeshThatIsMissingIsToldBesideWhatElseIs) {
+  const Folder folder;
+  folder.write("a.toml", "[[vehicle]]\nname = \"car\"\nmesh = \"nosuch.obj\"\n");
+  const Result result = run(folder, {"check", "a.toml"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("a.toml:1:1: vehicle.car.mass is missing; write like mass = \"1500 kg\""));
+  EXPECT_THAT(result.err, HasSubstr("a.toml:3:8: vehicle.car.mesh is \"nosuch.obj\": "));
+}
+
+TEST(Mistakes, WhereResultsCannotGo) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  folder.write("file", "");
+  EXPECT_EQ(run(folder, {"simulate", "ball.toml"}).err, "crashreel simulate: -o DIR is required; see crashreel simulate --help\n");
+  EXPECT_EQ(run(folder, {"simulate", "ball.toml", "-o", "file"}).err, "crashreel: writing into file: it is not a folder\n");
+  EXPECT_EQ(run(folder, {"simulate", "ball.toml", "-o", "file/out"}).err,
+            "crashreel: making the folder file/out: file is a file\n");
+}
+
+TEST(Mistakes, WhoReadsNoFurtherHearsNoComplaint) {
+  const Folder folder;
+  const std::string command =
+      "cd " + folder.path().string() + " && { " + program() + " schema 2>.stderr; echo $? >code; } | head -c 100 >/dev/null";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(contents(folder / "code"), "141\n");
+  EXPECT_EQ(contents(folder / ".stderr"), "");
 }
 
 TEST(Mistakes, TheSameMomentTwiceIsOnePicture) {
@@ -269,6 +302,19 @@ TEST(Render, ARunsFolderStandsForItsScene) {
   ASSERT_EQ(render({"out"}, "of_run.png").code, 0);
   ASSERT_EQ(render({"ball.toml", "--set", "body.ball.velocity=2 0 0 m/s"}, "of_scene.png").code, 0);
   EXPECT_EQ(run(folder, {"compare", "of_run.png", "of_scene.png"}).code, 0);
+  const auto simulates = [&](const std::vector<std::string>& more, const std::string& file) {
+    std::vector<std::string> arguments = {"out", "-v"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return render(arguments, file).err.find("effect gravity: 1") != std::string::npos;
+  };
+  EXPECT_FALSE(simulates({}, "kept.png"));
+  EXPECT_EQ(contents(folder / "kept.png"), contents(folder / "of_run.png"));
+  EXPECT_TRUE(simulates({"--set", "body.ball.mass=3 kg"}, "other.png"));
+  std::string bytes = contents(folder / "out/recording.bin");
+  bytes[bytes.size() / 2] ^= 1;
+  folder.write("out/recording.bin", bytes);
+  EXPECT_TRUE(simulates({}, "damaged.png"));
+  EXPECT_EQ(contents(folder / "damaged.png"), contents(folder / "of_run.png"));
   folder.write("ball.toml", ball_with("\"2 kg\"", "\"3 kg\""));
   const Result changed = render({"out"}, "later.png");
   EXPECT_EQ(changed.code, 2);
@@ -300,7 +346,8 @@ TEST(Help, BeginsWithExamplesAndManualPagesSayTheSame) {
   for (const char* section : {".SH NAME", ".SH SYNOPSIS", ".SH EXAMPLES", ".SH OPTIONS", ".SH EXIT STATUS", ".SH ENVIRONMENT"})
     EXPECT_THAT(page.out, HasSubstr(section));
   EXPECT_THAT(page.out, HasSubstr("\\-\\-look\\-at"));
-  EXPECT_EQ(run(folder, {"man", "rendr"}).code, 2);
+  EXPECT_EQ(run(folder, {"man", "rendr"}).err, "crashreel: unknown command rendr; did you mean render?\n");
+  EXPECT_EQ(run(folder, {"help", "rendr"}).err, "crashreel: unknown command rendr; did you mean render?\n");
 }
 
 TEST(Help, CompletionsAreShellScripts) {

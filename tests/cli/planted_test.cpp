@@ -185,8 +185,8 @@ TEST_F(Planted, WhatAKilledRunLeftIsTakenAway) {
   folder.write("a.mp4.whole.4711.part", "half");
   EXPECT_EQ(run(folder, {"simulate", "ball.toml", "-o", "out"}).code, 0);
   EXPECT_EQ(run(folder, film({"-o", "a.mp4"})).code, 0);
-  EXPECT_EQ(names_in(folder / "out"),
-            (std::vector<std::string>{"contacts.csv", "impacts.csv", "notes.4711.part", "summary.json", "trajectory.csv"}));
+  EXPECT_EQ(names_in(folder / "out"), (std::vector<std::string>{"contacts.csv", "impacts.csv", "notes.4711.part", "recording.bin",
+                                                                "summary.json", "trajectory.csv"}));
   EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{".stderr", ".stdout", "a.mp4", "ball.toml", "out"}));
 }
 

@@ -145,7 +145,8 @@ TEST(Simulate, WritesItsFilesWithTheColumnsOfTheContract) {
                                   "yaw_rate_b_after_radps,energy_lost_J"));
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) files.push_back(entry.path().filename().string());
-  EXPECT_THAT(files, testing::UnorderedElementsAre("trajectory.csv", "contacts.csv", "impacts.csv", "summary.json"));
+  EXPECT_THAT(files,
+              testing::UnorderedElementsAre("trajectory.csv", "contacts.csv", "impacts.csv", "recording.bin", "summary.json"));
   EXPECT_THAT(result.err, IsEmpty()) << "nothing to warn of, too short for progress";
 }
 
