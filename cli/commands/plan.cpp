@@ -48,17 +48,40 @@ const char* words_of_phase(const std::string& phase) {
   return "the step's own housekeeping and the start of the run";
 }
 
+constexpr std::size_t kWidest = 40;  // of a column; five of them fit on a terminal of 120
+
+/// The text in lines of at most kWidest, broken at spaces.
+std::vector<std::string> broken(std::string text) {
+  std::vector<std::string> out;
+  while (text.size() > kWidest) {
+    const std::size_t at = text.rfind(' ', kWidest);
+    if (at == std::string::npos || at == 0) break;
+    out.push_back(text.substr(0, at));
+    text.erase(0, at + 1);
+  }
+  out.push_back(text);
+  return out;
+}
+
 void print_columns(const Rows& rows) {
+  std::vector<std::vector<std::vector<std::string>>> cells;  // by row and column, in lines
   std::vector<std::size_t> widths;
-  for (const auto& row : rows)
+  for (const auto& row : rows) {
+    cells.emplace_back();
     for (std::size_t i = 0; i < row.size(); ++i) {
       if (i == widths.size()) widths.push_back(0);
-      widths[i] = std::max(widths[i], row[i].size());
+      cells.back().push_back(broken(row[i]));
+      for (const std::string& line : cells.back().back()) widths[i] = std::max(widths[i], line.size());
     }
-  for (const auto& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("{:<{}}  ", row[i], widths[i]);
-    fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+  }
+  for (const auto& row : cells) {
+    std::size_t lines = 0;
+    for (const auto& cell : row) lines = std::max(lines, cell.size());
+    for (std::size_t l = 0; l < lines; ++l) {
+      std::string line;
+      for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("{:<{}}  ", l < row[i].size() ? row[i][l] : "", widths[i]);
+      fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/cli/program.h"
 
@@ -10,15 +11,34 @@ using namespace cli_tests;
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
+namespace {
+
+/// The whole text of every row, which a terminal gets in several lines.
+Result plan_of_ball(const Folder& folder, std::vector<std::string> more = {}) {
+  folder.write("ball.toml", kBall);
+  more.insert(more.begin(), {"plan", "ball.toml", "--json"});
+  return run(folder, more);
+}
+
+}  // namespace
+
 TEST(Plan, NamesTheCriterionOfEveryRow) {
   const Folder folder;
-  folder.write("ball.toml", kBall);
-  const Result result = run(folder, {"plan", "ball.toml"});
+  const Result result = plan_of_ball(folder);
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("9.81 m/s^2 on 1 body, 2 kg together"));
   EXPECT_THAT(result.out, HasSubstr("1 free body over the plane; the lowest point starts 0.2 m above it"));
   EXPECT_THAT(result.out, HasSubstr("no joints"));
   EXPECT_THAT(result.out, HasSubstr("no vehicle"));
+}
+
+TEST(Plan, FitsOnATerminal) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  std::istringstream lines(run(folder, {"plan", "ball.toml"}).out);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) EXPECT_LE(line.size(), 120u) << line;
+  EXPECT_GT(count, 18) << "a line an effect, and those that are broken";
 }
 
 TEST(Plan, MeasuresWhatEachEffectCosts) {
@@ -46,13 +66,13 @@ TEST(Plan, MeasuresWhatEachEffectCosts) {
 
 TEST(Plan, SaysThatAnEffectIsForced) {
   const Folder folder;
-  folder.write("ball.toml", kBall);
-  const Result result = run(folder, {"plan", "ball.toml", "--effects", "gravity=off", "--effects", "tyres=on"});
+  const Result result = plan_of_ball(folder, {"--effects", "gravity=off", "--effects", "tyres=on"});
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("switched off by the author; the scene calls for it: 9.81 m/s^2"));
   EXPECT_THAT(result.out, HasSubstr("all of it, without a bound"));
   EXPECT_THAT(result.out, HasSubstr("switched on by the author, with nothing to do: no vehicle"));
-  EXPECT_THAT(result.out, HasSubstr("warning: effect gravity switched off by the author"));
+  EXPECT_THAT(run(folder, {"plan", "ball.toml", "--effects", "gravity=off"}).out,
+              HasSubstr("warning: effect gravity switched off by the author"));
 }
 
 /// Whoever sees only one of them must know.
