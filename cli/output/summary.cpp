@@ -264,6 +264,18 @@ Json summary_json(const scenes::Scene& scene, const engine::Recording& recording
   return out;
 }
 
+namespace {
+
+/// Beside a way to rest of who does not rest yet: a longer run gives another number.
+const char* unfinished(const engine::Metric& metric, const std::vector<engine::AbsentMetric>& absent) {
+  const bool to_rest = metric.key == "throw_distance_m" || metric.key == "slide_m";
+  const bool moves =
+      std::any_of(absent.begin(), absent.end(), [&](const auto& a) { return a.key == "rest_s" && a.object == metric.object; });
+  return to_rest && moves ? " so far, still moving at the end" : "";
+}
+
+}  // namespace
+
 std::string summary_text(const scenes::Scene& scene, const engine::Recording& recording,
                          const std::vector<engine::Metric>& metrics) {
   const engine::Diagnostics& d = recording.diagnostics;
@@ -272,15 +284,16 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
   const double initial = first.kinetic + first.potential;
   std::string out = fmt::format("{}\n", scene.title.empty() ? scene.path.string() : scene.title);
   const auto line = [&out](const std::string& name, const std::string& value) { out += fmt::format("  {:<28} {}\n", name, value); };
+  const std::vector<engine::AbsentMetric> absent = engine::absent_metrics(scene.model, recording, metrics);
   // what a screen has room for; the rest stands in summary.json
   for (const engine::Metric& metric : metrics) {
     const engine::Definition* known = engine::definition_of(metric.key);
     if (known && !known->main) continue;
     line(metric.object.empty() ? metric.key : metric.key + " " + metric.object,
-         metric.text.empty() ? fmt::format("{:.6g}", metric.value) : metric.text);
+         metric.text.empty() ? fmt::format("{:.6g}{}", metric.value, unfinished(metric, absent)) : metric.text);
   }
   std::string missing;
-  for (const engine::AbsentMetric& a : engine::absent_metrics(scene.model, recording, metrics))
+  for (const engine::AbsentMetric& a : absent)
     if (missing.find(a.key) == std::string::npos) missing += (missing.empty() ? "" : ", ") + a.key;
   if (!missing.empty()) line("absent", missing + " (summary.json has the reasons)");
   line("energy", fmt::format("{:.6g} J at first, {:.6g} J at last, unexplained {:.3g} J", initial, last.kinetic + last.potential,

@@ -275,6 +275,16 @@ TEST(Simulate, ARunWithoutATouchSaysSo) {
   EXPECT_EQ(result.err, "crashreel: note: nothing touched: no vehicle or person met anything but the ground in this run\n");
 }
 
+TEST(Simulate, AThrowThatIsNotOverSaysSo) {
+  const Folder folder;
+  folder.write("a.toml",
+               "[simulation]\nduration = \"0.4 s\"\n[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\n"
+               "front = \"-1 0 m\"\nspeed = \"40 km/h\"\n" +
+                   kPerson);
+  EXPECT_THAT(run(folder, {"simulate", "a.toml", "-o", "out"}).out,
+              testing::ContainsRegex("throw_distance_m p +[0-9.]+ so far, still moving at the end\n"));
+}
+
 TEST(Render, SeveralCamerasShowOneRun) {
   const Folder folder;
   folder.write("ball.toml", kBall);
