@@ -38,6 +38,7 @@ const char* name_of(int stop) {
 }
 
 void end_now(int) {
+  if (asked_to_stop == 0) return;  // an alarm that is not ours
   if (getpid() == program) {
     for (const char* text :
          {"crashreel: stopped by ", name_of(asked_to_stop), "; ", static_cast<const char*>(kept_text.data()), "\n"})

@@ -134,6 +134,15 @@ TEST_F(Disturbed, SignalsEndARunWithinTwoSeconds) {
   }
 }
 
+TEST_F(Disturbed, AnAlarmOfSomebodyElseEndsNothing) {
+  folder.write("some.toml", ball_with("duration = \"0.4 s\"", "duration = \"20 s\"\nstep = \"0.1 ms\""));
+  EXPECT_EQ(under_shell(folder,
+                        "{ $P simulate some.toml -q -o out >told 2>&1 & } ; run=$!; until [ -e out/summary.json.lock ]; do "
+                        "sleep 0.02; done; kill -ALRM $run; wait $run"),
+            0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/summary.json"));
+}
+
 TEST_F(Disturbed, AStoppedRunTellsWhatIsKept) {
   folder.write("long.toml", ball_with("duration = \"0.4 s\"", "duration = \"600 s\"\nstep = \"0.1 ms\""));
   // it is stopped while it simulates: some time after it holds its lock
