@@ -7,4 +7,8 @@ namespace render {
 /// A function of a shared library, which is loaded where it is not yet. Throws RenderError: no such library or function.
 void* late_function(const char* library, const char* function);
 
+/// What holds such a function.
+template <auto& function>
+using PointerTo = decltype(&function);
+
 }  // namespace render

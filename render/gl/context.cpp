@@ -12,10 +12,6 @@
 #include "render/renderer.h"
 
 namespace render {
-
-#define RENDER_DEFINE(name) decltype(&::name) name = nullptr;
-RENDER_GL_FUNCTIONS(RENDER_DEFINE)
-
 namespace {
 
 constexpr const char* kOsMesa = "libOSMesa.so.8";
@@ -56,7 +52,7 @@ GlContext::GlContext(Threads threads) {
 
 void load_gl() {
   if (egl_is_chosen()) {
-#define RENDER_FIND_EGL(name) name = reinterpret_cast<decltype(name)>(eglGetProcAddress(#name));
+#define RENDER_FIND_EGL(name) (name) = reinterpret_cast<decltype(name)>(eglGetProcAddress(#name));
     RENDER_GL_FUNCTIONS(RENDER_FIND_EGL)
     return;
   }
