@@ -159,8 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"unknown_option_alone", {"--verbos"}, kAuthor, ": unknown option --verbos"},
         BadCommand{"second_scene", {"render", "ball.toml", "other.toml"}, kAuthor, " render: unexpected argument \"other.toml\""},
         BadCommand{"no_scene", {"render"}, kAuthor, " render: SCENE is required; see crashreel render --help"},
-        BadCommand{
-            "no_folder", {"simulate", "ball.toml"}, kAuthor, " simulate: --output is required; see crashreel simulate --help"},
+        BadCommand{"no_folder", {"simulate", "ball.toml"}, kAuthor, " simulate: -o DIR is required; see crashreel simulate --help"},
         BadCommand{"bad_quality",
                    {"render", "ball.toml", "--quality", "best"},
                    kAuthor,
@@ -222,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"unwritable_folder",
                    {"simulate", "ball.toml", "-o", "there.png/none/out"},
                    kMachine,
-                   ": making the folder there.png/none/out: Not a directory"},
+                   ": making the folder there.png/none/out: there.png is a file"},
         BadCommand{"unknown_effect",
                    {"plan", "ball.toml", "--effects", "gravty=off"},
                    kAuthor,

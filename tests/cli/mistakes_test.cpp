@@ -192,16 +192,6 @@ TEST(Mistakes, AMeshThatIsMissingIsToldBesideWhatElseIs) {
   EXPECT_THAT(result.err, HasSubstr("a.toml:3:8: vehicle.car.mesh is \"nosuch.obj\": "));
 }
 
-TEST(Mistakes, WhereResultsCannotGo) {
-  const Folder folder;
-  folder.write("ball.toml", kBall);
-  folder.write("file", "");
-  EXPECT_EQ(run(folder, {"simulate", "ball.toml"}).err, "crashreel simulate: -o DIR is required; see crashreel simulate --help\n");
-  EXPECT_EQ(run(folder, {"simulate", "ball.toml", "-o", "file"}).err, "crashreel: writing into file: it is not a folder\n");
-  EXPECT_EQ(run(folder, {"simulate", "ball.toml", "-o", "file/out"}).err,
-            "crashreel: making the folder file/out: file is a file\n");
-}
-
 TEST(Mistakes, WhoReadsNoFurtherHearsNoComplaint) {
   const Folder folder;
   const std::string command =
