@@ -8,6 +8,7 @@
 
 #include "cli/study/trial.h"
 #include "engine/bytes.h"
+#include "engine/contact/pair_table.h"
 #include "scenes/loader/sha256.h"
 
 namespace cli {
@@ -23,7 +24,7 @@ auto fields(Is<engine::BodyState> auto& s) {
   return std::tie(s.X_WB, s.V_WB);
 }
 auto fields(Is<engine::ContactRecord> auto& c) {
-  return std::tie(c.kind, c.body_a, c.body_b, c.point, c.normal, c.depth, c.force, c.normal_force, c.tangential_force,
+  return std::tie(c.shapes, c.body_a, c.body_b, c.point, c.normal, c.depth, c.force, c.normal_force, c.tangential_force,
                   c.normal_impulse, c.tangential_impulse, c.impulse, c.energy_lost, c.slip, c.begun, c.state, c.exchange);
 }
 auto fields(Is<engine::WheelRecord> auto& w) {
@@ -131,7 +132,7 @@ class Fits {
   bool is_body(int b) const { return b >= -1 && b < bodies_; }
   bool contact(const engine::ContactRecord& c) const {
     return is_body(c.body_a) && is_body(c.body_b) &&
-           within(static_cast<int>(c.kind), 1 + static_cast<int>(engine::ContactKind::vehicle_pair)) &&
+           std::any_of(kinds_.begin(), kinds_.end(), [&](const engine::PairKind& kind) { return kind.shapes == c.shapes; }) &&
            within(static_cast<int>(c.state), 1 + static_cast<int>(engine::ContactState::impact));
   }
   bool wheel(const engine::WheelRecord& w) const {
@@ -146,6 +147,7 @@ class Fits {
 
   const engine::Model& model_;
   int bodies_;
+  std::span<const engine::PairKind> kinds_ = engine::pair_table();
 };
 
 }  // namespace
