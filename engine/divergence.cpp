@@ -15,11 +15,20 @@ double speed_of(const Twist& V) {
   return V.v.norm() + V.w.norm() / 10;
 }
 
-int fastest_body(const State& state) {
-  int fastest = 0;
-  for (int b = 1; b < static_cast<int>(state.V_WB.size()); ++b)
-    if (speed_of(state.V_WB[b]) > speed_of(state.V_WB[fastest])) fastest = b;
+/// Of those that are not still; -1: all are.
+int fastest_body(const World& world, const State& state) {
+  int fastest = -1;
+  double most = -1;
+  for (const int b : world.still.others)
+    if (const double speed = speed_of(state.V_WB[b]); speed > most) most = speed, fastest = b;
   return fastest;
+}
+
+bool is_lost(const Pose& X, const Twist& V) {
+  // what has no square is no number either, and is noticed before a product makes it so; of NaN the comparison is false
+  static constexpr double kSquarable = 1e100;
+  const auto is_number = [](const Vec3& v) { return (v.array().abs() < kSquarable).all(); };
+  return !is_number(X.p) || !is_number(V.v) || !is_number(V.w) || !(std::abs(X.q.squaredNorm() - 1) < 1e-3);
 }
 
 double energy_of(const World& world, const State& state) {
@@ -29,15 +38,14 @@ double energy_of(const World& world, const State& state) {
 }  // namespace
 
 int lost_body(const Motion& state) {
-  // what has no square is no number either, and is noticed before a product makes it so; of NaN the comparison is false
-  static constexpr double kSquarable = 1e100;
-  const auto is_number = [](const Vec3& v) { return (v.array().abs() < kSquarable).all(); };
-  for (std::size_t b = 0; b < state.X_WB.size(); ++b) {
-    const Pose& X = state.X_WB[b];
-    const Twist& V = state.V_WB[b];
-    if (!is_number(X.p) || !is_number(V.v) || !is_number(V.w) || !(std::abs(X.q.squaredNorm() - 1) < 1e-3))
-      return static_cast<int>(b);
-  }
+  for (std::size_t b = 0; b < state.X_WB.size(); ++b)
+    if (is_lost(state.X_WB[b], state.V_WB[b])) return static_cast<int>(b);
+  return -1;
+}
+
+int lost_body(const World& world, const Motion& state) {
+  for (const int b : world.still.others)
+    if (is_lost(state.X_WB[b], state.V_WB[b])) return b;
   return -1;
 }
 
@@ -63,14 +71,15 @@ void measure_energy(const World& world, State& state) {
 
 std::optional<Failure> look_for_divergence(const World& world, const State& state, const std::vector<Constraint>& of_last_step) {
   if (world.log.failure) return world.log.failure;
-  if (const int body = lost_body(state); body >= 0) return failure_of(world, of_last_step, body, state.time, kNotANumber);
-  if (state.V_WB.empty()) return std::nullopt;
-  const int fastest = fastest_body(state);
+  if (const int body = lost_body(world, state); body >= 0) return failure_of(world, of_last_step, body, state.time, kNotANumber);
+  const int fastest = fastest_body(world, state);
+  if (fastest < 0) return std::nullopt;
   if (speed_of(state.V_WB[fastest]) > kFastest)
     return failure_of(world, of_last_step, fastest, state.time,
                       "the motion left every physical bound: a smaller step or other properties may help");
   // what springs give back stands in the books as negative dissipation
-  double unexplained = energy_of(world, state) - state.energy.initial - std::max(0.0, state.energy.added);
+  double unexplained =
+      mechanical_energy(world, state) + state.energy.springs - state.energy.initial - std::max(0.0, state.energy.added);
   for (const double d : state.energy.dissipated) unexplained += std::min(0.0, d);
   if (unexplained > state.energy.scale)
     return failure_of(world, of_last_step, fastest, state.time,

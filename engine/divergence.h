@@ -13,6 +13,8 @@ inline constexpr const char* kNotANumber = "its motion is no longer a number; a 
 /// The first body with a place or velocity that is not a finite number or not one that can be squared, or with an attitude that is
 /// no rotation; -1: none.
 int lost_body(const Motion&);
+/// The same of those that are not still.
+int lost_body(const World&, const Motion&);
 
 /// Failure of `body` in the step that ends at `time`, over which these conditions acted: the effect is the one whose constraint
 /// pushed it hardest; where none does, its joints, or what makes it fall.

@@ -50,7 +50,7 @@ Recorder::Recorder(const World& world, const State& state)
       last_ground_(world.model.persons.size(), 0) {
   tallies_.reserve(kRoom);
   events_.reserve(kRoom);
-  keep(state);
+  keep(world, state);
   for (std::size_t p = 0; p < world.model.persons.size(); ++p)
     for (const int b : trunk_of(world.model, static_cast<int>(p))) {
       trunk_[b] = 1;
@@ -61,9 +61,13 @@ Recorder::Recorder(const World& world, const State& state)
     }
 }
 
-void Recorder::keep(const State& state) {
-  before_.resize(state.X_WB.size());
-  for (std::size_t b = 0; b < before_.size(); ++b) before_[b] = {state.X_WB[b], state.V_WB[b]};
+void Recorder::keep(const World& world, const State& state) {
+  if (before_.size() != state.X_WB.size() || kept_ != world.still.changes) {
+    before_.resize(state.X_WB.size());
+    for (std::size_t b = 0; b < before_.size(); ++b) before_[b] = {state.X_WB[b], state.V_WB[b]};
+  }
+  for (const int b : world.still.others) before_[b] = {state.X_WB[b], state.V_WB[b]};
+  kept_ = world.still.changes;
 }
 
 /// The first touch of a head with a vehicle: how fast its centre came upon the surface there.
@@ -160,7 +164,8 @@ void Recorder::tally_contact(const World& world, const Constraint& c, double tim
 }
 
 void Recorder::sample(const World& world, const State& state, Recording& recording) {
-  keep(state);
+  const bool others_moved = kept_ != world.still.changes;
+  keep(world, state);
   if (!yields(world.model.settings.contact_law, true) || world.model.persons.empty()) return;
   if (recording.heads.empty()) {
     // one sample a step, and more where steps are divided; a run longer than this grows
@@ -182,9 +187,14 @@ void Recorder::sample(const World& world, const State& state, Recording& recordi
     recording.heads[p].time.push_back(state.time - 0.5 * step);
     recording.heads[p].acceleration.push_back((state.V_WB[head].v - velocity_[head]).norm() / step);
   }
-  for (std::size_t b = 0; b < velocity_.size(); ++b) {
+  const auto note_peak = [&](std::size_t b) {
     recording.peak_acceleration[b] = std::max(recording.peak_acceleration[b], (state.V_WB[b].v - velocity_[b]).norm() / step);
     velocity_[b] = state.V_WB[b].v;
+  };
+  if (others_moved) {
+    for (std::size_t b = 0; b < velocity_.size(); ++b) note_peak(b);
+  } else {
+    for (const int b : world.still.others) note_peak(static_cast<std::size_t>(b));
   }
   sampled_ = state.time;
 }

@@ -39,7 +39,7 @@ class Recorder {
   };
   void tally_contact(const World&, const Constraint&, double time, double duration);
   void warn_of_shortfalls(const World&, std::vector<std::string>& warnings) const;
-  void keep(const State&);
+  void keep(const World&, const State&);
   void note_head(const Constraint&, double time);
   void watch_rest(const World&, const State&, double since);
   void watch_events(const World&, const Constraint&, double time);
@@ -60,6 +60,7 @@ class Recorder {
   std::size_t exchanges_told_ = 0;
   std::vector<Vec3> velocity_;  // [m/s] per body, at the last sample
   double sampled_ = 0;          // [s] when that was
+  long kept_ = 0;               // StillBodies::changes then
   EnergyWatch energy_;
   double compression_ = 0;  // [m] deepest of a compliant contact
   Shortfall too_deep_;      // [m] of a compliant contact, beyond its thickness

@@ -96,6 +96,14 @@ struct PlanLine {
   std::string reason;
   std::string left_out;  // what is not computed, with its bound
   bool called_for = false;
+  double not_before = 0;  // [s] it cannot matter earlier, proved before the run
+
+  /// What a run saw of an effect that acts by contacts, stops or wheels; a time below zero: never.
+  struct Acted {
+    bool told = false;             // it is of that kind, and there was a run
+    double in_reach = -1;          // [s] first it had anything to look after
+    double first = -1, last = -1;  // [s] it exchanged an impulse
+  } acted;
 
   bool forced_off() const { return forced && !active; }
   bool idle() const { return active && !called_for; }  // switched on by the author

@@ -23,6 +23,18 @@ void describe(const Model& model, const Plan& plan, Recording& recording) {
   recording.plan = plan.lines;
 }
 
+void note_actions(RunLog& log, const std::vector<Constraint>& conditions, double time) {
+  for (const Constraint& c : conditions)
+    if (!c.impulse.isZero(0)) log.note_action(c.effect, time);
+}
+
+/// What the run saw of its effects, to the lines of the plan.
+void tell_actions(const RunLog& log, std::vector<PlanLine>& lines) {
+  auto acted = log.acted.begin();
+  for (PlanLine& line : lines)
+    if (line.active) line.acted = *acted++;
+}
+
 Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
   Recording recording;
   describe(model, plan, recording);
@@ -38,6 +50,7 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
   Stepper stepper(world, [&](const std::vector<Constraint>& conditions, double time, double duration) {
     const Meter::Span span(world.meter, Phase::recording);
     recorder.tally(world, conditions, time, duration);
+    note_actions(world.log, conditions, time);
   });
   StepWatch watch(options.step_clocks);
   // at such a speed the first step alone would take minutes
@@ -61,6 +74,7 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
     if (options.progress && (k + 1) % kAskEvery == 0 && !options.progress(state.time)) break;
   }
   recorder.finish(world, state, recording);
+  tell_actions(world.log, recording.plan);
   recording.longest_step = watch.longest(world);
   world.meter.finish();
   recording.costs = world.meter.effects;

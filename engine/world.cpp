@@ -1,12 +1,15 @@
 #include "engine/world.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "engine/effects/effect.h"
 
 namespace engine {
 
 namespace {
+
+constexpr unsigned kActs = static_cast<unsigned>(Hook::find_contacts) | static_cast<unsigned>(Hook::find_limits);
 
 /// Joints that do not hold: none, or all when the effect is forced off.
 std::vector<char> apart(const Model& model, const Plan& plan) {
@@ -52,9 +55,14 @@ World::World(const Model& m, const Plan& p, const RunOptions& o)
   }
   solver.reserve(topology, kRoom);
   active_trees.reserve(topology.trees.size());
+  awake_joints.reserve(m.joints.size());
+  still.others.resize(n);
+  std::iota(still.others.begin(), still.others.end(), 0);
+  still.chosen_of.reserve(m.persons.size() + topology.trees.size() + m.joints.size());
   log.events.reserve(kRoom);
   for (std::size_t e = 0; e < p.active.size(); ++e) {
     effects.push_back(p.active[e]->make(*this, static_cast<int>(e)));
+    log.acted.push_back({.told = (p.active[e]->hooks & kActs) != 0});
     gives.push_back(static_cast<char>(p.active[e]->gives && p.active[e]->gives(m)));
   }
 }
@@ -77,17 +85,72 @@ void warn_of_overlap(World& world, int a, int b, double gap) {
                                            " mm at the start; they are moved apart gently");
 }
 
+namespace {
+
+bool waits(const State& state, int person) {
+  return person >= 0 && !state.released[person];
+}
+
+/// All that the choice of trees hangs on: who waits, who sleeps, what has broken.
+void write_choice(const World& world, const State& state, std::vector<char>& out) {
+  out.assign(state.released.begin(), state.released.end());
+  out.insert(out.end(), state.asleep.begin(), state.asleep.end());
+  if (!world.topology.loops.empty()) out.insert(out.end(), state.broken.begin(), state.broken.end());
+}
+
+bool is_chosen(const World& world, const State& state) {
+  const std::vector<char>& known = world.still.chosen_of;
+  const std::size_t persons = state.released.size(), trees = state.asleep.size();
+  const std::size_t joints = world.topology.loops.empty() ? 0 : state.broken.size();
+  if (world.still.changes == 0 || known.size() != persons + trees + joints) return false;
+  const auto same = [&](const std::vector<char>& now, std::size_t count, std::size_t from) {
+    return std::equal(now.begin(), now.begin() + static_cast<std::ptrdiff_t>(count),
+                      known.begin() + static_cast<std::ptrdiff_t>(from));
+  };
+  return same(state.released, persons, 0) && same(state.asleep, trees, persons) && same(state.broken, joints, persons + trees);
+}
+
+/// Neither takes part nor walks or rides on.
+bool is_still(const World& world, const State& state, int body) {
+  const Body& of = world.model.bodies[body];
+  if (of.fixed) return true;
+  const bool mounted = of.person >= 0 && world.model.persons[of.person].mount >= 0;
+  return !world.awake[body] && !mounted && state.V_WB[body].v.isZero(0) && state.V_WB[body].w.isZero(0);
+}
+
+void list_still(World& world, const State& state) {
+  StillBodies& still = world.still;
+  still.others.clear();
+  still.potential = 0;
+  for (int b = 0; b < static_cast<int>(world.model.bodies.size()); ++b) {
+    const Body& body = world.model.bodies[b];
+    if (!is_still(world, state, b))
+      still.others.push_back(b);
+    else if (!body.fixed)
+      still.potential -= body.mass * world.model.settings.gravity.dot(state.X_WB[b].p);
+  }
+  world.awake_joints.clear();
+  for (int j = 0; j < static_cast<int>(world.model.joints.size()); ++j) {
+    const Joint& joint = world.model.joints[j];
+    if (world.awake[joint.child] || (joint.parent >= 0 && world.awake[joint.parent])) world.awake_joints.push_back(j);
+  }
+  ++still.changes;
+}
+
+}  // namespace
+
 void choose_trees(World& world, const State& state) {
+  if (is_chosen(world, state)) return;
+  write_choice(world, state, world.still.chosen_of);
   world.active_trees.clear();
   for (int tree = 0; tree < static_cast<int>(world.topology.trees.size()); ++tree) {
-    const int person = world.topology.trees[tree].person;
-    const bool waits = person >= 0 && !state.released[person];
-    const bool asleep = waits || (!state.asleep.empty() && state.asleep[tree]);
+    const bool asleep = waits(state, world.topology.trees[tree].person) || (!state.asleep.empty() && state.asleep[tree]);
     const auto& range = world.topology.trees[tree];
     for (int l = range.begin; l < range.end; ++l) world.awake[world.topology.links[l].body] = static_cast<char>(!asleep);
     if (!asleep) world.active_trees.push_back(tree);
   }
   if (!world.topology.loops.empty()) world.loops.choose(world.topology, state.broken, world.awake);
+  list_still(world, state);
 }
 
 double kinetic_energy(const Model& model, const Motion& state) {
@@ -105,6 +168,18 @@ double potential_energy(const Model& model, const Motion& state) {
   double energy = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (!model.bodies[b].fixed) energy -= model.bodies[b].mass * model.settings.gravity.dot(state.X_WB[b].p);
+  return energy;
+}
+
+double mechanical_energy(const World& world, const Motion& state) {
+  double energy = world.still.potential;
+  for (const int b : world.still.others) {
+    const Body& body = world.model.bodies[b];
+    if (body.fixed) continue;
+    const Vec3 w_B = state.X_WB[b].q.conjugate() * state.V_WB[b].w;
+    energy += 0.5 * body.mass * state.V_WB[b].v.squaredNorm() + 0.5 * w_B.dot(body.inertia_B * w_B);
+    energy -= body.mass * world.model.settings.gravity.dot(state.X_WB[b].p);
+  }
   return energy;
 }
 

@@ -44,12 +44,25 @@ struct Overlap {
 
 /// What a run tells besides its motion. The step reads none of it.
 struct RunLog {
+  /// An effect has had something to look after, or has exchanged an impulse over the step to `time` [s].
+  void note_reach(int effect, double time) {
+    PlanLine::Acted& of = acted[static_cast<std::size_t>(effect)];
+    if (of.in_reach < 0) of.in_reach = time;
+  }
+  void note_action(int effect, double time) {
+    PlanLine::Acted& of = acted[static_cast<std::size_t>(effect)];
+    note_reach(effect, time);
+    if (of.first < 0) of.first = time;
+    of.last = time;
+  }
+
   Diagnostics diagnostics;
   Shortfall unsettled;            // [m/s] conditions that the solver left unmet
   Shortfall gain;                 // [J] that an effect gave in a step though it has none to give, and at which bodies most
   int gained_by = -1;             // that effect
   std::vector<Overlap> overlaps;  // at the start
   std::vector<Event> events;
+  std::vector<PlanLine::Acted> acted;    // per effect of the plan
   std::vector<ContactRecord> exchanges;  // at an instant and by no constraint (Kudlich-Slibar), over the whole run
   std::optional<Failure> failure;
 
@@ -57,6 +70,14 @@ struct RunLog {
 };
 
 class Effect;
+
+/// Who waits or sleeps without moving costs nothing: no loop of the step goes over them. Follows from the state, as `awake` does.
+struct StillBodies {
+  std::vector<int> others;      // all bodies but them, in order
+  double potential = 0;         // [J] gravitational energy of the still ones
+  long changes = 0;             // how often these lists were made
+  std::vector<char> chosen_of;  // who waited, slept or had broken when they were
+};
 
 struct World {
   World(const Model&, const Plan&, const RunOptions&);
@@ -75,6 +96,8 @@ struct World {
   std::vector<double> reach;      // [m] per body: radius of its shape about the centre, 0 without
   std::vector<char> awake;        // per body: takes part in this step; follows from the state
   std::vector<int> active_trees;
+  std::vector<int> awake_joints;  // one of whose bodies takes part
+  StillBodies still;
   ContactPairs pairs;
   std::vector<std::unique_ptr<Effect>> effects;  // of the plan
   std::vector<char> gives;                       // of each: may it give energy?
@@ -88,6 +111,16 @@ void warn_of_overlap(World&, int a, int b, double gap);
 /// Which trees take part: those of persons in the zero condition and those asleep do not.
 void choose_trees(World&, const State&);
 
+/// Copies what moves, or all bodies.
+template <class T>
+void copy_moving(const World& world, const std::vector<T>& from, std::vector<T>& to, bool all) {
+  if (all) {
+    to = from;
+    return;
+  }
+  for (const int b : world.still.others) to[b] = from[b];
+}
+
 /// Calls act(body) for every body of the trees that take part.
 template <class Act>
 void for_awake_bodies(const World& world, Act&& act) {
@@ -98,5 +131,7 @@ void for_awake_bodies(const World& world, Act&& act) {
 /// Kinetic and gravitational energy [J] of all bodies that move.
 double kinetic_energy(const Model&, const Motion&);
 double potential_energy(const Model&, const Motion&);
+/// Both together, without a look at what is still.
+double mechanical_energy(const World&, const Motion&);
 
 }  // namespace engine

@@ -89,12 +89,28 @@ std::vector<std::string> words_of(const Cost& cost) {
   return {fmt::format("{:>8}", cost.calls), fmt::format("{:>7.2f}", cost.us_per_step), fmt::format("{:>5.1f} %", 100 * cost.share)};
 }
 
+/// "on", or what a run has seen of it.
+std::string words_of_state(const engine::PlanLine& line) {
+  if (!line.active) return "off";
+  return line.acted.told && line.acted.in_reach < 0 ? "waited" : "on";
+}
+
+/// The proof before a run, and what the run saw.
+std::string words_of_reason(const engine::PlanLine& line) {
+  std::string out = line.reason;
+  if (line.active && line.not_before > 0) out += fmt::format("; not before t = {:.3g} s", line.not_before);
+  if (!line.acted.told) return out;
+  if (line.acted.first >= 0) return out + fmt::format("; acted from {:.4g} to {:.4g} s", line.acted.first, line.acted.last);
+  if (line.acted.in_reach >= 0) return out + fmt::format("; near from {:.4g} s, never acted", line.acted.in_reach);
+  return out + "; nothing ever came into its reach";
+}
+
 void print_plan(const std::vector<engine::PlanLine>& lines, const engine::Recording* run) {
   Rows rows = {{"effect", "", "", "why", "what is left out, and what that is worth"}};
   const std::vector<std::string> head = {"   calls", "us/step", "  share"};
   if (run) rows[0].insert(rows[0].begin() + 3, head.begin(), head.end());
   for (const engine::PlanLine& line : lines) {
-    std::vector<std::string> row = {line.effect, line.active ? "on" : "off", line.forced ? "forced" : "auto", line.reason,
+    std::vector<std::string> row = {line.effect, words_of_state(line), line.forced ? "forced" : "auto", words_of_reason(line),
                                     line.left_out.empty() ? "nothing" : line.left_out};
     if (run) {
       const std::vector<std::string> cost = words_of(cost_of(*run, run->costs, line.effect));

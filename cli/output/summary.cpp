@@ -234,6 +234,11 @@ Json plan_json(const std::vector<engine::PlanLine>& lines) {
   for (const engine::PlanLine& line : lines) {
     out.push_back({{"effect", line.effect}, {"active", line.active}, {"forced", line.forced}, {"reason", line.reason}});
     if (!line.left_out.empty()) out.back()["left_out"] = line.left_out;
+    if (line.not_before > 0 && std::isfinite(line.not_before)) out.back()["not_before_s"] = line.not_before;
+    if (!line.acted.told) continue;
+    const auto moment = [](double time) { return time < 0 ? Json() : Json(time); };
+    out.back()["acted"] = {
+        {"in_reach_s", moment(line.acted.in_reach)}, {"first_s", moment(line.acted.first)}, {"last_s", moment(line.acted.last)}};
   }
   return out;
 }

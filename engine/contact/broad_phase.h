@@ -1,6 +1,7 @@
 // Broad phase: which bodies, and which trees of them, can touch within a time.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "engine/state.h"
@@ -25,12 +26,16 @@ double contact_margin(const Outlook&, int body);
 double pair_margin(const Outlook&, int a, int b);
 
 /// Spheres about bodies and trees, with the way they can go. Bounds on `pair_margin`, cheaper than it.
+///
+/// Of two trees that are both still (StillBodies) nothing is asked but at the start. A tree that moves remembers how far it may go
+/// before it can reach any that is still: until then those cost nothing, however many they are.
 class BroadPhase {
  public:
-  /// From where bodies are and how they move. Before anything looks for contacts.
-  void look(const Outlook&);
+  /// From where bodies are and how they move. Before anything looks for contacts. Is anything else close than at the last look?
+  bool look(const Outlook&);
   bool close(int tree_a, int tree_b) const {
-    return tree_a < 0 || tree_b < 0 || tree_a == tree_b || close_[static_cast<std::size_t>(tree_a) * radius_.size() + tree_b] != 0;
+    if (tree_a < 0 || tree_b < 0 || tree_a == tree_b) return stirs(tree_a) || stirs(tree_b);
+    return close_[static_cast<std::size_t>(tree_a) * trees_.size() + tree_b] != 0;
   }
   /// Farther apart than their reach and `pair_margin`?
   bool apart(const Motion& at, int body_a, int body_b) const {
@@ -39,11 +44,30 @@ class BroadPhase {
   }
 
  private:
-  double spare_ = 0;           // [m] of a pair
-  std::vector<double> swept_;  // [m] per body: about its centre, with its way
-  std::vector<Vec3> centre_;   // [m] per tree
-  std::vector<double> radius_;
-  std::vector<char> close_;  // trees x trees
+  struct Sphere {
+    Vec3 centre = Vec3::Zero();  // [m] of its first body
+    double radius = 0;           // [m]
+    bool moves = true;
+    // of one that moves: at the look that measured how far it was from all that are still
+    Vec3 measured_at = Vec3::Zero();
+    double measured_radius = 0, slack = 0;  // [m]
+  };
+  bool stirs(int tree) const { return at_start_ || (tree >= 0 && trees_[tree].moves); }
+  void sweep(const Outlook&, int body);
+  void enclose(const Outlook&, int tree);
+  void begin(const Outlook&);
+  bool note(std::size_t a, std::size_t b, bool close);
+  bool look_at_still(std::size_t tree);
+  double apart(std::size_t a, std::size_t b) const;
+
+  double spare_ = 0;            // [m] of a pair
+  std::vector<double> swept_;   // [m] per body: about its centre, with its way
+  std::vector<double> wheels_;  // [m] per body: how far its wheels reach
+  std::vector<Sphere> trees_;
+  std::vector<std::size_t> moving_, still_;  // trees
+  std::vector<char> close_;                  // trees x trees
+  long begun_ = -1;                          // StillBodies::changes at the last look at everything
+  bool at_start_ = false;                    // overlaps are told of those that wait, too
 };
 
 }  // namespace engine

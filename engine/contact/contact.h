@@ -56,9 +56,19 @@ struct SurfacePoint {
   int wheel = -1;           // of State::wheels, -1: of the body
 };
 
+/// Of the pairs those that a step can bring together, as the broad phase saw last.
+struct PairsInReach {
+  std::vector<std::size_t> round, mesh;  // runs
+  std::vector<std::size_t> tyres;        // pairs, by wheels
+};
+
 /// Pairs of bodies whose surfaces may touch, listed once by the effects, and scratch of their narrow phases.
 struct ContactPairs {
+  /// The broad phase, and which pairs it leaves.
+  void look(const Outlook&);
+
   BroadPhase broad_phase;
+  PairsInReach in_reach;
   std::vector<MeshPair> mesh;
   std::vector<MeshPairRun> mesh_runs;
   std::vector<BodyPairRun> round;

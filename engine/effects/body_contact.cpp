@@ -10,7 +10,7 @@ Finding look_at(const Model& model) {
   const std::size_t count = count_pairs_between_bodies(model);
   if (count > 0)
     return {true, counted(count, "pair") + " of segments or free bodies that are not one person's: " + round_bodies(model),
-            "pairs farther apart than they can travel in a step: exact"};
+            "no pairs but those farther apart than a step can bring them"};
   const std::string round = round_bodies(model);
   if (round.empty()) return {false, "no person and no free body", ""};
   return {false,
@@ -24,6 +24,7 @@ class BodyContact final : public Effect {
  public:
   static constexpr const char* kName = "body_contact";
   static Finding look(const Model& model) { return look_at(model); }
+  static double not_before(const Reach& reach) { return reach.groups_are_simple ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
   BodyContact(World& world, int self) : Effect(self) { add_runs_between_bodies(world, self); }

@@ -120,9 +120,9 @@ void list_pairs(World& world, std::size_t run, std::vector<PairMemory>& memory) 
 
 void find_pair_contacts(ContactSearch& search, const PairKind& kind, int effect) {
   const ContactPairs& pairs = search.world.pairs;
-  for (std::size_t r = 0; r < pairs.round.size(); ++r) {
+  for (const std::size_t r : pairs.in_reach.round) {
     const BodyPairRun& run = pairs.round[r];
-    if (run.effect != effect || !pairs.broad_phase.close(run.tree_a, run.tree_b)) continue;
+    if (run.effect != effect) continue;
     list_pairs(search.world, r, search.state.contact_memory.round[r]);
     for (std::size_t i = 0; i < run.pairs.size(); ++i) add_contacts(search, kind, {run.pairs[i].a, run.pairs[i].b, i, r}, effect);
   }

@@ -38,7 +38,7 @@ Finding look_at(const Model& model) {
     for (int b = a + 1; b < n; ++b)
       if (is_mesh(model.bodies[a]) && is_mesh(model.bodies[b]) && model.bodies[a].person < 0 && jointed(model, a, b))
         (coupled(model, a, b) ? towing : held).push_back(model.bodies[a].name + " with " + model.bodies[b].name);
-  std::string left_out = "meshes whose boxes a step cannot bring together: exact";
+  std::string left_out = "no meshes but those whose boxes a step cannot bring together";
   if (!held.empty()) left_out += "; " + listed(held) + ", which a joint holds";
   if (!towing.empty())
     left_out += "; of " + listed(towing) + " what stands within 5 cm of the other at the start, about the coupling";
@@ -55,6 +55,8 @@ class BodyworkContact final : public Effect {
 
   BodyworkContact(World& world, int self) : Effect(self), wheeled_(wheeled_pairs(world.model)) {
     list_mesh_pairs(world.model, world.pairs);
+    for (int b = 0; b < static_cast<int>(world.model.bodies.size()); ++b)
+      if (is_mesh(world.model.bodies[b])) meshes_.push_back(b);
   }
 
   void find_contacts(ContactSearch& search) override {
@@ -63,8 +65,8 @@ class BodyworkContact final : public Effect {
     const std::vector<int>& tree = world.topology.tree_of_body;
     const std::vector<BodyPair>& pairs = world.pairs.bodywork;
     std::size_t i = 0;
-    for (int a = 0; a < static_cast<int>(world.model.bodies.size()); ++a) {
-      if (is_mesh(world.model.bodies[a]) && world.awake[a]) {
+    for (const int a : meshes_) {
+      if (world.awake[a]) {
         if (ground.plane) add_contacts(search, plane_, {a, kPlane}, self_);
         if (ground.terrain) add_contacts(search, terrain_, {a, kTerrain}, self_);
       }
@@ -87,6 +89,7 @@ class BodyworkContact final : public Effect {
   const PairKind& mesh_ = pair_kind({ShapeKind::mesh, ShapeKind::mesh});
   const PairKind& tyre_ = pair_kind({ShapeKind::tyre, ShapeKind::tyre});
   const std::vector<BodyPair> wheeled_;
+  std::vector<int> meshes_;
 };
 template struct Registered<BodyworkContact>;
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <type_traits>
 
+#include "engine/effects/reach.h"
 #include "engine/step_context.h"
 
 namespace engine {
@@ -112,6 +113,8 @@ struct EffectKind {
   LeftOut (*left_out)(const Model&, const Recording&, bool active) = nullptr;
   /// May it give energy that its account did not take before: springs, surfaces that give way, the wind? Null: never.
   bool (*gives)(const Model&) = nullptr;
+  /// [s] before which it cannot matter, proved from the reach; infinity: not in this run. Null: from the start.
+  double (*not_before)(const Reach&) = nullptr;
   SceneSection section;
   std::unique_ptr<Effect> (*make)(World&, int self) = nullptr;
   EffectMemory (*first_memory)() = nullptr;

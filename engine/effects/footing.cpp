@@ -51,8 +51,9 @@ Footing footing_of(const Ground& ground, const Wheel& spec, const Pose& X, doubl
   return best;
 }
 
-void step_on_bodies(const Outlook& outlook, std::span<const TyrePair> pairs, Footing& best) {
-  for (const TyrePair& pair : pairs) {
+void step_on_bodies(const Outlook& outlook, std::span<const std::size_t> pairs, Footing& best) {
+  for (const std::size_t p : pairs) {
+    const TyrePair& pair = outlook.world.pairs.tyres[p];
     if (!near(outlook, pair, 0)) continue;
     const auto touch = stands_on(outlook, pair, best.compression);
     if (!touch) continue;

@@ -20,6 +20,6 @@ struct Footing {
 Footing footing_of(const Ground&, const Wheel&, const Pose& X_WB, double droop);
 
 /// A round body under the wheel that compresses the suspension more than what it stands on otherwise. `pairs` are the wheel's.
-void step_on_bodies(const Outlook&, std::span<const TyrePair> pairs, Footing& best);
+void step_on_bodies(const Outlook&, std::span<const std::size_t> pairs, Footing& best);
 
 }  // namespace engine

@@ -17,7 +17,7 @@ Finding look_at(const Model& model) {
     if (is_round(body) && !body.fixed)
       lowest = std::min(lowest, body.X_WB.p.z() - aabb_half_widths(std::get<HyperEllipsoid>(body.shape), body.X_WB.q).z());
   return {true, round + " over the plane; the lowest point starts " + height_in_words(lowest - model.ground.height),
-          "bodies higher than a step can bring them down: exact"};
+          "no bodies but those higher than a step can bring them down"};
 }
 
 }  // namespace
@@ -26,14 +26,16 @@ class GroundContact final : public Effect {
  public:
   static constexpr const char* kName = "ground_contact";
   static Finding look(const Model& model) { return look_at(model); }
+  static double not_before(const Reach& reach) { return reach.all_rounds_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
   GroundContact(const World&, int self) : Effect(self) {}
 
   void find_contacts(ContactSearch& search) override {
-    const std::vector<Body>& bodies = search.world.model.bodies;
-    for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
-      if (search.world.awake[b] && is_round(bodies[b])) add_contacts(search, plane_, {b, kPlane}, self_);
+    const World& world = search.world;
+    if (!world.model.ground.plane) return;  // switched on by hand
+    for (const int b : world.still.others)
+      if (world.awake[b] && is_round(world.model.bodies[b])) add_contacts(search, plane_, {b, kPlane}, self_);
   }
 
  private:

@@ -99,6 +99,7 @@ class JointLimits final : public Effect {
  public:
   static constexpr const char* kName = "joint_limits";
   static Finding look(const Model& model) { return look_at(model); }
+  static double not_before(const Reach& reach) { return reach.all_joints_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
   JointLimits(const World&, int self) : Effect(self) {}
@@ -106,9 +107,8 @@ class JointLimits final : public Effect {
   void find_limits(ContactSearch& search) override {
     const World& world = search.world;
     const Motion& at = search.at;
-    for (int j = 0; j < static_cast<int>(world.model.joints.size()); ++j) {
+    for (const int j : world.awake_joints) {
       const Joint& joint = world.model.joints[j];
-      if (!world.awake[joint.child] && (joint.parent < 0 || !world.awake[joint.parent])) continue;
       const auto& angles = joint.angles;
       if (!has_limit(angles[0]) && !has_limit(angles[1]) && !has_limit(angles[2]) && !has_limit(joint.slide)) continue;
       const JointCoordinates now =

@@ -2,6 +2,7 @@
 // the step: a light hand on a damped wrist has rates of 1e4 1/s that no explicit scheme holds at 1 ms.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/effects/passive_legs.h"
 #include "engine/effects/registration.h"
@@ -130,6 +131,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
  public:
   static constexpr const char* kName = "joint_resistance";
   static Finding look(const Model& model) { return look_at(model); }
+  static double not_before(const Reach& reach) { return reach.all_joints_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) {
     return std::any_of(model.joints.begin(), model.joints.end(), [](const Joint& joint) {
       return joint.passive != PassiveTorque::none ||
@@ -138,6 +140,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
   }
 
   JointResistance(const World& world, int self) : EffectWith(self), legs_(passive_legs(world.model)) {
+    awake_legs_.reserve(legs_.size());
     for (const Joint& joint : world.model.joints) in_stages_.push_back(resists(joint) && in_stages(world.model, joint));
   }
 
@@ -151,7 +154,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
 
   void add_forces(const World& world, const std::vector<Pose>& X, const std::vector<Twist>& V,
                   std::vector<Vec6>& force) const override {
-    for (std::size_t j = 0; j < world.model.joints.size(); ++j) {
+    for (const int j : world.awake_joints) {
       const Joint& joint = world.model.joints[j];
       if (!in_stages_[j] || !world.awake[joint.child]) continue;
       const JointCoordinates now = coordinates_at(joint, X);
@@ -160,7 +163,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
       if (joint.parent >= 0) force[joint.parent].tail<3>() -= resistance.w;
       if (now.free[kSlide]) add_along_slide(now, joint, resistance.v, force);
     }
-    for (const PassiveLeg& leg : legs_)
+    for (const PassiveLeg& leg : awake_legs_)
       for_passive_joints(world.model, leg, X, [&](int j, const Vec3& g, double torque, double) {
         const Joint& joint = world.model.joints[j];
         if (!in_stages_[j] || !world.awake[joint.child]) return;
@@ -169,20 +172,32 @@ class JointResistance final : public EffectWith<FrictionMemory> {
       });
   }
 
+  /// Who has begun to wait or to move: what waits is not looked at again.
+  void find(StepContext& step) override {
+    const World& world = step.world;
+    if (std::exchange(listed_, world.still.changes) == world.still.changes) return;
+    const auto waits = [&world](const Joint& joint) { return !world.awake[joint.child]; };
+    for (std::size_t j = 0; j < world.model.joints.size(); ++j)
+      if (const Joint& joint = world.model.joints[j]; resists(joint) && waits(joint)) memory(step.state).change[j].setZero();
+    awake_legs_.clear();
+    for (const PassiveLeg& leg : legs_)
+      for (const int j : {leg.hip, leg.knees[0], leg.knees[1], leg.ankle})
+        if (j >= 0 && !waits(world.model.joints[j])) {
+          awake_legs_.push_back(leg);
+          break;
+        }
+  }
+
   void resist(StepContext& step) override {
     const World& world = step.world;
     const State& state = step.state;
     const double h = step.length;
-    for (int j = 0; j < static_cast<int>(world.model.joints.size()); ++j) {
+    for (const int j : world.awake_joints) {
       const Joint& joint = world.model.joints[j];
       JointDamper& damper = step.buffers.dampers[j];
       Resistance& resistance = step.buffers.resistances[j];
       damper.present = false;
-      if (!resists(joint)) continue;
-      if (!world.awake[joint.child]) {
-        memory(step.state).change[j].setZero();
-        continue;
-      }
+      if (!resists(joint) || !world.awake[joint.child]) continue;
       const JointCoordinates& now = resistance.at_start = coordinates_at(joint, state.X_WB);
       const Twist relative = relative_motion_at(joint, now, state.V_WB);
       damper = {};
@@ -207,7 +222,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
       damper.present = true;
       step.any_damper = true;
     }
-    for (const PassiveLeg& leg : legs_)
+    for (const PassiveLeg& leg : awake_legs_)
       for_passive_joints(world.model, leg, state.X_WB, [&](int j, const Vec3& g, double torque, double stiffness) {
         if (in_stages_[j] || !world.awake[world.model.joints[j].child]) return;
         step.buffers.dampers[j].turning += h * h * stiffness * g * g.transpose();
@@ -224,7 +239,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
     const World& world = step.world;
     const double h = step.length;
     bool any = false;
-    for (int j = 0; j < static_cast<int>(world.model.joints.size()); ++j) {
+    for (const int j : world.awake_joints) {
       const Joint& joint = world.model.joints[j];
       JointDamper& damper = step.buffers.dampers[j];
       Resistance& resistance = step.buffers.resistances[j];
@@ -253,7 +268,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
   void after_step(StepContext& step) override {
     const World& world = step.world;
     State& state = step.state;
-    for (std::size_t j = 0; j < world.model.joints.size(); ++j) {
+    for (const int j : world.awake_joints) {
       const Resistance& resistance = step.buffers.resistances[j];
       if (!step.buffers.dampers[j].present || resistance.slip_rate.isZero(0)) continue;
       const JointCoordinates& at_start = resistance.at_start;
@@ -270,7 +285,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
   /// Power [W] that springs and dampers evaluated in the stages take out now.
   double power_taken(const World& world, const Motion& at) const {
     double power = 0;
-    for (std::size_t j = 0; j < world.model.joints.size(); ++j) {
+    for (const int j : world.awake_joints) {
       const Joint& joint = world.model.joints[j];
       if (!in_stages_[j] || !world.awake[joint.child]) continue;
       const JointCoordinates now = coordinates_at(joint, at.X_WB);
@@ -278,7 +293,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
       const Twist resistance = smooth_resistance(joint, now, relative);
       power -= resistance.w.dot(relative.w) + (now.free[kSlide] ? resistance.v.dot(relative.v) : 0);
     }
-    for (const PassiveLeg& leg : legs_)
+    for (const PassiveLeg& leg : awake_legs_)
       for_passive_joints(world.model, leg, at.X_WB, [&](int j, const Vec3& g, double torque, double) {
         const Joint& joint = world.model.joints[j];
         if (!in_stages_[j] || !world.awake[joint.child]) return;
@@ -289,7 +304,9 @@ class JointResistance final : public EffectWith<FrictionMemory> {
 
   std::vector<char> in_stages_;  // per joint: springs and dampers act in the stages of Runge and Kutta
   const std::vector<PassiveLeg> legs_;
+  std::vector<PassiveLeg> awake_legs_;
   double power_ = 0;  // [W] what those take out at the start of the step
+  long listed_ = 0;   // StillBodies::changes when the awake legs were
 };
 template struct Registered<JointResistance>;
 

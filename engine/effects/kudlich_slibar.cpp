@@ -52,7 +52,7 @@ Finding look_at(const Model& model) {
   for (const ImpactPair& pair : pairs_of(model))
     pairs.push_back(model.bodies[pair.a].name + " with " + model.bodies[pair.b].name + " (exchange " +
                     number(1e3 * pair.settings.penetration_time) + " ms after the touch)");
-  if (!pairs.empty()) return {true, "both ask for it: " + listed(pairs), "meshes whose spheres are apart: exact"};
+  if (!pairs.empty()) return {true, "both ask for it: " + listed(pairs), "no meshes but those whose spheres are apart"};
   const auto meshes = std::count_if(model.bodies.begin(), model.bodies.end(), is_mesh);
   if (meshes == 0) return {false, "no vehicle and no other mesh", ""};
   if (meshes == 1) return {false, "one mesh alone", ""};
@@ -189,6 +189,7 @@ class KudlichSlibar final : public EffectWith<ImpactMemory> {
  public:
   static constexpr const char* kName = "kudlich_slibar";
   static Finding look(const Model& model) { return look_at(model); }
+  static double not_before(const Reach& reach) { return reach.groups_are_simple ? reach.first_touch : 0; }
 
   KudlichSlibar(World& world, int self)
       : EffectWith(self), pairs_(pairs_of(world.model)), force_(world.model.bodies.size()), change_(force_) {

@@ -33,7 +33,7 @@ Finding look_at(const Model& model) {
     return {true, counted(tyres, "pair") + " of a segment or free body and a wheel", ""};
   if (meshes == 0) return {false, "no vehicle and no other mesh", ""};
   if (pairs == 0) return {false, "no mesh but what the person rides", ""};
-  std::string left_out = "pairs farther apart than they can travel in a step: exact";
+  std::string left_out = "no pairs but those farther apart than a step can bring them";
   if (riding > 0) left_out += "; " + counted(riding, "pair") + " of a rider and its mount, whose joints hold them apart";
   const bool gives_way = !model.persons.empty() && yields(model.settings.contact_law, true);
   return {true, counted(pairs, "pair") + " of a segment or free body and " + listed(names) + (gives_way ? "; persons yield" : ""),
@@ -53,6 +53,7 @@ class MeshContact final : public Effect {
  public:
   static constexpr const char* kName = "mesh_contact";
   static Finding look(const Model& model) { return look_at(model); }
+  static double not_before(const Reach& reach) { return reach.groups_are_simple ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
   MeshContact(World& world, int self) : Effect(self) {
@@ -73,14 +74,11 @@ class MeshContact final : public Effect {
 
   void find_contacts(ContactSearch& search) override {
     const ContactPairs& pairs = search.world.pairs;
-    for (const MeshPairRun& run : pairs.mesh_runs)
-      if (pairs.broad_phase.close(run.tree_a, run.tree_b))
-        for (std::size_t i = run.begin; i < run.end; ++i)
-          add_contacts(search, mesh_, {pairs.mesh[i].body, pairs.mesh[i].mesh_body, i}, self_);
+    for (const std::size_t r : pairs.in_reach.mesh)
+      for (std::size_t i = pairs.mesh_runs[r].begin; i < pairs.mesh_runs[r].end; ++i)
+        add_contacts(search, mesh_, {pairs.mesh[i].body, pairs.mesh[i].mesh_body, i}, self_);
     if (search.state.wheels.empty()) return;  // they meet nothing without the effect `tyres`
-    const std::vector<int>& tree = search.world.topology.tree_of_body;
-    for (std::size_t i = 0; i < pairs.tyres.size(); ++i)
-      if (pairs.broad_phase.close(tree[pairs.tyres[i].body], tree[pairs.tyres[i].vehicle_body])) find_beside_tyre(search, i);
+    for (const std::size_t i : pairs.in_reach.tyres) find_beside_tyre(search, i);
   }
 
  private:

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "engine/effects/effect.h"
+#include "engine/effects/words.h"
 
 namespace engine {
 namespace {
@@ -35,23 +36,46 @@ std::span<const EffectKind* const> effect_table() {
   return kTable;
 }
 
+namespace {
+
+Force forced_of(const Model& model, const char* effect) {
+  const auto forced = model.settings.effects.find(effect);
+  return forced == model.settings.effects.end() ? Force::automatic : forced->second;
+}
+
+/// What the scene calls for but cannot reach in time is off, with the proof.
+void prove_needless(const Model& model, const EffectKind& effect, const Reach& reach, PlanLine& line) {
+  if (!line.called_for || !effect.not_before) return;
+  line.not_before = effect.not_before(reach);
+  if (line.forced || line.not_before < model.settings.duration) return;
+  line.active = line.called_for = false;
+  const std::string touch = reach.who.empty() ? "nothing to touch" : reach.who + " at the nearest";
+  line.reason =
+      "cannot matter within " + number(model.settings.duration) + " s: no two things can touch, " + touch + "; " + line.reason;
+  line.left_out = "nothing: the bound on every speed is that of energy and drive";
+}
+
+}  // namespace
+
 Plan compile(const Model& model) {
   Plan plan;
+  const Reach reach = reach_of(model);
   for (const EffectKind* effect : effect_table()) {
     const Finding found = effect->look(model);
-    const auto forced = model.settings.effects.find(effect->name);
-    const Force force = forced == model.settings.effects.end() ? Force::automatic : forced->second;
-    PlanLine line{effect->name,
-                  force == Force::on || (force == Force::automatic && found.called_for),
-                  force != Force::automatic,
-                  found.reason,
-                  found.left_out,
-                  found.called_for};
+    const Force force = forced_of(model, effect->name);
+    PlanLine line;
+    line.effect = effect->name;
+    line.active = force == Force::on || (force == Force::automatic && found.called_for);
+    line.forced = force != Force::automatic;
+    line.reason = found.reason;
+    line.left_out = found.left_out;
+    line.called_for = found.called_for;
     if (force == Force::off && found.called_for) {
       line.reason = "switched off by the author; the scene calls for it: " + found.reason;
       line.left_out = "all of it, without a bound: this is not the scene's result";
     }
     if (force == Force::on && !found.called_for) line.reason = "switched on by the author, with nothing to do: " + found.reason;
+    prove_needless(model, *effect, reach, line);
     if (line.active) plan.active.push_back(effect);
     plan.lines.push_back(std::move(line));
   }

@@ -14,7 +14,7 @@ Finding look_at(const Model& model) {
   if (!model.ground.terrain) return {false, "no terrain mesh", ""};
   if (round.empty()) return {false, "no person and no free body; vehicles meet the terrain by tyres and bodywork_contact", ""};
   return {true, round + " over a terrain of " + counted(model.ground.terrain->triangles().size(), "triangle"),
-          "bodies farther from it than they can travel in a step: exact"};
+          "no bodies but those farther from it than a step can bring them"};
 }
 
 }  // namespace
@@ -23,6 +23,7 @@ class TerrainContact final : public Effect {
  public:
   static constexpr const char* kName = "terrain_contact";
   static Finding look(const Model& model) { return look_at(model); }
+  static double not_before(const Reach& reach) { return reach.all_rounds_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
   TerrainContact(World& world, int self) : Effect(self) {

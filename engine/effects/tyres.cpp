@@ -168,7 +168,11 @@ class Tyres final : public EffectWith<TyresMemory> {
   static constexpr const char* kName = "tyres";
   static Finding look(const Model& model) { return look_at(model); }
 
-  Tyres(World& world, int self) : EffectWith(self) { world.pairs.tyres = tyre_pairs(world.model); }
+  Tyres(World& world, int self) : EffectWith(self) {
+    ContactPairs& pairs = world.pairs;
+    pairs.tyres = tyre_pairs(world.model);
+    for (std::size_t i = 0; i < pairs.tyres.size(); ++i) pairs.in_reach.tyres.push_back(i);
+  }
 
   void begin(World& world, State& state) override {
     const std::vector<double> loads = static_wheel_loads(world.model, world.topology);
@@ -223,7 +227,8 @@ class Tyres final : public EffectWith<TyresMemory> {
   double stand(World& world, State& state, double within, std::vector<WheelState>& wheels, std::vector<StrutMemory>& struts) {
     footings_.clear();
     const Outlook outlook{world, state, state, within};
-    auto pair = world.pairs.tyres.begin();
+    const std::vector<std::size_t>& in_reach = world.pairs.in_reach.tyres;
+    auto pair = in_reach.begin();
     double energy = 0;
     for (int i = 0; i < static_cast<int>(wheels.size()); ++i) {
       WheelState& wheel = wheels[i];
@@ -234,7 +239,7 @@ class Tyres final : public EffectWith<TyresMemory> {
       const double droop = droop_of(spec, wheel.static_load);
       Footing footing = footing_of(world.model.ground, spec, X, droop);
       const auto first = pair;
-      while (pair != world.pairs.tyres.end() && pair->wheel == i) ++pair;
+      while (pair != in_reach.end() && world.pairs.tyres[*pair].wheel == i) ++pair;
       step_on_bodies(outlook, {first, pair}, footing);
       wheel.compression = struts[static_cast<std::size_t>(i)].pressed(footing, wheel.compression, droop);
       wheel.lift = std::clamp(wheel.compression, -droop, 2 * spec.travel);

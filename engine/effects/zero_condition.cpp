@@ -1,6 +1,7 @@
 // Until the first external impact gravity and joint forces of a person balance: it keeps its pose, stands or walks on as one, and
 // costs a bounding test a step. The first touch by anything but its support releases it (source 000, "zero condition").
 #include <algorithm>
+#include <utility>
 
 #include "engine/contact/mesh_points.h"
 #include "engine/effects/body_pairs.h"
@@ -25,6 +26,12 @@ Finding look_at(const Model& model) {
 bool waits(const World& world, const State& state, int body) {
   const int person = world.model.bodies[body].person;
   return person >= 0 && !state.released[person];
+}
+
+/// Stands where it is while it waits.
+bool stands(const World& world, const State& state, const Person& person) {
+  const int body = person.bodies.front();
+  return person.mount < 0 && !world.awake[body] && state.V_WB[body].v.isZero(0);
 }
 
 void release(World& world, State& state, int body, int by, const Vec3& point) {
@@ -67,27 +74,32 @@ class ZeroCondition final : public Effect {
   static constexpr const char* kName = "zero_condition";
   static Finding look(const Model& model) { return look_at(model); }
 
-  ZeroCondition(const World& world, int self) : Effect(self), wheeled_(wheeled_pairs(world.model)) {}
+  ZeroCondition(const World& world, int self)
+      : Effect(self), wheeled_(wheeled_pairs(world.model)), first_touch_(reach_of(world.model).first_touch) {
+    walkers_.reserve(world.model.persons.size());
+  }
 
   void before_step(World& world, State& state, double step) override {
+    if (state.time > 0 && state.time + step < first_touch_) return;  // proved: nothing touches
     if (std::all_of(state.released.begin(), state.released.end(), [](char r) { return r != 0; })) return;
     const bool warn = state.time == 0 && !yields(world.model.settings.contact_law, true);
     const Outlook outlook{world, state, state, step};
     ContactPairs& pairs = world.pairs;
+    pairs.look(outlook);
     for (std::size_t i = 0; i < pairs.bodywork.size(); ++i) {  // a mount struck by another mesh sets its rider free
       const auto [a, b] = pairs.bodywork[i];
       watch(outlook, mesh_on_mesh_, {a, b, i}, false);
       watch(outlook, mesh_on_mesh_, {b, a, i}, false);
     }
-    for (std::size_t i = 0; i < pairs.mesh.size(); ++i)
-      if (pairs.mesh[i].mesh_body >= 0) watch(outlook, on_mesh_, {pairs.mesh[i].body, pairs.mesh[i].mesh_body, i}, warn);
-    for (std::size_t i = 0; i < pairs.tyres.size() && !state.wheels.empty(); ++i)
-      watch(outlook, on_tyre_, {pairs.tyres[i].body, pairs.tyres[i].vehicle_body, i}, false);
+    for (const std::size_t r : pairs.in_reach.mesh)
+      for (std::size_t i = pairs.mesh_runs[r].begin; i < pairs.mesh_runs[r].end; ++i)
+        watch(outlook, on_mesh_, {pairs.mesh[i].body, pairs.mesh[i].mesh_body, i}, warn);
+    if (!state.wheels.empty())
+      for (const std::size_t i : pairs.in_reach.tyres)
+        watch(outlook, on_tyre_, {pairs.tyres[i].body, pairs.tyres[i].vehicle_body, i}, false);
     for (const BodyPair& pair : wheeled_) watch(outlook, tyre_on_tyre_, {pair.a, pair.b}, false);
-    pairs.broad_phase.look(outlook);
-    for (std::size_t r = 0; r < pairs.round.size(); ++r) {
+    for (const std::size_t r : pairs.in_reach.round) {
       const BodyPairRun& run = pairs.round[r];
-      if (!pairs.broad_phase.close(run.tree_a, run.tree_b)) continue;
       list_pairs(world, r, state.contact_memory.round[r]);
       for (std::size_t i = 0; i < run.pairs.size(); ++i) watch(outlook, rounds_, {run.pairs[i].a, run.pairs[i].b, i, r}, warn);
     }
@@ -97,11 +109,11 @@ class ZeroCondition final : public Effect {
   void after_step(StepContext& step) override {
     const World& world = step.world;
     State& state = step.state;
-    for (std::size_t p = 0; p < world.model.persons.size(); ++p) {
-      if (state.released[p]) continue;
+    if (std::exchange(listed_, world.still.changes) != world.still.changes) list_walkers(world, state);
+    for (const int p : walkers_) {
       const int mount = world.model.persons[p].mount;
       if (mount >= 0 && !world.awake[mount]) {
-        ride(step, static_cast<int>(p), self_);
+        ride(step, p, self_);
         continue;
       }
       for (const int b : world.model.persons[p].bodies) {
@@ -117,7 +129,16 @@ class ZeroCondition final : public Effect {
   const PairKind& on_tyre_ = pair_kind({ShapeKind::round, ShapeKind::tyre});
   const PairKind& tyre_on_tyre_ = pair_kind({ShapeKind::tyre, ShapeKind::tyre});
   const PairKind& mesh_on_mesh_ = pair_kind({ShapeKind::mesh, ShapeKind::mesh});
+  void list_walkers(const World& world, const State& state) {
+    walkers_.clear();
+    for (int p = 0; p < static_cast<int>(world.model.persons.size()); ++p)
+      if (!state.released[p] && !stands(world, state, world.model.persons[p])) walkers_.push_back(p);
+  }
+
   const std::vector<BodyPair> wheeled_;
+  const double first_touch_;  // [s] proved
+  std::vector<int> walkers_;  // who waits and moves on
+  long listed_ = 0;           // StillBodies::changes when they were
 };
 template struct Registered<ZeroCondition>;
 

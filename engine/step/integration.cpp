@@ -40,10 +40,12 @@ double Integration::advance(const State& state, const StepControl& control, doub
   const int parts = control.parts(length, smooth.fastest_swing());
   FirstStage first;  // stands where impulses act
   auto begin = [&](bool factored) {
-    end = state;
+    const bool all = std::exchange(copied_, world_.still.changes) != world_.still.changes;
+    copy_moving(world_, state.X_WB, end.X_WB, all);
+    copy_moving(world_, state.V_WB, end.V_WB, all);
     end.time = state.time + length;
     first = {&world_.impulse, factored};
-    world_.loops.forget();
+    if (!world_.topology.loops.empty()) world_.loops.forget();
     if (contacts) contacts->restart(length);
   };
   auto advance_over = [&](double way) {

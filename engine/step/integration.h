@@ -32,6 +32,7 @@ class Integration {
 
   World& world_;
   StepBuffers& buffers_;
+  long copied_ = 0;  // StillBodies::changes when all bodies were taken over
 };
 
 }  // namespace engine

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "engine/effects/effect.h"
 
@@ -63,8 +64,7 @@ void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const
   }
   call(world, Hook::add_forces, &Effect::add_forces, world, X, V, force_);
   if (compliant) compliant->add_forces(X, V, weight, force_);
-  if (&a == &stages_[0].a)
-    for (std::size_t b = 0; b < force_.size(); ++b) applied_[b] = force_[b].head<3>();
+  if (&a == &stages_[0].a) for_awake_bodies(world, [&](int b) { applied_[b] = force_[b].head<3>(); });
   Articulation& articulation = first.articulation ? *first.articulation : world.smooth;
   for (const int tree : world.active_trees) {
     if (!first.factored) articulation.factor(world.topology, tree, X, nullptr);
@@ -83,10 +83,11 @@ void SmoothMotion::advance(World& world, const Motion& state, double h, std::vec
                            CompliantContacts* compliant, FirstStage first) {
   constexpr double kNode[4] = {0, 0.5, 0.5, 1};
   constexpr double kWeight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
-  X_ = state.X_WB;
+  const bool all = std::exchange(copied_, world.still.changes) != world.still.changes;
+  copy_moving(world, state.X_WB, X_, all);
   for (int s = 0; s < 4; ++s) {
     Stage& stage = stages_[s];
-    stage.V = state.V_WB;
+    copy_moving(world, state.V_WB, stage.V, all);
     for (const int tree : world.active_trees) {
       for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
         const int b = world.topology.links[l].body;

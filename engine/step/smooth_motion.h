@@ -56,6 +56,7 @@ class SmoothMotion {
   std::vector<Swinging> swinging_;  // per joint
   double fastest_swing_ = 0;
   int swinging_body_ = -1;
+  long copied_ = 0;  // StillBodies::changes when all bodies were taken over
 };
 
 /// Takes the drift out of joints after a step: Newton on C(q) = 0 in the mass metric, then J V = 0 (eq. (63) with F = 0).

@@ -79,7 +79,7 @@ Verdict Stepper::attempt(State& state, StepControl& control, std::optional<StepC
   close_joints(*step);
 
   // contacts at the end show what the step was blind to
-  if (lost_body(step->end) < 0) find_contacts(world_, state, step->end, buffers_.end_contacts);
+  if (lost_body(world_, step->end) < 0) find_contacts(world_, state, step->end, buffers_.end_contacts);
   return control.judge_end(*step);
 }
 

@@ -124,7 +124,7 @@ bool StepControl::locates_events() const {
 }
 
 Verdict StepControl::judge_end(StepContext& s) {
-  const int lost = lost_body(s.end);
+  const int lost = lost_body(world_, s.end);
   const bool gained = s.impulses && lost < 0 && may_halve_ && largest_rise(s) > kMayRise;
   const bool unsolved = s.residual > kUnsolved * settings_.solver_tolerance;
   if (may_halve_ &&

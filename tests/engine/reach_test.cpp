@@ -1,0 +1,149 @@
+// How soon two things can touch: proved before a run, held against runs in which nothing is left out.
+#include "engine/effects/reach.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "engine/plan.h"
+#include "engine/simulate.h"
+
+namespace reach_tests {
+namespace {
+
+using namespace engine;
+
+Body ball(const Vec3& at, const Vec3& velocity) {
+  Body body;
+  const HyperEllipsoid shape{Vec3(0.1, 0.1, 0.1), 2.0};
+  body.name = "ball";
+  body.mass = 1;
+  body.shape = shape;
+  body.inertia_B = principal_inertia(shape, 1).asDiagonal();
+  body.X_WB.p = at;
+  body.V_WB.v = velocity;
+  return body;
+}
+
+Model in_space(std::vector<Body> bodies, double duration) {
+  Model model;
+  model.bodies = std::move(bodies);
+  model.ground.plane = false;
+  model.settings.gravity.setZero();
+  model.settings.duration = duration;
+  return model;
+}
+
+bool is_on(const Model& model, const std::string& effect) {
+  return compile(model).has(effect);
+}
+
+Model with_all_forced_on(Model model) {
+  for (const PlanLine& line : compile(model).lines) model.settings.effects[line.effect] = Force::on;
+  return model;
+}
+
+TEST(Reach, LeavesOutWhatCannotMeetInTimeAndComputesWhatCan) {
+  // 100 m at 10 m/s
+  const std::vector<Body> bodies = {ball({0, 0, 0}, {10, 0, 0}), ball({100, 0, 0}, {0, 0, 0})};
+  EXPECT_FALSE(is_on(in_space(bodies, 8), "body_contact"));
+  EXPECT_TRUE(is_on(in_space(bodies, 11), "body_contact"));
+  const Reach reach = reach_of(in_space(bodies, 11));
+  EXPECT_LT(reach.first_touch, 9.98);
+  EXPECT_GT(reach.first_touch, 9);  // 5 % and 5 cm to spare
+  EXPECT_EQ(reach_of(in_space(bodies, 8)).first_touch, std::numeric_limits<double>::infinity());
+}
+
+TEST(Reach, CountsTheFallFromAHeight) {
+  // over level ground the height is worth sqrt(2 g h) = 14 m/s
+  std::vector<Body> bodies = {ball({0, 0, 10}, {0, 0, 0}), ball({30, 0, 0.1}, {0, 0, 0})};
+  Model model = in_space(bodies, 1);
+  model.settings.gravity.z() = -kGravity;
+  model.ground.plane = true;
+  EXPECT_FALSE(is_on(model, "body_contact"));
+  model.settings.duration = 4;
+  EXPECT_TRUE(is_on(model, "body_contact"));
+}
+
+TEST(Reach, IsNoBoundOnWhatASpringOrTheWindMayDrive) {
+  Model model = in_space({ball({0, 0, 0}, {0, 0, 0}), ball({100, 0, 0}, {0, 0, 0})}, 1);
+  EXPECT_FALSE(is_on(model, "body_contact"));
+  Model windy = model;
+  windy.inputs["air.density"] = {1.2, 0, 0};
+  windy.inputs["air.wind"] = {30, 0, 0};
+  windy.inputs["air.drag"] = {1.2, 0, 0};
+  windy.inputs["air.vehicle_drag"] = {0, 0, 0};
+  EXPECT_TRUE(is_on(windy, "body_contact"));
+  Model sprung = model;
+  Joint hinge;
+  hinge.kind = JointKind::revolute;
+  hinge.child = 0;
+  hinge.angles[1].stiffness = 1e4;
+  sprung.joints.push_back(hinge);
+  EXPECT_TRUE(is_on(sprung, "body_contact"));
+}
+
+/// Balls of random places and speeds over level ground, on a slope or in space; some touch early, some late, some never.
+Model random_balls(std::mt19937_64& engine) {
+  const auto draw = [&engine](double low, double high) { return std::uniform_real_distribution<>(low, high)(engine); };
+  std::vector<Body> bodies;
+  const int count = 2 + static_cast<int>(draw(0, 3));
+  for (int i = 0; i < count; ++i) {
+    bodies.push_back(ball({6 * i + draw(0, 5), draw(-0.1, 0.1), draw(0.1, 0.3)}, {draw(-20, 20), draw(-0.3, 0.3), draw(-1, 1)}));
+    bodies.back().V_WB.w = {draw(-100, 100), draw(-100, 100), draw(-100, 100)};
+    bodies.back().surface.restitution_ground = draw(0, 1);
+    bodies.back().surface.restitution_body = draw(0, 1);
+    bodies.back().surface.friction_ground = draw(0, 1);
+  }
+  Model model = in_space(bodies, draw(0.05, 0.6));
+  const int place = static_cast<int>(draw(0, 3));
+  model.ground.plane = place < 2;
+  if (place < 2) model.settings.gravity.z() = -kGravity;
+  if (place == 1) model.settings.gravity.x() = draw(0, 6);
+  model.settings.stop_at_rest = false;
+  return model;
+}
+
+TEST(Reach, NeverComesAfterTheTouchOfARandomScene) {
+  std::mt19937_64 engine(26);
+  int proved = 0, touched = 0;
+  for (int k = 0; k < 120; ++k) {
+    const Model model = random_balls(engine);
+    const Reach reach = reach_of(model);
+    const Recording run = simulate(with_all_forced_on(model));
+    EXPECT_EQ(hash(run), hash(simulate(model))) << k;
+    for (const PlanLine& line : run.plan) {
+      if (line.effect != "body_contact" || line.acted.first < 0) continue;
+      ++touched;
+      EXPECT_GE(line.acted.first, reach.first_touch) << k;
+    }
+    proved += std::isinf(reach.first_touch);
+  }
+  EXPECT_GT(proved, 10);
+  EXPECT_GT(touched, 10);
+}
+
+TEST(Reach, ARunTellsWhenAnEffectActed) {
+  // dropped from 1 m with e = 0.5: the first touch after sqrt(2 h/g) = 0.452 s
+  Model model = in_space({ball({0, 0, 1.1}, {0, 0, 0})}, 0.5);
+  model.ground.plane = true;
+  model.settings.gravity.z() = -kGravity;
+  model.bodies[0].surface.restitution_ground = 0.5;
+  for (const PlanLine& line : simulate(model).plan) {
+    if (line.effect != "ground_contact") continue;
+    EXPECT_TRUE(line.acted.told);
+    EXPECT_NEAR(line.acted.first, std::sqrt(2 / kGravity), 1e-5);
+    EXPECT_LE(line.acted.in_reach, line.acted.first);
+  }
+  model.settings.duration = 0.3;
+  for (const PlanLine& line : simulate(model).plan) {
+    if (line.effect == "ground_contact") {
+      EXPECT_LT(line.acted.in_reach, 0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace reach_tests
