@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/contact/mean_friction.h"
 #include "engine/contact/round_tyre.h"
 #include "engine/effects/footing.h"
 #include "engine/effects/registration.h"
@@ -106,7 +107,7 @@ void add_wheel(StepContext& step, const WheelState& wheel, const Footing& footin
   c.softness = facing * facing / (h * implicit);
   c.target = facing * force / implicit;
   Vec3 v = state.V_WB[vehicle.body].v + state.V_WB[vehicle.body].w.cross(r);
-  double under = world.model.ground.friction_at(c.point, state.time);
+  double under = mean_friction(world.model.ground, {c.point, v, state.time, h});
   if (footing.body >= 0) {
     const Vec3 r_b = c.point - state.X_WB[footing.body].p;
     for (int k = 0; k < 3; ++k) c.J_b.row(k) << -c.frame.col(k).transpose(), -r_b.cross(c.frame.col(k)).transpose();

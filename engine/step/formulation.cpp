@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/contact/mean_friction.h"
 #include "engine/laws/compliant_contact.h"
 #include "engine/math/functions.h"
 #include "engine/step/bounds.h"
+#include "engine/step/impact.h"
 
 namespace engine {
 namespace {
@@ -82,13 +84,24 @@ void drop_open_conditions(StepContext& s) {
     c.u_smooth = row_velocity(c, s.end.V_WB);
     if (is_formulated(c)) return false;
     // an impact that the cut step ends at: a row would brake the approach
-    if (s.placing && is_contact(c) && c.restitution > 0 && c.gap > 0 && c.u_before[0] < -v_impact) return true;
+    if (s.placing && c.gap > 0 && c.u_before[0] < -v_impact && is_instant(s.world, c)) return true;
     const double spare = is_angular_limit(c) ? 0.02 + 5 * h : 1e-3 + h;  // [rad], [m]: what other impulses may add
     return c.gap + h * std::min(c.u_before[0], c.u_smooth[0]) > spare;
   });
   // the smooth motion keeps closed loops; their rows are there for what other impulses ask of them
   const auto of_loop = [](const Constraint& c) { return c.kind == ConstraintKind::bilateral; };
   if (!s.any_damper && std::all_of(s.constraints.begin(), s.constraints.end(), of_loop)) s.constraints.clear();
+}
+
+void take_mean_friction(StepContext& s) {
+  const Model& model = s.world.model;
+  for (Constraint& c : s.constraints) {
+    if (!is_contact(c) || c.record_a < 0) continue;
+    const Twist& V = s.state.V_WB[c.record_a];
+    const StepWay way{c.point, V.v + V.w.cross(c.point - s.state.X_WB[c.record_a].p), s.state.time, s.length};
+    const Body& body = model.bodies[c.record_a];
+    c.friction = c.record_b < 0 ? mean_friction(body, model.ground, way) : mean_friction(body, model.bodies[c.record_b], way);
+  }
 }
 
 void formulate(StepContext& s) {
@@ -98,6 +111,7 @@ void formulate(StepContext& s) {
   islands.has_impact.assign(islands.members.size(), 0);
   for (std::size_t k = 0; k < islands.members.size(); ++k) {
     const std::vector<int>& island = islands.members[k];
+    if (island.empty()) continue;
     const bool impact = std::any_of(island.begin(), island.end(), [&](int i) { return strikes(s.constraints[i], h, v_impact); });
     islands.has_impact[k] = impact;
     for (const int i : island) {

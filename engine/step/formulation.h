@@ -9,6 +9,9 @@ namespace engine {
 /// Conditions that cannot close within the step are let go.
 void drop_open_conditions(StepContext&);
 
+/// Friction that changes with time or place: its mean over the step, along the way of each contact.
+void take_mean_friction(StepContext&);
+
 void formulate(StepContext&);
 
 /// Springs at rest that something strikes within the step leave the steep part of their law, whose slope they were told to follow.

@@ -11,17 +11,29 @@
 namespace engine {
 namespace {
 
-/// What takes part in the impact of an island: all that touches. Their targets are those of Newton's rule. False if none rebounds.
+/// Fixed, or a body by itself that is no part of a person or vehicle.
+bool is_free(const World& world, int body) {
+  if (body < 0) return true;
+  const Topology::Tree& tree = world.topology.trees[static_cast<std::size_t>(world.topology.tree_of_body[body])];
+  const Body& of = world.model.bodies[body];
+  return tree.end - tree.begin == 1 && world.topology.links[tree.begin].joint < 0 && of.person < 0 && of.vehicle < 0;
+}
+
+/// What takes part in the impact of an island: all that touches, and of what still closes that which meets at the same instant.
+/// Their targets are those of Newton's rule. False if no touch is an instant.
 bool choose_members(StepContext& s, const std::vector<int>& island) {
+  constexpr double kTogether = 1e-8;  // [m]
   const double v_impact = impact_speed(s), touching = s.world.model.settings.touch_distance;
+  const bool placing = places_impacts(s.world, s.state);
   bool any = false;
   s.buffers.members.clear();
   for (const int i : island) {
     Constraint& c = s.constraints[i];
     if (c.kind == ConstraintKind::wheel || c.gap > touching) continue;
+    const bool closing = is_contact(c) && c.u_before[0] < -v_impact, instant = is_instant(s.world, c);
+    if (placing && closing && instant && c.gap > kTogether) continue;
     s.buffers.members.push_back(i);
-    const bool closing = is_contact(c) && c.u_before[0] < -v_impact;
-    any = any || (closing && c.restitution > 0);
+    any = any || (closing && instant);
     c.target = closing ? -c.restitution * c.u_before[0] : 0;
     c.u_free = c.u_smooth = c.u_before;
     c.impulse.setZero();
@@ -95,20 +107,31 @@ void exchange(StepContext& s) {
 
 }  // namespace
 
-double time_to_impact(const StepContext& s) {
-  double first = s.length;
-  const double v_impact = impact_speed(s), touching = s.world.model.settings.touch_distance;
+bool is_instant(const World& world, const Constraint& c) {
+  if (!is_contact(c) || is_compliant(c)) return false;
+  return c.restitution > 0 || (is_free(world, c.body_a) && is_free(world, c.body_b));
+}
+
+bool places_impacts(const World& world, const State& state) {
+  constexpr int kMaxCuts = 8;  // of one step
+  return world.model.settings.locate_events && state.pace.cuts < kMaxCuts;
+}
+
+NextImpact next_impact(const StepContext& s) {
+  NextImpact next{s.length, 0};
+  const double v_impact = impact_speed(s);
   for (const Constraint& c : s.constraints) {
-    if (!is_contact(c) || c.restitution <= 0 || c.gap <= touching || c.u_before[0] > -v_impact) continue;
-    first = std::min(first, (c.gap - 0.5 * touching) / -c.u_before[0]);
+    if (c.gap <= kPlaced || c.u_before[0] > -v_impact || !is_instant(s.world, c)) continue;
+    if (const double time = c.gap / -c.u_before[0]; time < next.time) next = {time, c.key};
   }
-  return first;
+  return next;
 }
 
 bool exchange_impacts(StepContext& s, const OnImpulses& on_impulses) {
-  const double v_impact = impact_speed(s), touching = s.world.model.settings.touch_distance;
+  const double v_impact = impact_speed(s);
+  const double nearest = places_impacts(s.world, s.state) ? kPlaced : s.world.model.settings.touch_distance;
   const bool any = std::any_of(s.constraints.begin(), s.constraints.end(), [&](const Constraint& c) {
-    return is_contact(c) && c.restitution > 0 && c.gap <= touching && c.u_before[0] < -v_impact;
+    return c.gap <= nearest && c.u_before[0] < -v_impact && is_instant(s.world, c);
   });
   if (!any) return false;
   const Meter::Span span(s.world.meter, Phase::impulses);

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 
+#include "engine/contact/mean_friction.h"
 #include "engine/divergence.h"
 #include "engine/effects/effect.h"
 #include "engine/step/bounds.h"
 #include "engine/step/energy_ledger.h"
 #include "engine/step/find_contacts.h"
+#include "engine/step/formulation.h"
 #include "engine/step/joint_friction.h"
 #include "engine/step/solve.h"
 #include "engine/step/step_control.h"
@@ -16,7 +18,11 @@
 namespace engine {
 
 Stepper::Stepper(World& world, OnImpulses on_impulses)
-    : world_(world), on_impulses_(std::move(on_impulses)), buffers_(world), motion_(world, buffers_) {}
+    : world_(world),
+      on_impulses_(std::move(on_impulses)),
+      buffers_(world),
+      motion_(world, buffers_),
+      friction_varies_(friction_varies(world.model)) {}
 
 double Stepper::advance(State& state, double most) {
   buffers_.dissipated_before = state.energy.dissipated;
@@ -33,9 +39,11 @@ double Stepper::advance(State& state, double most) {
     for (Constraint& c : step->constraints) c.u_before = row_velocity(c, state.V_WB);
 
   Verdict verdict = attempt(state, control, step);
-  while (verdict.kind == Verdict::Kind::again) {
-    ++world_.log.diagnostics.substeps;
-    state.pace.next = verdict.length;
+  while (verdict.kind == Verdict::Kind::again || verdict.kind == Verdict::Kind::place) {
+    if (verdict.kind == Verdict::Kind::again) {
+      ++world_.log.diagnostics.substeps;
+      state.pace.next = verdict.length;
+    }
     step.emplace(world_, state, buffers_, verdict.length);
     verdict = attempt(state, control, step);
   }
@@ -74,6 +82,7 @@ Verdict Stepper::attempt(State& state, StepControl& control, std::optional<StepC
 
   // joint resistance and the impulses of all conditions; joints closed
   step->placing = control.placing();
+  if (friction_varies_) take_mean_friction(*step);
   prepare_resistance(*step);
   exchange_over_step(*step);
   close_joints(*step);

@@ -29,6 +29,7 @@ class Stepper {
   OnImpulses on_impulses_;
   StepBuffers buffers_;
   Integration motion_;
+  bool friction_varies_;  // with time or place
 };
 
 }  // namespace engine

@@ -13,7 +13,6 @@
 namespace engine {
 namespace {
 
-constexpr int kMaxCuts = 8;           // of one step; then impulses act where the bodies are
 constexpr double kUnsolved = 2;       // [-] residual over the tolerance above which the step is halved and taken again
 constexpr double kSmoothTurn = 0.1;   // [rad] of any body in one step of the smooth motion
 constexpr double kSmoothSwing = 2.0;  // [-] rate of a swing under joint forces times the step: RK4 bears 2.8
@@ -82,12 +81,39 @@ StepControl::StepControl(World& world, State& state, double most, double fastest
 }
 
 double StepControl::cut_at_impact(const StepContext& s) {
-  placing_ = settings_.locate_events && state_.pace.cuts < kMaxCuts;
-  const double taken = placing_ ? std::max(time_to_impact(s), 1e-3 * s.length) : s.length;
-  cut_ = taken < s.length;
-  may_halve_ = taken > settings_.step / kMostParts;
+  constexpr double kShortest = 1e-8;  // [-] of the step: what is nearer acts where it is, nanometres off
+  placing_ = places_impacts(world_, state_);
   crossed_ = false;
+  double taken = s.length;
+  if (placed_ != s.length) {
+    placings_ = 0;
+    uncut_ = s.length;
+    if (placing_) {
+      const NextImpact next = next_impact(s);
+      taken = std::max(next.time, kShortest * s.length);
+      striking_ = next.key;
+    }
+    cut_ = taken < s.length;
+  }
+  may_halve_ = taken > settings_.step / kMostParts;
   return taken;
+}
+
+/// A cut step ends where the surfaces would touch if they closed as fast as at its start. One that ends short of the touch or
+/// beyond it by more than rounding is taken again, by Newton's rule on its length.
+Verdict StepControl::place_impact(const StepContext& s) {
+  constexpr int kMostPlacings = 4;
+  constexpr double kNear = 0.1 * kPlaced;
+  if (!cut_ || placings_ == kMostPlacings) return {};
+  const auto& found = s.buffers.end_contacts;
+  const auto strikes = std::find_if(found.begin(), found.end(), [this](const Constraint& c) { return c.key == striking_; });
+  if (strikes == found.end() || std::abs(strikes->gap) <= kNear) return {};
+  const double closing = -row_velocity(*strikes, s.end.V_WB)[0];
+  const double better = s.length + strikes->gap / closing;
+  if (!(closing > 0 && better > 0 && better < uncut_)) return {};
+  ++placings_;
+  placed_ = better;
+  return {Verdict::Kind::place, better};
 }
 
 int StepControl::parts(double length, double fastest_swing) const {
@@ -130,7 +156,7 @@ Verdict StepControl::judge_end(StepContext& s) {
   if (may_halve_ &&
       (lost >= 0 || gained || unsolved || !acceptable(state_.contacts.list, s.buffers.end_contacts, depth_tolerance_)))
     return {Verdict::Kind::again, 0.5 * s.length};
-  if (lost < 0) return {};
+  if (lost < 0) return place_impact(s);
   world_.log.failure = failure_of(world_, s.constraints, lost, state_.time + s.length, kNotANumber);
   return {Verdict::Kind::ended, s.length};
 }

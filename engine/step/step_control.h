@@ -8,8 +8,8 @@ namespace engine {
 
 /// Of an attempt at a step.
 struct Verdict {
-  enum class Kind { go_on, again, ended } kind = Kind::go_on;
-  double length = 0;  // [s] again: of the next attempt
+  enum class Kind { go_on, again, place, ended } kind = Kind::go_on;
+  double length = 0;  // [s] again, and to place an impact: of the next attempt
 };
 
 class StepControl {
@@ -47,6 +47,7 @@ class StepControl {
 
  private:
   Verdict end_run(int body, const char* effect, const char* message);
+  Verdict place_impact(const StepContext&);
 
   World& world_;
   State& state_;
@@ -58,6 +59,10 @@ class StepControl {
   double error_ = 0;              // [m] of the smooth motion
   bool placing_ = false;          // impacts are still placed inside this step
   bool cut_ = false;              // the step ends at one
+  std::uint64_t striking_ = 0;    // the contact that makes it
+  double uncut_ = 0;              // [s] the step without it
+  double placed_ = 0;             // [s] the attempt that shall end right at it
+  int placings_ = 0;              // such attempts
   bool may_halve_ = false;
   bool crossed_ = false;  // it ends at an event of a compliant contact
 };

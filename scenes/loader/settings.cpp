@@ -51,9 +51,10 @@ const Key kKeys[] = {
      "Tilts the whole world: the ground stays z = height and gravity turns, so that +x runs downhill at this angle.",
      between(-kRightAngle, kRightAngle)},
     {"solver_tolerance", Type::number, Dimension::speed, "'0.01 mm/s'", "Residual at which the contact solver stops.", kPositive},
-    bound<&engine::Settings::touch_distance>({"touch_distance", Type::number, Dimension::length, "'0.02 mm'",
-                                              "Rigid surfaces that close in exchange impulses from this distance on.",
-                                              between(1e-9, 1e-3)}),
+    bound<&engine::Settings::touch_distance>(
+        {"touch_distance", Type::number, Dimension::length, "'0.02 mm'",
+         "Rigid surfaces this near take part in an impact beside them; an impact itself acts at the surface.",
+         between(1e-9, 1e-3)}),
     bound<&engine::Settings::contacts_per_pair>(
         {"contacts_per_pair", Type::integer, Dimension::none, "10",
          "Points at most at which two meshes, or a mesh and the ground, hold each other at a time.", between(3, 100)}),

@@ -1,0 +1,131 @@
+// Events inside a step: impacts at the surface itself, landings, edges and ramps of friction. Each is exact, or of second order.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/simulate.h"
+
+namespace located_events_tests {
+namespace {
+
+using namespace engine;
+
+Body round_body(const Vec3& axes, double exponent, const Vec3& at, const Vec3& velocity) {
+  Body body;
+  const HyperEllipsoid shape{axes, exponent};
+  body.name = "body";
+  body.mass = 1;
+  body.shape = shape;
+  body.inertia_B = principal_inertia(shape, 1).asDiagonal();
+  body.X_WB.p = at;
+  body.V_WB.v = velocity;
+  return body;
+}
+
+/// A block so hard to turn that it is a point with friction.
+Body block(const Vec3& at, const Vec3& velocity, const Schedule& friction) {
+  Body body = round_body({0.02, 0.02, 0.005}, 2, at + Vec3(0, 0, 0.005), velocity);
+  body.inertia_B = 50 * Mat3::Identity();
+  body.surface.friction_ground = friction;
+  return body;
+}
+
+Model on_ground(const Body& body, double duration, double step) {
+  Model model;
+  model.bodies = {body};
+  model.settings.duration = duration;
+  model.settings.step = step;
+  model.settings.record_interval = duration;
+  model.settings.stop_at_rest = false;
+  return model;
+}
+
+double travel(const Model& model) {
+  const Recording run = simulate(model);
+  EXPECT_FALSE(run.failure);
+  return run.snapshots.back().bodies[0].X_WB.p.x() - run.snapshots.front().bodies[0].X_WB.p.x();
+}
+
+/// The largest error over steps of about this length that share no phase with the event; each divides the run.
+template <class ErrorAt>
+double worst(double duration, double step, const ErrorAt& error_at) {
+  double out = 0;
+  for (const double share : {1.0, 0.94, 0.87, 0.81})
+    out = std::max(out, std::abs(error_at(duration / std::round(duration / (share * step)))));
+  return out;
+}
+
+TEST(LocatedEvents, AnImpactIsAtTheSurfaceItself) {
+  // against a wall at 1 m: forth at v, back at e v. An impact a distance d off moves the end by (1 + e) d.
+  constexpr double kEnd = 0.5, kRestitution = 0.7;
+  for (const double speed : {3.0, 30.0}) {
+    const auto error = [speed](double step) {
+      Model model = on_ground(round_body({0.1, 0.1, 0.1}, 2, {0, 0, 0}, {speed, 0, 0}), kEnd, step);
+      model.ground.plane = false;
+      model.settings.gravity.setZero();
+      model.bodies.push_back(round_body({0.5, 3, 3}, 30, {1.6, 0, 0}, {0, 0, 0}));
+      model.bodies[1].fixed = true;
+      for (Body& body : model.bodies) body.surface.restitution_body = kRestitution, body.surface.friction_body = 0;
+      return travel(model) - (1 - kRestitution * (kEnd * speed - 1));
+    };
+    EXPECT_LT(worst(kEnd, 2e-3, error), 2e-9) << speed;
+  }
+}
+
+TEST(LocatedEvents, ABallFallsOnTheGroundItself) {
+  // after the bounce at e v it flies: z(t) = e v s - g s^2/2
+  constexpr double kEnd = 0.8, kRestitution = 0.6, kHeight = 1.3;
+  const double fall = std::sqrt(2 * kHeight / kGravity), after = kEnd - fall;
+  const double exact = 0.1 + kRestitution * kGravity * fall * after - 0.5 * kGravity * after * after;
+  const auto error = [&](double step) {
+    Model model = on_ground(round_body({0.1, 0.1, 0.1}, 2, {0, 0, kHeight + 0.1}, {0, 0, 0}), kEnd, step);
+    model.bodies[0].surface.restitution_ground = kRestitution;
+    return simulate(model).snapshots.back().bodies[0].X_WB.p.z() - exact;
+  };
+  EXPECT_LT(worst(kEnd, 2e-3, error), 1e-8);
+}
+
+TEST(LocatedEvents, ALandingWithoutBounceIsExact) {
+  // thrown flat from a height it loses mu v_z at the landing, by Coulomb's impulse, and slides on
+  constexpr double kHeight = 0.9, kSpeed = 9, kFriction = 0.4, kEnd = 1.0;
+  const double fall = std::sqrt(2 * kHeight / kGravity), left = kSpeed - kFriction * kGravity * fall, slide = kEnd - fall;
+  const double exact = kSpeed * fall + left * slide - 0.5 * kFriction * kGravity * slide * slide;
+  const auto error = [&](double step) {
+    return travel(on_ground(block({0, 0, kHeight}, {kSpeed, 0, 0}, kFriction), kEnd, step)) - exact;
+  };
+  EXPECT_LT(worst(kEnd, 2e-3, error), 3e-5);
+  EXPECT_LT(worst(kEnd, 0.5e-3, error), 3e-6);
+}
+
+TEST(LocatedEvents, AnEdgeOfAPatchIsOfSecondOrder) {
+  // 0.2 up to x = 1 m, 0.7 beyond
+  constexpr double kSpeed = 6, kEnd = 1.0;
+  const double edge = std::sqrt(kSpeed * kSpeed - 2 * 0.2 * kGravity), reached = (kSpeed - edge) / (0.2 * kGravity);
+  const double stopped = edge / (0.7 * kGravity), on = std::min(kEnd - reached, stopped);
+  const double exact = 1 + edge * on - 0.5 * 0.7 * kGravity * on * on;
+  const auto error = [&](double step) {
+    Model model = on_ground(block({0, 0, 0}, {kSpeed, 0, 0}, 1.0), kEnd, step);
+    model.ground.patches = {{{-9, -9, 0}, {1, 9, 0}, 0.2}, {{1, -9, 0}, {99, 9, 0}, 0.7}};
+    return travel(model) - exact;
+  };
+  const double coarse = worst(kEnd, 4e-3, error), fine = worst(kEnd, 0.5e-3, error);
+  EXPECT_LT(coarse, 1e-4);
+  EXPECT_LT(fine, coarse / 16);  // an order of 4/3 and more over three halvings, whatever the phase
+}
+
+TEST(LocatedEvents, ARampAndAJumpOfFrictionAreOfSecondOrder) {
+  // 0.2 to t = 0.1 s, a ramp to 0.4 at 0.3 s, there a jump to 0.6
+  constexpr double kSpeed = 6, kEnd = 0.6;
+  const double exact_speed_loss[] = {0.2 * 0.1, 0.3 * 0.2};
+  const double v1 = kSpeed - kGravity * exact_speed_loss[0], x1 = kSpeed * 0.1 - 0.5 * kGravity * 0.2 * 0.01;
+  const double v2 = v1 - kGravity * exact_speed_loss[1], x2 = x1 + v1 * 0.2 - kGravity * (0.5 * 0.2 * 0.04 + 1.0 / 6 * 0.008);
+  const double exact = x2 + v2 * 0.3 - 0.5 * kGravity * 0.6 * 0.09;
+  const Schedule friction({{0.1, 0.2}, {0.3, 0.4}, {0.3, 0.6}, {1, 0.6}});
+  const auto error = [&](double step) { return travel(on_ground(block({0, 0, 0}, {kSpeed, 0, 0}, friction), kEnd, step)) - exact; };
+  const double coarse = worst(kEnd, 8e-3, error), fine = worst(kEnd, 1e-3, error);
+  EXPECT_LT(coarse, 3e-4);
+  EXPECT_LT(fine, coarse / 16);
+}
+
+}  // namespace
+}  // namespace located_events_tests
