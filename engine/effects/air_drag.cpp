@@ -2,9 +2,9 @@
 // the body's axes (coefficient times section, diagonal in body axes). It acts at the centre of mass. Sections are those of the
 // hyper-ellipsoid through its centre, and of the box round a mesh. 1.2 is the coefficient of a circular cylinder across the flow
 // at Reynolds numbers of 1e4 to 2e5 (S. F. Hoerner, Fluid-Dynamic Drag, 1965): a standing adult of fourteen segments has 0.66 m^2.
-// Of a mesh: 0.3 from the front, that is the 0.35 of a saloon car (0.22 to 0.4 by H. Heisler, Advanced Vehicle Technology, 2nd ed.
-// 2002, chapter 14; vans 0.35 to 0.5, buses 0.4 to 0.8, rigid trucks 0.7 to 0.9) on 85 % of the box, as much as a car fills of it;
-// from the side and from above those of blocks with rounded and with sharp edges, 0.8 and 1.0 (Hoerner: a cube 1.05).
+// A vehicle has its own (scenes/library). Another mesh has 0.3 from the front, that is the 0.35 of a saloon car (0.22 to 0.4 by
+// H. Heisler, Advanced Vehicle Technology, 2nd ed. 2002, chapter 14) on 85 % of the box, as much as a car fills of it; from the
+// side and from above those of blocks with rounded and with sharp edges, 0.8 and 1.0 (Hoerner: a cube 1.05).
 //
 // A scene without [air] has still air of the usual density round its vehicles and persons, unless what it is worth is below kShare.
 // Its free bodies have none: nobody knows what they are meant to be. What that leaves out is told as the speed that drag would
@@ -20,16 +20,16 @@
 namespace engine {
 namespace {
 
-constexpr double kDensity = 1.2;                             // [kg/m^3] at 20 deg C and 1013 hPa
-const Vec3 kDrag{1.2, 1.2, 1.2}, kVehicleDrag{0.3, 0.8, 1};  // [-] along x, y, z of the body
+constexpr double kDensity = 1.2;                          // [kg/m^3] at 20 deg C and 1013 hPa
+const Vec3 kDrag{1.2, 1.2, 1.2}, kMeshDrag{0.3, 0.8, 1};  // [-] along x, y, z of the body
 
 constexpr SceneKey kKeys[] = {
     {"density", "kg/m^3", 1, "'1.2 kg/m^3'", "Density of the air; 0 for a vacuum.", 0},
     {"wind", "m/s", 3, "'0 0 0 m/s'", "Velocity of the air over the ground."},
     {"drag", "", 1, "1.2", "Drag coefficient of persons and free bodies, each segment by its own section.", 0},
-    {"vehicle_drag", "", 3, "[0.3, 0.8, 1]",
-     "Drag coefficients of a mesh along its length, width and height, by the sides of its box: those of a saloon car; a van has "
-     "0.4 along its length, a bus 0.6, a truck 0.8.",
+    {"vehicle_drag", "", 3, "[0, 0, 0]",
+     "Drag coefficients of all meshes along their length, width and height, by the sides of their boxes. Zeros: each vehicle has "
+     "its own, other meshes those of a saloon car, [0.3, 0.8, 1].",
      0},
 };
 
@@ -55,10 +55,18 @@ Vec3 sections_of(const Body& body) {
   return Vec3::Zero();
 }
 
-std::vector<Vec3> drag_areas(const Model& model, const Vec3& drag, const Vec3& vehicle_drag) {
+/// Coefficients along the axes of a body: `of_all` meshes, or each vehicle's own where that is zero.
+Vec3 drag_of(const Model& model, const Body& body, const Vec3& drag, const Vec3& of_all) {
+  if (!is_mesh(body)) return drag;
+  if (!of_all.isZero(0)) return of_all;
+  return body.vehicle >= 0 ? model.vehicles[body.vehicle].drag : kMeshDrag;
+}
+
+std::vector<Vec3> drag_areas(const Model& model, const Vec3& drag, const Vec3& of_all_meshes) {
   std::vector<Vec3> out;
   for (const Body& body : model.bodies)
-    out.push_back(body.fixed ? Vec3(Vec3::Zero()) : Vec3(sections_of(body).cwiseProduct(is_mesh(body) ? vehicle_drag : drag)));
+    out.push_back(body.fixed ? Vec3(Vec3::Zero())
+                             : Vec3(sections_of(body).cwiseProduct(drag_of(model, body, drag, of_all_meshes))));
   return out;
 }
 
@@ -133,7 +141,7 @@ double greatest_energy(const Model& model) {
 
 /// The greatest loss before the run. Of bodies with masses m and areas A that share an energy E the drag is rho E max(A/m) at most.
 Loss loss_before(const Model& model, const std::vector<Group>& groups) {
-  const std::vector<Vec3> areas = drag_areas(model, kDrag, kVehicleDrag);
+  const std::vector<Vec3> areas = drag_areas(model, kDrag, Vec3::Zero());
   const double energy = greatest_energy(model), T = model.settings.duration;
   Loss worst;
   for (const Group& group : groups) {
@@ -147,7 +155,7 @@ Loss loss_before(const Model& model, const std::vector<Group>& groups) {
 
 /// The greatest loss of those the air of a run, if it had any, does not act on.
 Loss loss_along(const Model& model, const Recording& run, bool had_air) {
-  const std::vector<Vec3> areas = drag_areas(model, kDrag, kVehicleDrag);
+  const std::vector<Vec3> areas = drag_areas(model, kDrag, Vec3::Zero());
   Loss worst;
   for (const Group& group : groups_of(model)) {
     if (had_air && group.usual) continue;
@@ -237,7 +245,7 @@ Air air_of(const Model& model) {
   }
   if (!look_at(model).called_for) return air;  // switched on by hand
   air.density = kDensity;
-  air.drag_area = drag_areas(model, kDrag, kVehicleDrag);
+  air.drag_area = drag_areas(model, kDrag, Vec3::Zero());
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (model.bodies[b].person < 0 && model.bodies[b].vehicle < 0) air.drag_area[b].setZero();
   return air;

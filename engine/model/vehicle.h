@@ -79,7 +79,8 @@ struct Vehicle {
   Schedule drive_force = 0.0;  // [N] shared by driven wheels
   Schedule steer = 0.0;        // [rad] wheel angle, left positive
   std::vector<DriverPhase> sequence;
-  FollowedPath path;  // steers in place of `steer`
+  FollowedPath path;       // steers in place of `steer`
+  Vec3 drag{0.3, 0.8, 1};  // [-] of the air along its length, width and height, by the sides of the box round it
 };
 
 }  // namespace engine

@@ -41,6 +41,9 @@ const Key kKeys[] = {
     {"lift", Type::number, Dimension::length, "'0 m'", "Height above its place on the wheels, for a vehicle in the air."},
     {"attitude", Type::vector3, Dimension::angle, "'0 0 0 deg'", "Roll, pitch, yaw on top of the heading."},
     {"quaternion", Type::numbers, Dimension::none, "", "The same as [w, x, y, z]."},
+    bound<&engine::Vehicle::drag>(
+        {"drag", Type::vector3, Dimension::none, "[0.3, 0.8, 1]",
+         "Drag coefficients of the air along its length, width and height, by the sides of the box round it.", kNotNegative}),
     {"hitch", Type::vector3, Dimension::length, "", "Where it tows a trailer, in the mesh frame."},
     {"coupling", Type::vector3, Dimension::length, "", "Where it is towed, in the mesh frame."},
     {"coupling_kind", Type::choice, Dimension::none, "'ball'",
