@@ -149,6 +149,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
   }
 
   void before_step(World& world, State& state, double) override {
+    list_awake(world, state);
     if (world.model.settings.scheme != Scheme::stepping) power_ = power_taken(world, state);
   }
 
@@ -172,21 +173,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
       });
   }
 
-  /// Who has begun to wait or to move: what waits is not looked at again.
-  void find(StepContext& step) override {
-    const World& world = step.world;
-    if (std::exchange(listed_, world.still.changes) == world.still.changes) return;
-    const auto waits = [&world](const Joint& joint) { return !world.awake[joint.child]; };
-    for (std::size_t j = 0; j < world.model.joints.size(); ++j)
-      if (const Joint& joint = world.model.joints[j]; resists(joint) && waits(joint)) memory(step.state).change[j].setZero();
-    awake_legs_.clear();
-    for (const PassiveLeg& leg : legs_)
-      for (const int j : {leg.hip, leg.knees[0], leg.knees[1], leg.ankle})
-        if (j >= 0 && !waits(world.model.joints[j])) {
-          awake_legs_.push_back(leg);
-          break;
-        }
-  }
+  void find(StepContext& step) override { list_awake(step.world, step.state); }
 
   void resist(StepContext& step) override {
     const World& world = step.world;
@@ -282,6 +269,21 @@ class JointResistance final : public EffectWith<FrictionMemory> {
   }
 
  private:
+  /// Who has begun to wait or to move: what waits is not looked at again.
+  void list_awake(const World& world, State& state) {
+    if (std::exchange(listed_, world.still.changes) == world.still.changes) return;
+    const auto waits = [&world](const Joint& joint) { return !world.awake[joint.child]; };
+    for (std::size_t j = 0; j < world.model.joints.size(); ++j)
+      if (const Joint& joint = world.model.joints[j]; resists(joint) && waits(joint)) memory(state).change[j].setZero();
+    awake_legs_.clear();
+    for (const PassiveLeg& leg : legs_)
+      for (const int j : {leg.hip, leg.knees[0], leg.knees[1], leg.ankle})
+        if (j >= 0 && !waits(world.model.joints[j])) {
+          awake_legs_.push_back(leg);
+          break;
+        }
+  }
+
   /// Power [W] that springs and dampers evaluated in the stages take out now.
   double power_taken(const World& world, const Motion& at) const {
     double power = 0;
