@@ -131,10 +131,11 @@ std::vector<Besides> besides_the_step(const Study& study, const std::string& qua
         most = std::max(most, 2 * std::abs(a->value - finest->value));
     if (most > 0) out.push_back({series.series.meaning, most});
   }
-  // a flat body on rigid ground ends 1 to 2 um from its formula however fine the step: no claim below what a minute change is
+  // a flat body on rigid ground ends 1 to 2 um from its formula however fine the step
+  constexpr double kRigid = 2 * kPerturbedPosition;
   const std::string unit = unit_of(quantity);
   if (study.rigid_contacts && (unit == "m" || unit == "s" || unit == "m/s"))
-    out.push_back({"what rigid contacts leave at any step", kPerturbedPosition});
+    out.push_back({"what rigid contacts leave at any step", kRigid});
   std::stable_sort(out.begin(), out.end(), [](const Besides& a, const Besides& b) { return a.width > b.width; });
   return out;
 }
@@ -205,6 +206,7 @@ SettingResult summarise(const Setting& setting, const std::vector<Outcome>& outc
   out.end_s = plain.end_s;
   out.contacts = plain.contacts;
   out.failure = plain.failure;
+  out.recording = plain.recording;
   for (const Quantity& q : plain.quantities) {
     std::vector<double> sample;
     for (const Outcome& outcome : outcomes)

@@ -30,6 +30,7 @@ struct SettingResult {
   double end_s = 0;
   std::vector<std::string> contacts;
   std::string failure;
+  std::string recording;  // hash of the plain run
   std::map<std::string, Answer> answers;
 };
 

@@ -38,6 +38,7 @@ Json setting_json(const SeriesResult& series, const SettingResult& result, const
               {"repetitions", result.repetitions}, {"steps", result.steps},
               {"contact_sequence", letter}};
   if (result.instructions > 0) out["instructions"] = result.instructions;
+  if (!result.recording.empty()) out["recording"] = result.recording;
   if (!result.failure.empty()) out["failure"] = result.failure;
   for (const auto& [name, a] : result.answers)
     out["answers"][name] = {

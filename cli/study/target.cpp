@@ -82,6 +82,7 @@ TargetAnswer search(const Study& study, const Target& target) {
     throw UsageError(fmt::format("--target: the scene has no measure {}; it has {}", target.quantity, fmt::join(names, ", ")));
   const std::string unit = unit_of(judgement->quantity);
   TargetAnswer out;
+  const SettingResult* surest = nullptr;
   double spread = 0, best_wall = 0;
   for (const SeriesResult& series : study.series) {
     if (series.series.other_law || series.series.varies == "interval") continue;  // another law; a matter of reading, not of cost
@@ -89,14 +90,19 @@ TargetAnswer search(const Study& study, const Target& target) {
       const auto found = r.answers.find(judgement->quantity);
       if (found == r.answers.end() || !r.failure.empty()) continue;
       if (r.setting.own) spread = (found->second.high - found->second.low) / 2;
+      if (!surest || found->second.uncertainty < surest->answers.at(judgement->quantity).uncertainty) surest = &r;
       if (found->second.uncertainty > target.width || (out.setting && r.wall_s >= best_wall)) continue;
       out.setting = &r;
       best_wall = r.wall_s;
     }
   }
   if (!out.setting) {
-    out.text =
-        fmt::format("no setting of the study holds {} to {}\n", words_of(judgement->quantity), with_unit(target.width, unit));
+    out.text = fmt::format("of no setting can the study show that it holds {} to {}", words_of(judgement->quantity),
+                           with_unit(target.width, unit));
+    if (surest)
+      out.text += fmt::format("; surest is {}, {} of computing, numerical uncertainty {}", surest->setting.label,
+                              with_unit(surest->wall_s, "s"), with_unit(surest->answers.at(judgement->quantity).uncertainty, unit));
+    out.text += "\n";
   } else {
     out.text = fmt::format(
         "cheapest setting that holds {} to {}: {}, {} of computing, numerical uncertainty {}\n\n{}", words_of(judgement->quantity),

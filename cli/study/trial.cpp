@@ -67,6 +67,7 @@ Outcome run(const Trial& trial) {
   out.end_s = recording.end_time();
   if (recording.failure)
     out.failure = fmt::format("diverged at {:.4f} s, body {}", recording.failure->time, recording.failure->body);
+  out.recording = fmt::format("{:016x}", engine::hash(recording));
   out.quantities = quantities_of(scene.model, recording);
   out.contacts = contact_sequence(recording);
   return out;
@@ -82,6 +83,7 @@ void store(const Outcome& outcome, const std::filesystem::path& file) {
   json["steps"] = outcome.steps;
   json["end_s"] = outcome.end_s;
   json["failure"] = outcome.failure;
+  json["recording"] = outcome.recording;
   WholeFile whole(file);
   whole.write(json.dump() + "\n");
   whole.close();
@@ -91,7 +93,7 @@ void store(const Outcome& outcome, const std::filesystem::path& file) {
 bool recall(const std::filesystem::path& file, Outcome& outcome) {
   std::ifstream in(file);
   const auto json = nlohmann::json::parse(in, nullptr, false);
-  if (json.is_discarded() || !json.contains("end_s") || !json.contains("quantities")) return false;
+  if (json.is_discarded() || !json.contains("end_s") || !json.contains("quantities") || !json.contains("recording")) return false;
   Outcome read;
   for (const auto& q : json["quantities"])
     read.quantities.push_back(
@@ -102,6 +104,7 @@ bool recall(const std::filesystem::path& file, Outcome& outcome) {
   read.steps = json["steps"].get<long>();
   read.end_s = json["end_s"].get<double>();
   read.failure = json["failure"].get<std::string>();
+  read.recording = json["recording"].get<std::string>();
   outcome = std::move(read);
   return true;
 }

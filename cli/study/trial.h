@@ -31,6 +31,7 @@ struct Outcome {
   long steps = 0;                     // with those divided to place impacts
   double end_s = 0;                   // simulated
   std::string failure;                // empty: none
+  std::string recording;              // its hash, as `simulate` prints it
 };
 
 /// What the trial's answer depends on; `loaded` is the scene with the trial's overrides.
