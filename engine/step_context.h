@@ -18,7 +18,8 @@ struct Resistance {
   JointCoordinates at_start;
   // of dry friction, per coordinate
   Eigen::Vector4d rate = Eigen::Vector4d::Zero();       // [rad/s], [m/s] at the start of the step
-  Eigen::Vector4d slip_rate = Eigen::Vector4d::Zero();  // at which it yields its torque in this step, 0: has none
+  Eigen::Vector4d slip_rate = Eigen::Vector4d::Zero();  // at which it yields its torque in this step; 0: whatever the rate
+  Eigen::Vector4d held_back = Eigen::Vector4d::Zero();  // [rad/s], [m/s] by more friction than the given
   int effect = 0;
 };
 
@@ -28,6 +29,7 @@ struct Islands {
   std::vector<int> of_tree;               // a tree of the same island, or itself at its root
   std::vector<char> has_impact;           // per tree
   std::vector<double> rise;               // [J] per tree
+  std::vector<int> line, place;           // trees of one island side by side, and per tree where
 };
 
 /// Buffers of a step, sized once.

@@ -157,7 +157,7 @@ bool ContactSolver::newton_step(std::vector<Constraint>& all, const std::vector<
     if (c.kind != ConstraintKind::bilateral) next[0] = std::max(0.0, next[0]);
     const Vec3 change = next - c.impulse;
     c.impulse = next;
-    add_to_velocity(offset_[i], c.rows, change);
+    add_to_velocity(i, c.rows, change);
   }
   return true;
 }

@@ -84,12 +84,13 @@ void ContactSolver::soften_dead_centres(const std::vector<Constraint>& all, cons
   }
 }
 
-void ContactSolver::add_to_velocity(int column, int rows, const Vec3& change) {
-  const double* g = G_.data() + static_cast<std::size_t>(column) * stride_;
+void ContactSolver::add_to_velocity(int member, int rows, const Vec3& change) {
+  const Rows reach = response_.reach(static_cast<std::size_t>(member));
+  const double* g = G_.data() + static_cast<std::size_t>(offset_[member]) * stride_;
   if (rows == 3) {
-    add_three_columns(g, change.data(), u_.data(), stride_);
+    add_three_columns(g + reach.begin, stride_, change.data(), u_.data() + reach.begin, reach.end - reach.begin);
   } else {  // limits and closed loops
-    for (std::size_t r = 0; r < stride_; ++r) u_[r] += g[r] * change[0];
+    for (std::size_t r = reach.begin; r < reach.end; ++r) u_[r] += g[r] * change[0];
   }
 }
 
@@ -148,7 +149,7 @@ double ContactSolver::sweep(std::vector<Constraint>& all, const std::vector<int>
     }
     const Vec3 change = next - c.impulse;
     if (change.squaredNorm() == 0) continue;
-    add_to_velocity(offset_[i], c.rows, change);
+    add_to_velocity(i, c.rows, change);
     c.impulse = next;
     largest = std::max(largest, scale * (A * change).cwiseAbs().maxCoeff());
   }
@@ -226,7 +227,7 @@ SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector
   const int count = static_cast<int>(members.size());
   for (int i = 0; i < count; ++i)
     for (int r = 0; r < all[members[i]].rows; ++r) u_[static_cast<std::size_t>(offset_[i] + r)] = all[members[i]].u_free[r];
-  for (int i = 0; i < count; ++i) add_to_velocity(offset_[i], all[members[i]].rows, all[members[i]].impulse);
+  for (int i = 0; i < count; ++i) add_to_velocity(i, all[members[i]].rows, all[members[i]].impulse);
 
   SolveReport report;
   report.residual = residual(all, members);
@@ -266,12 +267,13 @@ SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector
 void ContactSolver::push_apart(std::vector<Constraint>& all, const std::vector<int>& members, const std::vector<double>& wanted) {
   constexpr int kSweeps = 60;
   constexpr double kTight = 1e-14;  // [m], [rad] a looser bound is met by chance in one run and missed in its neighbour
+  constexpr double kMissed = 1e-6;  // [m], [rad] a last sweep that moves more has not come near the answer
   const int count = static_cast<int>(members.size());
-  for (int k = 0; k < kSweeps; ++k) {
+  const auto sweep = [&](bool vehicles) {
     double largest = 0;
     for (int i = 0; i < count; ++i) {
       Constraint& c = all[members[i]];
-      if (!std::isfinite(wanted[i])) continue;
+      if (!std::isfinite(wanted[i]) || (!vehicles && c.contact_kind == ContactKind::vehicle_pair)) continue;
       double moved = 0;
       for (int j = 0; j < count; ++j)
         if (all[members[j]].push != 0) moved += G(offset_[i], offset_[j]) * all[members[j]].push;
@@ -280,7 +282,14 @@ void ContactSolver::push_apart(std::vector<Constraint>& all, const std::vector<i
       largest = std::max(largest, own * std::abs(next - c.push));
       c.push = next;
     }
-    if (largest < kTight) return;
+    return largest;
+  };
+  double last = 1;
+  for (int k = 0; k < kSweeps && last > kTight; ++k) last = sweep(true);
+  if (last <= kMissed) return;
+  // something light between a vehicle and the ground, which sweeps do not lift the vehicle off: vehicles in each other can wait
+  for (const int m : members) all[m].push = 0;
+  for (int k = 0; k < kSweeps && sweep(false) > kTight; ++k) {
   }
 }
 

@@ -44,7 +44,7 @@ class ContactSolver {
  private:
   void note_own_responses(const std::vector<Constraint>&, const std::vector<int>& members);
   void soften_dead_centres(const std::vector<Constraint>&, const std::vector<int>& members);
-  void add_to_velocity(int column, int rows, const Vec3& change);
+  void add_to_velocity(int member, int rows, const Vec3& change);
   double sweep(std::vector<Constraint>&, const std::vector<int>& members);
   void iterate(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, int sweeps, SolveReport&);
   /// Where the friction bounds come from: the impulses there are, or beyond all of them.

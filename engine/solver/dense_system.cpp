@@ -13,6 +13,7 @@ void DenseSystem::resize(int n) {
   if (A_.size() < stride_ * stride_) A_.resize(stride_ * stride_);  // never smaller: growing again would write zeros for nothing
   if (b_.size() < stride_) b_.resize(stride_);
   if (pivot_.size() < stride_) pivot_.resize(stride_);
+  if (reach_.size() < stride_) reach_.resize(stride_);
   for (std::size_t c = 0; c < n_; ++c) std::fill(A_.data() + c * stride_ + n_, A_.data() + (c + 1) * stride_, 0.0);
   std::fill(b_.data() + n_, b_.data() + stride_, 0.0);
   // unknowns nothing depends on, so that all panels are whole
@@ -40,11 +41,23 @@ constexpr Places kBelow[] = {{0, -1, -1, -1}, {0, 0, -1, -1}, {0, 0, 0, -1}};  /
 #if defined(__x86_64__)
 __attribute__((target_clones("avx2", "default")))
 #endif
-bool factor_in_place(double* A, std::size_t n, std::size_t* pivots) {
+bool factor_in_place(double* A, std::size_t n, std::size_t* pivots, std::size_t* reach) {
   const double* past = A + n * n;
   for (std::size_t first = 0; first < n; first += kPanel) {
     const std::size_t end = first + kPanel;
     double *p0 = A + first * n, *p1 = p0 + n, *p2 = p1 + n, *p3 = p2 + n;
+    // of a band most is zero: rows beyond the panel's last are left alone, and so are columns its rows have no part in
+    std::size_t last = n;
+    for (; last > end; last -= kPanel) {
+      Places b0, b1, b2, b3;
+      std::memcpy(&b0, p0 + last - kPanel, sizeof b0);
+      std::memcpy(&b1, p1 + last - kPanel, sizeof b1);
+      std::memcpy(&b2, p2 + last - kPanel, sizeof b2);
+      std::memcpy(&b3, p3 + last - kPanel, sizeof b3);
+      const Places any = (b0 | b1 | b2 | b3) & kNoSign;
+      if ((any[0] | any[1] | any[2] | any[3]) != 0) break;
+    }
+    reach[first / kPanel] = last;
     for (std::size_t k = first; k < end; ++k) {
       double* column = A + k * n;
       const auto step = static_cast<std::int64_t>(k - first);
@@ -65,7 +78,7 @@ bool factor_in_place(double* A, std::size_t n, std::size_t* pivots) {
       // the first of the largest, lane by lane
       Four largest = kLane < step ? Four{-1, -1, -1, -1} : reinterpret_cast<Four>(reinterpret_cast<Places>(h) & kNoSign);
       Places here = kLane + static_cast<std::int64_t>(first), place = here;
-      for (std::size_t i = end; i < n; i += kPanel) {
+      for (std::size_t i = end; i < last; i += kPanel) {
         Four x, q0, q1, q2;
         std::memcpy(&x, column + i, sizeof x);
         std::memcpy(&q0, p0 + i, sizeof q0);
@@ -93,7 +106,7 @@ bool factor_in_place(double* A, std::size_t n, std::size_t* pivots) {
       std::memcpy(&h, column + first, sizeof h);
       h = kLane > step ? h * inverse : h;
       std::memcpy(column + first, &h, sizeof h);
-      for (std::size_t i = end; i < n; i += kPanel) {
+      for (std::size_t i = end; i < last; i += kPanel) {
         Four x;
         std::memcpy(&x, column + i, sizeof x);
         x *= inverse;
@@ -112,6 +125,8 @@ bool factor_in_place(double* A, std::size_t n, std::size_t* pivots) {
       Four u, v;
       std::memcpy(&u, x + first, sizeof u);
       std::memcpy(&v, y + first, sizeof v);
+      const Places met = (reinterpret_cast<Places>(u) | reinterpret_cast<Places>(v)) & kNoSign;
+      if ((met[0] | met[1] | met[2] | met[3]) == 0) continue;
       const Four f0 = __builtin_shufflevector(u, u, 0, 0, 0, 0), g0 = __builtin_shufflevector(v, v, 0, 0, 0, 0);
       u = u - L0 * f0, v = v - L0 * g0;
       const Four f1 = __builtin_shufflevector(u, u, 1, 1, 1, 1), g1 = __builtin_shufflevector(v, v, 1, 1, 1, 1);
@@ -121,7 +136,7 @@ bool factor_in_place(double* A, std::size_t n, std::size_t* pivots) {
       const Four f3 = __builtin_shufflevector(u, u, 3, 3, 3, 3), g3 = __builtin_shufflevector(v, v, 3, 3, 3, 3);
       std::memcpy(x + first, &u, sizeof u);
       std::memcpy(y + first, &v, sizeof v);
-      for (std::size_t i = end; i < n; i += kPanel) {
+      for (std::size_t i = end; i < last; i += kPanel) {
         Four q0, q1, q2, q3;
         std::memcpy(&u, x + i, sizeof u);
         std::memcpy(&v, y + i, sizeof v);
@@ -156,7 +171,7 @@ void take_from(double* x, std::size_t begin, std::size_t end, const double* cons
   }
 }
 
-void substitute(const double* A, std::size_t n, const std::size_t* pivots, double* b) {
+void substitute(const double* A, std::size_t n, const std::size_t* pivots, const std::size_t* reach, double* b) {
   for (std::size_t first = 0; first < n; first += kPanel) {
     const double *p0 = A + first * n, *p1 = p0 + n, *p2 = p1 + n, *p3 = p2 + n;
     for (std::size_t k = first; k < first + kPanel; ++k) std::swap(b[k], b[pivots[k]]);
@@ -164,7 +179,7 @@ void substitute(const double* A, std::size_t n, const std::size_t* pivots, doubl
     const double f1 = b[first + 1] -= p0[first + 1] * f0;
     const double f2 = b[first + 2] = b[first + 2] - p0[first + 2] * f0 - p1[first + 2] * f1;
     const double f3 = b[first + 3] = b[first + 3] - p0[first + 3] * f0 - p1[first + 3] * f1 - p2[first + 3] * f2;
-    take_from(b, first + kPanel, n, {p0, p1, p2, p3}, {f0, f1, f2, f3});
+    take_from(b, first + kPanel, reach[first / kPanel], {p0, p1, p2, p3}, {f0, f1, f2, f3});
   }
   for (std::size_t first = n; first > 0;) {
     first -= kPanel;
@@ -181,11 +196,11 @@ void substitute(const double* A, std::size_t n, const std::size_t* pivots, doubl
 }  // namespace
 
 bool DenseSystem::factor() {
-  return factor_in_place(A_.data(), stride_, pivot_.data());
+  return factor_in_place(A_.data(), stride_, pivot_.data(), reach_.data());
 }
 
 void DenseSystem::solve() {
-  substitute(A_.data(), stride_, pivot_.data(), b_.data());
+  substitute(A_.data(), stride_, pivot_.data(), reach_.data(), b_.data());
 }
 
 }  // namespace engine

@@ -9,7 +9,9 @@ namespace engine {
 
 class DenseSystem {
  public:
-  void reserve(std::size_t n) { A_.reserve(whole(n) * whole(n)), b_.reserve(whole(n)), pivot_.reserve(whole(n)); }
+  void reserve(std::size_t n) {
+    A_.reserve(whole(n) * whole(n)), b_.reserve(whole(n)), pivot_.reserve(whole(n)), reach_.reserve(whole(n));
+  }
   /// A and b are to be written whole.
   void resize(int n);
   int size() const { return static_cast<int>(n_); }
@@ -30,6 +32,7 @@ class DenseSystem {
   std::vector<double> A_;  // column-major
   std::vector<double> b_;
   std::vector<std::size_t> pivot_;  // row that changed places with row k
+  std::vector<std::size_t> reach_;  // per four columns: past the last row that is not zero in them
 };
 
 }  // namespace engine

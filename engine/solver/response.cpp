@@ -8,6 +8,8 @@
 namespace engine {
 namespace {
 
+constexpr Rows kNoRows{std::numeric_limits<std::size_t>::max(), 0};
+
 /// Columns of Q with Q Q^T = D, of the rank given (Cholesky, the largest pivot first).
 void take_root(Mat6 D, int rank, Mat6& Q) {
   for (int k = 0; k < rank; ++k) {
@@ -33,6 +35,8 @@ void Response::reset(const Topology& topology, std::size_t constraints) {
   marked_.reserve(links);
   way_.reserve(links);
   met_.reserve(6 * links);
+  reach_.reserve(constraints);
+  rows_.assign(topology.trees.size(), kNoRows);
   Y_.reserve(std::min<std::size_t>(6 * links, 128) * whole_rows(3 * constraints) + 4);
 }
 
@@ -57,24 +61,64 @@ void Response::follow(const Topology& topology, const Articulation& articulation
   }
 }
 
-/// The freedoms on the ways of two bodies (-1: none). Links ascend towards the root.
-void Response::meet(const Topology& topology, int body_a, int body_b) {
+/// The freedoms on the ways of two bodies (-1: none); returns how many are of the first tree among theirs. Links ascend towards the
+/// root, and from tree to tree.
+std::size_t Response::meet(const Topology& topology, int body_a, int body_b) {
   constexpr int kNone = std::numeric_limits<int>::max();
   const auto link_of = [&](int body) { return body >= 0 ? topology.link_of_body[body] : kNone; };
   met_.clear();
-  for (int a = link_of(body_a), b = link_of(body_b); std::min(a, b) != kNone;) {
+  int a = link_of(body_a), b = link_of(body_b);
+  const int tree = topology.links[std::min(a, b)].tree;
+  std::size_t of_first = 0;
+  while (std::min(a, b) != kNone) {
     const int link = std::min(a, b), above = link_of(topology.links[link].parent);
     for (int k = 0; k < rank_[link]; ++k) met_.push_back(first_[link] + k);
+    if (topology.links[link].tree == tree) of_first = met_.size();
     if (a == link) a = above;
     if (b == link) b = above;
   }
+  return of_first;
+}
+
+void Response::note_rows(int tree, std::size_t first, std::size_t last) {
+  Rows& rows = rows_[tree];
+  rows = {std::min(rows.begin, first / 8 * 8), std::max(rows.end, whole_rows(last))};
+}
+
+/// The columns of a constraint: rows of its first tree, of its second, of both.
+Rows Response::write_columns(const Topology& topology, const Constraint& c, std::size_t row, std::size_t stride, double* G) {
+  const std::size_t of_first = meet(topology, c.body_a, c.body_b), of_both = met_.size();
+  int first = c.body_a >= 0 ? topology.tree_of_body[c.body_a] : -1, second = c.body_b >= 0 ? topology.tree_of_body[c.body_b] : -1;
+  if (first < 0 || (second >= 0 && second < first)) std::swap(first, second);
+  const Rows a = rows_[first], b = second >= 0 && second != first ? rows_[second] : a;
+  const Rows reach{std::min(a.begin, b.begin), std::max(a.end, b.end)};
+  const auto within = [](const Rows& rows, std::size_t r) { return rows.begin <= r && r < rows.end; };
+  for (std::size_t r = reach.begin, next = 0; r < reach.end; r = next) {
+    next = reach.end;
+    for (const std::size_t edge : {a.begin, a.end, b.begin, b.end})
+      if (edge > r) next = std::min(next, edge);
+    const std::size_t from = within(a, r) ? 0 : of_first, to = within(b, r) ? of_both : of_first;
+    meet_rows(Y_.data(), stride, met_.data() + from, to - from, {r, next}, row, static_cast<std::size_t>(c.rows), G);
+  }
+  for (std::size_t k = row; k < row + static_cast<std::size_t>(c.rows); ++k) {
+    std::fill(G + k * stride, G + k * stride + reach.begin, 0.0);
+    std::fill(G + k * stride + reach.end, G + (k + 1) * stride, 0.0);
+  }
+  return reach;
 }
 
 void Response::compute(const Topology& topology, const Articulation& articulation, const std::vector<Constraint>& all,
                        const std::vector<int>& members, const std::vector<int>& offset, std::size_t stride,
                        std::vector<double>& G) {
-  for (const int m : members)
-    for (const int body : {all[m].body_a, all[m].body_b}) mark(topology, body);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const Constraint& c = all[members[i]];
+    const auto row = static_cast<std::size_t>(offset[i]);
+    for (const int body : {c.body_a, c.body_b}) {
+      if (body < 0) continue;
+      mark(topology, body);
+      note_rows(topology.tree_of_body[body], row, row + static_cast<std::size_t>(c.rows));
+    }
+  }
   std::sort(marked_.begin(), marked_.end());
   int freedoms = 0;
   for (const int link : marked_) {
@@ -85,7 +129,14 @@ void Response::compute(const Topology& topology, const Articulation& articulatio
     take_root(f.D, rank_[link], Q_[link]);
   }
 
-  Y_.assign(static_cast<std::size_t>(freedoms) * stride + 4, 0.0);  // the last row is written as a whole vector too
+  Y_.resize(static_cast<std::size_t>(freedoms) * stride + 4);  // the last row is written as a whole vector too
+  for (const int link : marked_) {
+    const Rows rows = rows_[topology.links[link].tree];
+    for (int k = first_[link]; k < first_[link] + rank_[link]; ++k) {
+      double* y = Y_.data() + static_cast<std::size_t>(k) * stride;
+      std::fill(y + rows.begin, y + rows.end, 0.0);
+    }
+  }
   for (std::size_t i = 0; i < members.size(); ++i) {
     const Constraint& c = all[members[i]];
     const auto row = static_cast<std::size_t>(offset[i]);
@@ -95,13 +146,13 @@ void Response::compute(const Topology& topology, const Articulation& articulatio
       carry_up(J, way_.data(), way_.size(), Y_.data() + row, stride);
     }
   }
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    const Constraint& c = all[members[i]];
-    meet(topology, c.body_a, c.body_b);
-    meet_rows(Y_.data(), stride, met_.data(), met_.size(), static_cast<std::size_t>(offset[i]), static_cast<std::size_t>(c.rows),
-              G.data());
+  reach_.clear();
+  for (std::size_t i = 0; i < members.size(); ++i)
+    reach_.push_back(write_columns(topology, all[members[i]], static_cast<std::size_t>(offset[i]), stride, G.data()));
+  for (const int link : marked_) {
+    first_[link] = -1;
+    rows_[topology.links[link].tree] = kNoRows;
   }
-  for (const int link : marked_) first_[link] = -1;
   marked_.clear();
 }
 

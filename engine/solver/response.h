@@ -4,7 +4,8 @@
 // by its D, and the X of the links below carry that motion on to a body (articulation.h). D has no more rank than the link has
 // freedoms, D = Q Q^T, so G = Y^T Y with a row of Y for each freedom: the rows of J carried up from their bodies to the root as
 // forces are, and at each link asked by Q^T how they work its freedoms. A contact meets only the freedoms on its own way, no block
-// of W is ever formed, and G is symmetric and no eigenvalue of it negative but for rounding.
+// of W is ever formed, and G is symmetric and no eigenvalue of it negative but for rounding. Contacts that share no tree do not
+// meet at all: of each tree the rows from its first to its last are looked at, few where members stand in the order of their trees.
 #pragma once
 
 #include <vector>
@@ -25,10 +26,15 @@ class Response {
   void compute(const Topology&, const Articulation&, const std::vector<Constraint>&, const std::vector<int>& members,
                const std::vector<int>& offset, std::size_t stride, std::vector<double>& G);
 
+  /// Of the last G: outside of these rows the columns of members[i] are zero.
+  Rows reach(std::size_t i) const { return reach_[i]; }
+
  private:
   void mark(const Topology&, int body);
   void follow(const Topology&, const Articulation&, int body);
-  void meet(const Topology&, int body_a, int body_b);
+  std::size_t meet(const Topology&, int body_a, int body_b);
+  void note_rows(int tree, std::size_t first, std::size_t last);
+  Rows write_columns(const Topology&, const Constraint&, std::size_t row, std::size_t stride, double* G);
 
   std::vector<int> first_;   // per link: its first freedom in Y, -1: not marked
   std::vector<int> marked_;  // links that stand on some row's way to the root, ascending
@@ -36,7 +42,9 @@ class Response {
   std::vector<Mat6> Q_;      // per link: as many columns as freedoms
   std::vector<Passed> way_;  // of one body to its root
   std::vector<int> met_;     // freedoms on the ways of one constraint's bodies, ascending
+  std::vector<Rows> rows_;   // per tree: of G, whole vectors about all that it has a part in
   std::vector<double> Y_;    // freedoms x stride
+  std::vector<Rows> reach_;  // per constraint
 };
 
 }  // namespace engine

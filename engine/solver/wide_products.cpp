@@ -12,8 +12,8 @@ using Four = double __attribute__((vector_size(4 * sizeof(double))));
 #if defined(__x86_64__)
 __attribute__((target_clones("avx2", "default")))
 #endif
-void add_three_columns(const double* G, const double* x, double* sum, std::size_t rows) {
-  const double *G0 = G, *G1 = G + rows, *G2 = G1 + rows;
+void add_three_columns(const double* G, std::size_t stride, const double* x, double* sum, std::size_t rows) {
+  const double *G0 = G, *G1 = G + stride, *G2 = G1 + stride;
   const double x0 = x[0], x1 = x[1], x2 = x[2];
   for (std::size_t r = 0; r < rows; ++r) sum[r] = sum[r] + G0[r] * x0 + G1[r] * x1 + G2[r] * x2;
 }
@@ -49,9 +49,9 @@ void carry_up(const double* J, const Passed* way, std::size_t links, double* Y, 
 #if defined(__x86_64__)
 __attribute__((target_clones("avx2", "default")))
 #endif
-void meet_rows(const double* Y, std::size_t stride, const int* freedoms, std::size_t count, std::size_t row, std::size_t columns,
-               double* G) {
-  for (std::size_t r = 0; r < stride; r += 8) {
+void meet_rows(const double* Y, std::size_t stride, const int* freedoms, std::size_t count, Rows rows, std::size_t row,
+               std::size_t columns, double* G) {
+  for (std::size_t r = rows.begin; r < rows.end; r += 8) {
     Four g[3][2] = {};
     for (std::size_t k = 0; k < count; ++k) {
       const double* y = Y + static_cast<std::size_t>(freedoms[k]) * stride;

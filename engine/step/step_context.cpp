@@ -20,6 +20,7 @@ StepBuffers::StepBuffers(const World& world) {
   islands.of_tree.reserve(trees);
   islands.has_impact.reserve(trees);
   islands.rise.reserve(trees);
+  for (auto* list : {&islands.line, &islands.place}) list->reserve(trees);
   for (auto* list : {&weight, &allowed, &targets}) list->reserve(kRoom);
   pull.reserve(kRoom);
   members.reserve(kRoom);

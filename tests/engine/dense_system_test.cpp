@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include "engine/math/types.h"
 #include "engine/solver/wide_links.h"
 #include "engine/solver/wide_products.h"
 
@@ -34,6 +35,28 @@ TEST(DenseSystem, SolvesAsEigenWhateverWasSolvedBefore) {
   }
 }
 
+TEST(DenseSystem, SolvesBandsAsEigen) {
+  // blocks that meet only their neighbours, as persons on a heap; small numbers on the diagonal ask for changes of rows
+  std::srand(17);
+  constexpr int kBlock = 7, n = 12 * kBlock;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n);
+  for (int c = 0; c < n; ++c)
+    for (int r = 0; r < n; ++r)
+      if (std::abs(r / kBlock - c / kBlock) > 1) A(r, c) = 0;
+  A.diagonal() *= 1e-3;
+  DenseSystem system;
+  system.resize(n);
+  for (int c = 0; c < n; ++c)
+    for (int r = 0; r < n; ++r) system.A(r, c) = A(r, c);
+  ASSERT_TRUE(system.factor());
+  const Eigen::VectorXd b = Eigen::VectorXd::Random(n);
+  for (int r = 0; r < n; ++r) system.b(r) = b[r];
+  system.solve();
+  const auto lu = A.fullPivLu();
+  const Eigen::VectorXd x = lu.solve(b);
+  for (int r = 0; r < n; ++r) EXPECT_NEAR(system.b(r), x[r], 1e-15 * n * (1 + x.norm()) / lu.rcond());
+}
+
 TEST(DenseSystem, SaysThatThereIsNoSolution) {
   DenseSystem system;
   system.resize(5);
@@ -49,7 +72,7 @@ TEST(WideProducts, AreThoseOfEigen) {
     const Eigen::Vector3d x = Eigen::Vector3d::Random();
     Eigen::VectorXd sum = Eigen::VectorXd::Random(rows);
     const Eigen::VectorXd expected = sum + G * x;
-    add_three_columns(G.data(), x.data(), sum.data(), static_cast<std::size_t>(rows));
+    add_three_columns(G.data(), static_cast<std::size_t>(rows), x.data(), sum.data(), static_cast<std::size_t>(rows));
     EXPECT_LE((sum - expected).norm(), 1e-14);
   }
 }
