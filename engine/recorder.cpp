@@ -152,7 +152,8 @@ void Recorder::tally_contact(const World& world, const Constraint& c, double tim
   r.body_b = c.record_b;
   r.point = c.point;
   r.normal = c.frame.col(0);
-  r.depth = -c.gap;
+  const bool rubber = is_compliant(c) && !yields_between(world.model, c.record_a, c.record_b);
+  r.depth = rubber ? 0 : -c.gap;
   r.slip = math::hypot(c.u_after[1], c.u_after[2]);
   const ContactState state = state_of(c, c.u_before[0]);
   if (r.state != ContactState::impact || r.normal_impulse == 0) r.state = state;

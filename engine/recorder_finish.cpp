@@ -81,9 +81,8 @@ void Recorder::finish(const World& world, const State& state, Recording& recordi
   warn_of_shortfalls(world, recording.diagnostics.warnings);
   warn_of_idle_impacts(world, recording.diagnostics.warnings);
   // the depth of a compliant contact is a deformation, not an error
-  const auto part = [&](int b) { return b >= 0 && world.model.bodies[b].person >= 0 && world.model.bodies[b].vehicle < 0; };
   for (const ContactRecord& c : recording.snapshots.back().contacts)
-    if (!yields(world.model.settings.contact_law, part(c.body_a) || part(c.body_b)))
+    if (!yields_between(world.model, c.body_a, c.body_b))
       recording.diagnostics.rest_penetration = std::max(recording.diagnostics.rest_penetration, c.depth);
 }
 

@@ -44,7 +44,7 @@ World::World(const Model& m, const Plan& p, const RunOptions& o)
       reach[b] = far.norm() + shape->X_BM.p.norm();
     }
   }
-  for (const Vehicle& vehicle : m.vehicles)
+  for (const Vehicle& vehicle : m.vehicles)  // it may have no bodywork, and wheels that stand out of it
     for (const Wheel& wheel : vehicle.wheels)
       reach[vehicle.body] =
           std::max(reach[vehicle.body], wheel.hub_B.norm() + wheel.radius + crown_radius(wheel) + 2 * wheel.travel);

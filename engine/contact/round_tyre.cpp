@@ -58,6 +58,11 @@ std::optional<TyreTouch> stands_on(const Outlook& outlook, const TyrePair& pair,
   return touch;
 }
 
+bool yields_as_rubber(const Model& model, int body) {
+  const Body& round = model.bodies[body];
+  return round.person >= 0 && !round.fixed && !yields(model.settings.contact_law, true);
+}
+
 template <>
 Touches touches_between<ShapeKind::round, ShapeKind::tyre>(const Outlook& outlook, const ContactPair& at) {
   constexpr double kDeepest = 0.15;  // [m] what lies farther inside has come from behind
@@ -70,7 +75,11 @@ Touches touches_between<ShapeKind::round, ShapeKind::tyre>(const Outlook& outloo
   auto contact = contact_with_tyre(shape, outlook.at.X_WB[pair.body],
                                    tyre_of(outlook, pair.wheel, outlook.state.wheels[pair.wheel].lift), margin);
   if (!contact || contact->gap < -kDeepest) return {};
-  if (contact->gap < 0) contact->gap = std::min(0.0, contact->gap + kTyreGives);  // pinched, as beside a wheel that rolls over
+  // pinched, as beside a wheel that rolls over
+  if (yields_as_rubber(world.model, pair.body))
+    contact->gap += kTyreGives;
+  else if (contact->gap < 0)
+    contact->gap = std::min(0.0, contact->gap + kTyreGives);
   contact->key = kTyres | static_cast<std::uint32_t>(pair.wheel);
   world.pairs.touches.clear();
   world.pairs.touches.push_back(*contact);

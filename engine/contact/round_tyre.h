@@ -20,6 +20,10 @@ Tyre tyre_of(const Outlook&, int wheel, double lift);
 /// 19 mm, in a blow by more.
 constexpr double kTyreGives = 0.03;
 
+/// Beside a tyre: does that yield to the body where neither does by the law? Rigid both, a wheel that squeezes a limb to the road
+/// leaves it no place.
+bool yields_as_rubber(const Model&, int body);
+
 /// Spheres about the two, with the ways of the strut: near enough to look?
 bool near(const Outlook&, const TyrePair&, double margin);
 

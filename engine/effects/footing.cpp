@@ -1,6 +1,7 @@
 #include "engine/effects/footing.h"
 
 #include "engine/contact/round_tyre.h"
+#include "engine/world.h"
 
 namespace engine {
 namespace {

@@ -16,6 +16,8 @@ bool can_meet(const Body& round, const Body& mesh) {
   return is_round(round) && is_mesh(mesh) && !rides && !(round.fixed && mesh.fixed);
 }
 
+constexpr double kTyreStiffness = 2e5;  // [N/m] vertical, of a passenger car's tyre
+
 Finding look_at(const Model& model) {
   std::size_t pairs = 0, riding = 0, meshes = 0, rounds = 0;
   std::vector<std::string> names;
@@ -54,7 +56,9 @@ class MeshContact final : public Effect {
   static constexpr const char* kName = "mesh_contact";
   static Finding look(const Model& model) { return look_at(model); }
   static double not_before(const Reach& reach) { return reach.groups_are_simple ? reach.first_touch : 0; }
-  static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
+  static bool gives(const Model& model) {  // tyres yield under every law
+    return model.settings.contact_law != ContactLaw::default_auto || (!model.persons.empty() && !tyre_pairs(model).empty());
+  }
 
   MeshContact(World& world, int self) : Effect(self) {
     const auto& bodies = world.model.bodies;
@@ -87,7 +91,19 @@ class MeshContact final : public Effect {
     const World& world = search.world;
     const TyrePair& pair = world.pairs.tyres[index];
     if (!world.awake[pair.vehicle_body] || !near(search, pair, pair_margin(search, pair.body, pair.vehicle_body))) return;
-    if (!stands_on(search, pair, -kHangs)) add_contacts(search, tyre_, {pair.body, pair.vehicle_body, index}, self_);
+    if (stands_on(search, pair, -kHangs)) return;
+    const std::size_t before = search.found.size();
+    add_contacts(search, tyre_, {pair.body, pair.vehicle_body, index}, self_);
+    if (search.found.size() > before && yields_as_rubber(world.model, pair.body)) give_rubber(search.found.back());
+  }
+
+  static void give_rubber(Constraint& c) {
+    constexpr double kDeepest = 0.08;  // [m] beyond which the rim would come through
+    c.stiffness = kTyreStiffness;
+    c.hysteresis = c.restitution;
+    c.restitution = 0;
+    c.room = kDeepest;
+    c.struck_mass = 1 / c.free_response;
   }
 
   const PairKind& mesh_ = pair_kind({ShapeKind::round, ShapeKind::mesh});

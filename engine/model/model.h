@@ -82,4 +82,10 @@ inline bool jointed(const Model& model, int a, int b) {
                      [&](const Joint& j) { return (j.parent == a && j.child == b) || (j.parent == b && j.child == a); });
 }
 
+/// Does what the two bodies touch each other with yield, by the scene's law? -1: the ground.
+inline bool yields_between(const Model& model, int a, int b) {
+  const auto part = [&](int body) { return body >= 0 && model.bodies[body].person >= 0 && model.bodies[body].vehicle < 0; };
+  return yields(model.settings.contact_law, part(a) || part(b));
+}
+
 }  // namespace engine

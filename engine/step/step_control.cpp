@@ -40,11 +40,19 @@ double fastest_turning(const World& world, const Motion& at) {
   return std::sqrt(fastest);
 }
 
+/// What is bounded by itself: two vehicles may stand centimetres in each other, which is no leave for a limb to.
+enum class Bounded { vehicles, surfaces, turns };
+
+Bounded bounded_as(const Constraint& c) {
+  if (is_angular_limit(c)) return Bounded::turns;
+  return is_contact(c) && c.contact_kind == ContactKind::vehicle_pair ? Bounded::vehicles : Bounded::surfaces;
+}
+
 /// Penetration [m] of rigid contacts and stops of slides, or [rad] of stops of turns.
-double deepest(const std::vector<Constraint>& list, bool turns) {
+double deepest(const std::vector<Constraint>& list, Bounded what) {
   double depth = 0;
   for (const Constraint& c : list)
-    if ((is_contact(c) || c.kind == ConstraintKind::limit) && is_angular_limit(c) == turns && !is_compliant(c))
+    if ((is_contact(c) || c.kind == ConstraintKind::limit) && bounded_as(c) == what && !is_compliant(c))
       depth = std::max(depth, -c.gap);
   return depth;
 }
@@ -52,8 +60,8 @@ double deepest(const std::vector<Constraint>& list, bool turns) {
 /// Do contacts and limits at the end of a step stand no deeper in each other than the bound, or than at its start?
 bool acceptable(const std::vector<Constraint>& start, const std::vector<Constraint>& end, double tolerance) {
   const double penetrate = std::min(kMayPenetrate, tolerance);
-  return deepest(end, false) < std::max(penetrate, deepest(start, false) + kSlop) &&
-         deepest(end, true) < std::max(kMayExceed, deepest(start, true) + kSlop);
+  const auto holds = [&](Bounded what, double bound) { return deepest(end, what) < std::max(bound, deepest(start, what) + kSlop); };
+  return holds(Bounded::vehicles, penetrate) && holds(Bounded::surfaces, penetrate) && holds(Bounded::turns, kMayExceed);
 }
 
 }  // namespace

@@ -202,5 +202,29 @@ TEST(Wheel, BesideAnotherCarsWheelPushesItAwayAndKeepsTheMomentumOfBoth) {
   EXPECT_STREQ(name_of(ShapePair{ShapeKind::tyre, ShapeKind::tyre}), "vehicle_pair");
 }
 
+/// A limb that flies into the front of a tyre at hub height presses it in as a mass does a spring: v sqrt(m / k), and nothing else
+/// yields by this law. What passes in the free 3 cm is no depth, and neither is what the rubber gives.
+TEST(Wheel, YieldsToALimbUnderALawByWhichNothingDoes) {
+  constexpr double kSpeed = 2, kLimb = 3;  // [m/s], [kg]
+  Model model = car_on_road(0, 0.05);
+  model.settings.contact_law = ContactLaw::default_auto;
+  Body limb = solid({{0.08, 0.5, 0.08}, 2}, kLimb, {-3 + 1.3 + 0.3 + 0.08, 0.75, 0.3});
+  limb.V_WB.v.x() = -kSpeed;
+  limb.person = 0;
+  model.bodies.push_back(limb);
+  Person person;
+  person.bodies = {1};
+  person.head = 1;
+  person.zero_condition = false;
+  model.persons = {person};
+  const Recording run = simulate(model);
+  const double reduced = kLimb * 1200 / (kLimb + 1200), pressed = kSpeed * std::sqrt(reduced / 2e5);
+  EXPECT_NEAR(run.diagnostics.max_compression, pressed, 0.1 * pressed) << "a step is an eighth of the way in";
+  for (const Snapshot& s : run.snapshots)
+    for (const ContactRecord& c : s.contacts) EXPECT_LE(c.depth, 0) << s.time;
+  EXPECT_GT(run.snapshots.back().bodies[1].V_WB.v.x(), -0.2) << "stopped";
+  EXPECT_LT(run.diagnostics.max_energy_rise, 0.05);
+}
+
 }  // namespace
 }  // namespace engine::test

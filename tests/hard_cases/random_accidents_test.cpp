@@ -141,9 +141,9 @@ TEST_P(RandomAccidents, SayThatTheyAreRight) {
       100 * unexplained, 1e3 * depth, 1e3 * crush, gap, angle, residual);
 }
 
-// Two that go beyond the bounds above: a foot and an arm between a wheel and the road, all rigid.
+// One that goes beyond the bounds above.
 TEST(RandomAccident, SaysWhereItFallsShort) {
-  for (const unsigned seed : {224U, 481U}) {
+  for (const unsigned seed : {224U}) {
     const scenes::testing::SceneFolder folder;
     const engine::Recording it = engine::simulate(folder.load(accident(seed, kLaws[0].name)).model);
     const auto& d = it.diagnostics;
