@@ -33,10 +33,6 @@ Eigen::Matrix<double, 3, 6> contact_rows(const Constraint& c, const Pose& X_WB, 
   return J;
 }
 
-bool is_part(const Model& model, int body) {
-  return body >= 0 && model.bodies[body].person >= 0 && model.bodies[body].vehicle < 0;
-}
-
 bool is_head(const Model& model, int body) {
   return is_part(model, body) && model.persons[model.bodies[body].person].head == body;
 }
@@ -112,8 +108,7 @@ void add_contact(ContactSearch& search, const PairKind& kind, const SurfaceConta
   c.record_b = b;
   c.friction = surfaces.friction;
   c.restitution = surfaces.restitution;
-  const bool person = is_part(world.model, a) || is_part(world.model, b);
-  const bool compliant = yields(world.model.settings.contact_law, person);
+  const bool compliant = yields_between(world.model, a, b);
   const double share_a = compliant ? set_stiffness(c, world.model, search.at, touch) : 0.5;
   const Vec3 way = touch.p_b - touch.p_a, along = way.dot(touch.normal) * touch.normal;
   c.point = touch.p_a + share_a * along + touch.share_across * (way - along);

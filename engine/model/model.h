@@ -82,10 +82,14 @@ inline bool jointed(const Model& model, int a, int b) {
                      [&](const Joint& j) { return (j.parent == a && j.child == b) || (j.parent == b && j.child == a); });
 }
 
-/// Does what the two bodies touch each other with yield, by the scene's law? -1: the ground.
+/// A segment of a person, not its mount? -1: the ground.
+inline bool is_part(const Model& model, int body) {
+  return body >= 0 && model.bodies[body].person >= 0 && model.bodies[body].vehicle < 0;
+}
+
+/// Does by the scene's law yield what these two touch each other with?
 inline bool yields_between(const Model& model, int a, int b) {
-  const auto part = [&](int body) { return body >= 0 && model.bodies[body].person >= 0 && model.bodies[body].vehicle < 0; };
-  return yields(model.settings.contact_law, part(a) || part(b));
+  return yields(model.settings.contact_law, is_part(model, a) || is_part(model, b));
 }
 
 }  // namespace engine

@@ -273,7 +273,7 @@ void ContactSolver::push_apart(std::vector<Constraint>& all, const std::vector<i
     double largest = 0;
     for (int i = 0; i < count; ++i) {
       Constraint& c = all[members[i]];
-      if (!std::isfinite(wanted[i]) || (!vehicles && c.contact_kind == ContactKind::vehicle_pair)) continue;
+      if (!std::isfinite(wanted[i]) || (!vehicles && is_contact(c) && c.shapes.between_vehicles())) continue;
       double moved = 0;
       for (int j = 0; j < count; ++j)
         if (all[members[j]].push != 0) moved += G(offset_[i], offset_[j]) * all[members[j]].push;

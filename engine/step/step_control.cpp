@@ -45,7 +45,7 @@ enum class Bounded { vehicles, surfaces, turns };
 
 Bounded bounded_as(const Constraint& c) {
   if (is_angular_limit(c)) return Bounded::turns;
-  return is_contact(c) && c.contact_kind == ContactKind::vehicle_pair ? Bounded::vehicles : Bounded::surfaces;
+  return is_contact(c) && c.shapes.between_vehicles() ? Bounded::vehicles : Bounded::surfaces;
 }
 
 /// Penetration [m] of rigid contacts and stops of slides, or [rad] of stops of turns.
