@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/effects/dry_friction.h"
 #include "engine/effects/passive_legs.h"
 #include "engine/effects/registration.h"
 #include "engine/effects/words.h"
@@ -11,10 +12,6 @@
 
 namespace engine {
 namespace {
-
-constexpr double kStuckRate = 1e-5;  // [rad/s], [m/s] at which dry friction gives way: 0.6 mrad or mm in a minute at most
-constexpr double kMayGrow = 1.5;     // [-] in a step, of the rate that is looked ahead
-constexpr double kHeldBack = 1e-3;   // [rad/s], [m/s] by more friction than the given: the impulses are found again
 
 bool resists(const JointCoordinate& a) {
   return a.stiffness > 0 || a.damping > 0 || a.friction > 0;
@@ -84,14 +81,6 @@ Twist smooth_resistance(const Joint& joint, const JointCoordinates& now, const T
   return out;
 }
 
-/// The rate [rad/s], [m/s] at which a coordinate that goes at `now` will come out of the step if it goes on changing as in the
-/// last; held, if it comes to rest on the way.
-double expect_slip(Resistance& resistance, const Eigen::Vector4d& change, int i, double now, double h) {
-  const double ahead = std::copysign(1.0, now) * (now + h * change[i]);
-  resistance.rate[i] = now;
-  return resistance.slip_rate[i] = std::max(std::min(ahead, kMayGrow * std::abs(now)), kStuckRate);
-}
-
 JointCoordinates coordinates_at(const Joint& joint, const std::vector<Pose>& X) {
   return joint_coordinates(joint, joint.parent < 0 ? Pose{} : X[joint.parent], X[joint.child]);
 }
@@ -104,28 +93,7 @@ Vec3 relative_turning(const Joint& joint, const std::vector<Twist>& V) {
   return V[joint.child].w - (joint.parent < 0 ? Vec3(Vec3::Zero()) : V[joint.parent].w);
 }
 
-/// What a force or torque of one along the coordinate changes of its rate, were both bodies free [1/kg], [1/(kg m^2)].
-double free_response(const Model& model, const Joint& joint, int i, const Vec3& axis, const std::vector<Pose>& X) {
-  double response = 0;
-  for (const int b : {joint.parent, joint.child}) {
-    if (b < 0 || model.bodies[b].fixed) continue;
-    const Vec3 axis_B = X[b].q.conjugate() * axis;
-    response += i == kSlide ? 1 / model.bodies[b].mass : axis_B.dot(axis_B.cwiseQuotient(model.bodies[b].inertia_B.diagonal()));
-  }
-  return response;
-}
-
 }  // namespace
-
-/// How the rates of joints with dry friction changed over the last step.
-struct FrictionMemory {
-  std::vector<Eigen::Vector4d> change;  // [rad/s^2], [m/s^2] per joint, per coordinate
-
-  template <class S>
-  static auto fields(S& s) {
-    return std::tie(s.change);
-  }
-};
 
 class JointResistance final : public EffectWith<FrictionMemory> {
  public:
@@ -145,7 +113,8 @@ class JointResistance final : public EffectWith<FrictionMemory> {
   }
 
   void begin(World& world, State& state) override {
-    memory(state).change.assign(world.model.joints.size(), Eigen::Vector4d::Zero());
+    for (auto* rates : {&memory(state).change, &memory(state).held_back})
+      rates->assign(world.model.joints.size(), Eigen::Vector4d::Zero());
   }
 
   void before_step(World& world, State& state, double) override {
@@ -177,78 +146,24 @@ class JointResistance final : public EffectWith<FrictionMemory> {
 
   void resist(StepContext& step) override {
     const World& world = step.world;
-    const State& state = step.state;
-    const double h = step.length;
     for (const int j : world.awake_joints) {
-      const Joint& joint = world.model.joints[j];
-      JointDamper& damper = step.buffers.dampers[j];
-      Resistance& resistance = step.buffers.resistances[j];
-      damper.present = false;
-      if (!resists(joint) || !world.awake[joint.child]) continue;
-      const JointCoordinates& now = resistance.at_start = coordinates_at(joint, state.X_WB);
-      const Twist relative = relative_motion_at(joint, now, state.V_WB);
-      damper = {};
-      resistance.torque_W.setZero();
-      resistance.force_W.setZero();
-      resistance.effect = self_;
-      resistance.slip_rate.setZero();
-      for (int i = 0; i < kCoordinates; ++i) {
-        const JointCoordinate& a = joint.coordinate(i);
-        if (!now.free[i] || !resists(a)) continue;
-        Mat3& matrix = i == kSlide ? damper.sliding : damper.turning;
-        const Vec3 g = now.gradient_W.col(i), axis = now.axes_W.col(i);
-        const double rate = axis.dot(part_of(relative, i));
-        const double friction = a.friction / expect_slip(resistance, memory(step.state).change[j], i, rate, h);
-        const double damping = in_stages_[j] ? 0 : a.damping;
-        matrix += h * (damping + friction) * axis * axis.transpose();
-        if (in_stages_[j] || a.stiffness == 0) continue;
-        matrix += h * h * a.stiffness * g * g.transpose();
-        (i == kSlide ? resistance.force_W : resistance.torque_W) -= a.stiffness * (now.value[i] - a.rest) * g;
-      }
-      if (damper.turning.isZero(0) && damper.sliding.isZero(0)) continue;
-      damper.present = true;
-      step.any_damper = true;
+      step.buffers.dampers[j].present = false;
+      if (resists(world.model.joints[j]) && world.awake[world.model.joints[j].child]) resist_in(step, j);
     }
     for (const PassiveLeg& leg : awake_legs_)
-      for_passive_joints(world.model, leg, state.X_WB, [&](int j, const Vec3& g, double torque, double stiffness) {
+      for_passive_joints(world.model, leg, step.state.X_WB, [&](int j, const Vec3& g, double torque, double stiffness) {
         if (in_stages_[j] || !world.awake[world.model.joints[j].child]) return;
-        step.buffers.dampers[j].turning += h * h * stiffness * g * g.transpose();
+        step.buffers.dampers[j].turning += step.length * step.length * stiffness * g * g.transpose();
         step.buffers.dampers[j].present = true;
         step.any_damper = true;
         step.buffers.resistances[j].torque_W += torque * g;
       });
   }
 
-  /// Dry friction acts as a damper that yields the given torque at the rate expected at the end of the step. Where a joint was torn
-  /// loose the expected rate was far too small and the joint all but rigid: expects the rate at which it would have come out with
-  /// the torque given, by its own inertia, and asks for the impulses again.
   bool gave_way(StepContext& step) override {
-    const World& world = step.world;
-    const double h = step.length;
     bool any = false;
-    for (const int j : world.awake_joints) {
-      const Joint& joint = world.model.joints[j];
-      JointDamper& damper = step.buffers.dampers[j];
-      Resistance& resistance = step.buffers.resistances[j];
-      if (!damper.present) continue;
-      const JointCoordinates& at_start = resistance.at_start;
-      const Twist relative = relative_motion_at(joint, at_start, step.end.V_WB);
-      for (int i = 0; i < kCoordinates; ++i) {
-        const double friction = joint.coordinate(i).friction;
-        double& assumed = resistance.slip_rate[i];
-        if (friction <= 0 || assumed <= 0) continue;
-        const Vec3 axis = at_start.axes_W.col(i);
-        const double came_out = std::abs(axis.dot(part_of(relative, i)));
-        if (came_out <= assumed) continue;
-        const double slower = free_response(world.model, joint, i, axis, step.end.X_WB) * friction * h;  // what it takes away
-        const double held_back = slower * (came_out / assumed - 1);
-        if (held_back < kHeldBack) continue;
-        const double rate = came_out + held_back;
-        (i == kSlide ? damper.sliding : damper.turning) += h * friction * (1 / rate - 1 / assumed) * axis * axis.transpose();
-        assumed = rate;
-        any = true;
-      }
-    }
+    for (const int j : step.world.awake_joints)
+      if (step.buffers.dampers[j].present) any = engine::gave_way(step, j) || any;
     return any;
   }
 
@@ -257,12 +172,13 @@ class JointResistance final : public EffectWith<FrictionMemory> {
     State& state = step.state;
     for (const int j : world.awake_joints) {
       const Resistance& resistance = step.buffers.resistances[j];
-      if (!step.buffers.dampers[j].present || resistance.slip_rate.isZero(0)) continue;
+      if (!step.buffers.dampers[j].present) continue;
       const JointCoordinates& at_start = resistance.at_start;
       const Twist relative = relative_motion_at(world.model.joints[j], at_start, state.V_WB);
       Eigen::Vector4d rate;
       rate << at_start.axes_W.leftCols<3>().transpose() * relative.w, at_start.axes_W.col(kSlide).dot(relative.v);
       memory(state).change[j] = (rate - resistance.rate) / step.length;
+      memory(state).held_back[j] = resistance.held_back;
     }
     if (world.model.settings.scheme == Scheme::stepping) return;
     state.energy.dissipated[self_] += 0.5 * step.length * (power_ + power_taken(world, state));
@@ -274,7 +190,8 @@ class JointResistance final : public EffectWith<FrictionMemory> {
     if (std::exchange(listed_, world.still.changes) == world.still.changes) return;
     const auto waits = [&world](const Joint& joint) { return !world.awake[joint.child]; };
     for (std::size_t j = 0; j < world.model.joints.size(); ++j)
-      if (const Joint& joint = world.model.joints[j]; resists(joint) && waits(joint)) memory(state).change[j].setZero();
+      if (const Joint& joint = world.model.joints[j]; resists(joint) && waits(joint))
+        memory(state).change[j].setZero(), memory(state).held_back[j].setZero();
     awake_legs_.clear();
     for (const PassiveLeg& leg : legs_)
       for (const int j : {leg.hip, leg.knees[0], leg.knees[1], leg.ankle})
@@ -282,6 +199,36 @@ class JointResistance final : public EffectWith<FrictionMemory> {
           awake_legs_.push_back(leg);
           break;
         }
+  }
+
+  void resist_in(StepContext& step, int j) {
+    const Joint& joint = step.world.model.joints[j];
+    JointDamper& damper = step.buffers.dampers[j];
+    Resistance& resistance = step.buffers.resistances[j];
+    const double h = step.length;
+    const JointCoordinates& now = resistance.at_start = coordinates_at(joint, step.state.X_WB);
+    const Twist relative = relative_motion_at(joint, now, step.state.V_WB);
+    damper = {};
+    resistance.torque_W.setZero();
+    resistance.force_W.setZero();
+    resistance.effect = self_;
+    resistance.slip_rate.setZero();
+    resistance.held_back.setZero();
+    for (int i = 0; i < kCoordinates; ++i) {
+      const JointCoordinate& a = joint.coordinate(i);
+      if (!now.free[i] || !resists(a)) continue;
+      Mat3& matrix = i == kSlide ? damper.sliding : damper.turning;
+      const Vec3 g = now.gradient_W.col(i), axis = now.axes_W.col(i);
+      resistance.rate[i] = axis.dot(part_of(relative, i));
+      if (a.friction > 0) add_friction(step, memory(step.state), j, i);
+      if (in_stages_[j]) continue;
+      matrix += h * a.damping * axis * axis.transpose();
+      if (a.stiffness == 0) continue;
+      matrix += h * h * a.stiffness * g * g.transpose();
+      (i == kSlide ? resistance.force_W : resistance.torque_W) -= a.stiffness * (now.value[i] - a.rest) * g;
+    }
+    damper.present = damper.present || !damper.turning.isZero(0) || !damper.sliding.isZero(0);
+    step.any_damper = step.any_damper || damper.present;
   }
 
   /// Power [W] that springs and dampers evaluated in the stages take out now.
