@@ -281,12 +281,12 @@ struct VideoEncoder::Impl {
 VideoEncoder::VideoEncoder(const std::filesystem::path& output, int width, int height, double fps,
                            const std::map<std::string, std::string>& metadata, const Story& story)
     : impl_(std::make_unique<Impl>()) {
+  load_libav();  // first: what is given up below is released by it
   Impl& m = *impl_;
   m.lossless = output.extension() == ".mkv";
   if (!m.lossless && (width % 2 || height % 2))
     throw RenderError(fmt::format("an MP4 needs an even size, not {}x{}: try --size {}x{}", width, height, width + width % 2,
                                   height + height % 2));
-  load_libav();
   av_log_set_level(AV_LOG_ERROR);
   m.output = output;
   m.part.emplace(output);

@@ -61,7 +61,7 @@ Known down_the_slope(Chance& draw) {
 }
 
 Known stops_on_slope(Chance& draw) {
-  const double angle = draw(0.05, 0.5), mu = draw(1.2, 3) * std::tan(angle), v = draw(1, 6);
+  const double angle = draw(0.05, 0.5), mu = draw(1.2, 1.8) * std::tan(angle), v = draw(1, 6);  // below the road's 1
   const double a = kG * (mu * std::cos(angle) - std::sin(angle));
   return {simulation(v / a + 0.5, slope(angle)) + block(v, fmt::format("{:.17g}", mu), 10),
           {{"travel_m", v * v / (2 * a)}, {"rest_s", v / a}}};
@@ -303,7 +303,8 @@ Known wind(Chance& draw) {
 }
 
 Known tumbling(Chance& draw) {
-  const double I[3] = {draw(0.02, 0.04), draw(0.045, 0.06), draw(0.062, 0.08)}, w[3] = {draw(-1, 1), draw(-8, 8), draw(-2, 2)};
+  const double a = draw(0.02, 0.04), b = draw(0.045, 0.06), I[3] = {a, b, draw(0.061, a + b)},
+               w[3] = {draw(-1, 1), draw(-8, 8), draw(-2, 2)};
   const double t = instant(draw(0.5, 5));
   return {simulation(t, kSpace) + body("body", fmt::format("mass = \"2 kg\"\naxes = \"0.3 0.2 0.08 m\"\ninertia = \"{:.17g} "
                                                            "{:.17g} {:.17g} kg m^2\"\nposition = \"0 0 1 m\"\n"
