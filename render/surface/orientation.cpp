@@ -56,6 +56,8 @@ bool of_one_winding(const Mesh& mesh) {
   constexpr double kBorders = 0.05, kWrong = 0.002;  // of the edges
   const std::vector<std::uint32_t> vertex = welded(mesh);
   std::vector<std::uint64_t> edges, turned;
+  edges.reserve(mesh.indices.size());
+  turned.reserve(mesh.indices.size());
   for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint64_t a = vertex[mesh.indices[t + k]], b = vertex[mesh.indices[t + (k + 1) % 3]];

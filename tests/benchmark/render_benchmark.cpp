@@ -22,6 +22,7 @@
 #include "render/arrange.h"
 #include "render/error.h"
 #include "render/film.h"
+#include "render/gl/context.h"
 #include "render/image/png.h"
 #include "render/surface/tessellate.h"
 #include "render/video/encoder.h"
@@ -100,6 +101,7 @@ double plain_rate(const Bench& b, const std::string& camera, int width, int heig
 /// Peak memory [MiB] of a process that draws a closed mesh of about a million triangles at 1080p, and milliseconds of its second
 /// frame.
 void heavy_mesh() {
+  load_gl();  // before the fork, as for a film
   int ends[2];
   if (pipe(ends) != 0) return;
   const pid_t child = fork();
