@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <optional>
 #include <tuple>
 
 #include "cli/camera_presets.h"
@@ -27,7 +26,7 @@ void choose_container(const FilmArguments& wish, const scenes::Scene& scene, Fil
   const bool stills = !plan.stills.empty();
   const std::string fallback = scene.path.stem().string() + (stills ? ".png" : ".mp4");
   const std::string name = wish.output.empty() ? fallback : wish.output;
-  const fs::path path = name;
+  const fs::path path(name);
   const std::string extension = path.extension().string();
   plan.job.output = path;
   if (name.find('%') != std::string::npos) {
@@ -184,7 +183,7 @@ void declare_film(Arguments& arguments, FilmArguments& film) {
   arguments.option(
       "-o,--output", film.output, "OUT",
       "OUT.mp4, OUT.mkv (lossless), a folder or pattern (frame_%05d.png), or one PNG with --at; default: the scene's name");
-  arguments.repeatable("--at", film.at, "TIME", "draw a still at this simulated time: 0.2s");
+  arguments.repeatable("--at", film.at, "TIME", "draw a still at this simulated time: 0.2s, 200ms; without unit: seconds");
   arguments.repeatable("--camera", film.cameras, "NAME",
                        "the whole run from this camera of the scene, or top, side, front, driver, follow; several: an output each");
   arguments.option("--eye", film.eye, "\"X Y Z m\"", "a camera of one's own: where it stands, in world axes");
@@ -251,6 +250,15 @@ std::vector<View> plan_views(const FilmArguments& wish, const scenes::Scene& sce
     out.push_back(std::move(view));
   }
   return out;
+}
+
+render::FilmJob film_job(const std::string& output, const scenes::Scene& scene) {
+  FilmArguments wish;
+  wish.output = output;
+  FilmPlan plan;
+  choose_container(wish, scene, plan);
+  std::tie(plan.job.width, plan.job.height) = std::pair(scene.output.width, scene.output.height);
+  return plan.job;
 }
 
 void prepare_output(const FilmPlan& plan) {

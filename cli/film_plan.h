@@ -54,6 +54,9 @@ struct View {
 /// scene's shots give way to the whole run from that camera.
 std::vector<View> plan_views(const FilmArguments&, const scenes::Scene&);
 
+/// The film that `render` makes of the scene when nothing but -o is given (empty: not even that): its files, kind and size.
+render::FilmJob film_job(const std::string& output, const scenes::Scene&);
+
 /// Makes the folders the film goes into. Throws MachineError when they cannot be written.
 void prepare_output(const FilmPlan&);
 

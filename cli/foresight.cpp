@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <optional>
 
-#include "cli/estimate.h"
+#include "cli/disk_room.h"
+#include "cli/film_plan.h"
 #include "engine/simulate.h"
 #include "render/cameras.h"
 #include "render/frames.h"
@@ -20,7 +21,6 @@ using Sentences = std::vector<std::string>;
 constexpr double kFastestVehicle = 250 / 3.6;  // [m/s] beyond it a unit is wrong more often than the accident is real
 constexpr double kFastestPerson = 45 / 3.6;    // [m/s] the fastest sprint; riders are not held to it
 constexpr double kHardestDriving = 10;         // [m/s^2] no tyre accelerates or brakes harder on the road
-constexpr double kBytesPerPixel = 0.02;        // [byte] of a film, twice what the flagship takes
 constexpr int kFirstSteps = 3;
 
 /// What moves as one: a vehicle, a person, a free body.
@@ -88,22 +88,6 @@ Sentences first_steps(const scenes::Scene& scene) {
   if (const auto& failure = recording.failure)
     out.push_back(fmt::format("the model diverges at {:.4f} s, body {}, effect {}: {}", failure->time, failure->body,
                               failure->effect, failure->message));
-  return out;
-}
-
-/// Who stands inside a vehicle's shell touches nothing there, and the run begins without a word.
-Sentences inside_vehicles(const engine::Model& model) {
-  Sentences out;
-  for (const engine::Person& person : model.persons)
-    for (const engine::Vehicle& vehicle : model.vehicles) {
-      const engine::Body& car = model.bodies[static_cast<std::size_t>(vehicle.body)];
-      const auto* shell = std::get_if<engine::MeshShape>(&car.shape);
-      if (!shell || person.mount == vehicle.body) continue;
-      const Vec3 hips = shell->X_BM.inverse() * (car.X_WB.inverse() * model.bodies[static_cast<std::size_t>(person.hips)].X_WB.p);
-      const auto bounds = shell->mesh->bounds();
-      if ((hips - bounds.lower).minCoeff() > 0 && (bounds.upper - hips).minCoeff() > 0)
-        out.push_back(fmt::format("{} stands inside {} at the start", person.name, vehicle.name));
-    }
   return out;
 }
 
@@ -190,20 +174,15 @@ Sentences blind_cameras(const scenes::Scene& scene) {
   return out;
 }
 
-Sentences room_on_disk(const scenes::Scene& scene) {
-  std::error_code unknown;
-  const std::filesystem::space_info space = std::filesystem::space(".", unknown);
-  if (unknown) return {};
+Sentences room_on_disk(const scenes::Scene& scene, const std::string& output) {
   int frames = 0;
   try {
     frames = render::Film(scene.stage, scene.model.settings.duration, scene.output.fps).size();
   } catch (const render::FilmTooLong& error) {
     return {error.what()};
   }
-  const double bytes = kBytesPerPixel * frames * scene.output.width * scene.output.height;
-  if (static_cast<double>(space.available) >= bytes) return {};
-  return {fmt::format("the disk of this folder has {} left; a film of this scene may take {}",
-                      bytes_text(static_cast<double>(space.available)), bytes_text(bytes))};
+  const std::optional<std::string> told = short_of_room(film_job(output, scene), frames);
+  return told ? Sentences{*told} : Sentences{};
 }
 
 /// Whether two things of an accident could have met: a vehicle or a person, and something it does not ride, tow or hang on.
@@ -228,6 +207,21 @@ bool is_touch(const engine::Model& model, const engine::ContactRecord& contact) 
 
 }  // namespace
 
+std::vector<std::string> inside_vehicles(const engine::Model& model) {
+  Sentences out;
+  for (const engine::Person& person : model.persons)
+    for (const engine::Vehicle& vehicle : model.vehicles) {
+      const engine::Body& car = model.bodies[static_cast<std::size_t>(vehicle.body)];
+      const auto* shell = std::get_if<engine::MeshShape>(&car.shape);
+      if (!shell || person.mount == vehicle.body) continue;
+      const Vec3 hips = shell->X_BM.inverse() * (car.X_WB.inverse() * model.bodies[static_cast<std::size_t>(person.hips)].X_WB.p);
+      const auto bounds = shell->mesh->bounds();
+      if ((hips - bounds.lower).minCoeff() > 0 && (bounds.upper - hips).minCoeff() > 0)
+        out.push_back(fmt::format("{} stands inside {} at the start", person.name, vehicle.name));
+    }
+  return out;
+}
+
 bool nothing_touched(const engine::Model& model, const engine::Recording& recording) {
   if (!could_meet(model)) return false;
   return std::none_of(recording.snapshots.begin(), recording.snapshots.end(), [&](const engine::Snapshot& snapshot) {
@@ -236,10 +230,10 @@ bool nothing_touched(const engine::Model& model, const engine::Recording& record
   });
 }
 
-std::vector<std::string> foresee(const scenes::Scene& scene) {
+std::vector<std::string> foresee(const scenes::Scene& scene, const std::string& output) {
   Sentences out = first_steps(scene);
   for (const Sentences& more : {inside_vehicles(scene.model), unlikely_speeds(scene.model), out_of_reach(scene.model),
-                                blind_cameras(scene), room_on_disk(scene)})
+                                blind_cameras(scene), room_on_disk(scene, output)})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }

@@ -10,8 +10,12 @@
 namespace cli {
 
 /// Sentences without a place, most weighty first: overlaps and divergence in the first three steps, speeds no accident has, objects
-/// that can touch nothing, cameras that see nothing, a film larger than the disk has room for.
-std::vector<std::string> foresee(const scenes::Scene&);
+/// that can touch nothing, cameras that see nothing, a film larger than the disk has room for. The film goes to `output`; empty:
+/// where `render` puts it by itself.
+std::vector<std::string> foresee(const scenes::Scene&, const std::string& output);
+
+/// Who stands inside a vehicle's shell touches nothing there, and a run of it begins without a word.
+std::vector<std::string> inside_vehicles(const engine::Model&);
 
 /// Whether a run that could have held a collision held none: no vehicle or person touched anything but the ground and itself.
 bool nothing_touched(const engine::Model&, const engine::Recording&);

@@ -51,7 +51,14 @@ double parse_time(const std::string& option, const std::string& text) {
   const scenes::Quantity quantity = scenes::parse_quantity(text, scenes::Dimension::time);
   // seconds may be left out on the command line: there is nothing else they could be
   const bool bare = quantity.bare.has_value();
-  if (!quantity.problem.empty() && !bare) throw UsageError(fmt::format("{} is \"{}\": {}", option, text, quantity.problem));
+  if (!quantity.problem.empty() && !bare) {
+    // a decimal comma in such a number: the parser of quantities looks for a unit behind it
+    std::string point = text;
+    std::replace(point.begin(), point.end(), ',', '.');
+    const bool comma = point != text && scenes::parse_quantity(point, scenes::Dimension::time).bare.has_value();
+    throw UsageError(fmt::format("{} is \"{}\": {}", option, text,
+                                 comma ? fmt::format("has a decimal comma; write \"{}\"", point) : quantity.problem));
+  }
   const double seconds = bare ? *quantity.bare : quantity.value;
   if (!std::isfinite(seconds) || seconds < 0)
     throw UsageError(fmt::format("{} is \"{}\": must be a time from 0 on, like 0.2s", option, text));

@@ -169,7 +169,9 @@ engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan
 
   // a run that left something out says so wherever its results go
   std::vector<std::string>& warnings = recording.diagnostics.warnings;
-  for (const std::string& warning : scene.stage.warnings) {
+  std::vector<std::string> seen = scene.stage.warnings;
+  for (const std::string& inside : inside_vehicles(scene.model)) seen.push_back(inside);
+  for (const std::string& warning : seen) {
     if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
   }
   if (!wish.quiet && nothing_touched(scene.model, recording))

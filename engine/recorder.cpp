@@ -35,12 +35,23 @@ Constraint seen_from_below(const Constraint& wheel) {
   return c;
 }
 
+/// Fastest body of a tree, by what counts as still.
+double motion_of(const World& world, const State& state, std::size_t tree) {
+  double motion = 0;
+  for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+    const Twist& V = state.V_WB[world.topology.links[l].body];
+    motion = std::max({motion, V.v.norm() / kStillSpeed, V.w.norm() / kStillTurn});
+  }
+  return motion;
+}
+
 }  // namespace
 
 Recorder::Recorder(const World& world, const State& state)
     : still_since_(world.topology.trees.size(), -1),
       halted_(world.topology.trees.size(), 0),
       motion_(world.topology.trees.size(), 0),
+      step_motion_(world.topology.trees.size(), 0),
       hit_vehicle_(world.model.persons.size(), 0),
       hit_head_(world.model.persons.size(), 0),
       hit_ground_(world.model.persons.size(), 0),
@@ -116,7 +127,9 @@ void Recorder::watch_compression(const World& world, const Constraint& c, double
   for (const int b : {c.record_a, c.record_b})
     if (const auto* shape = b >= 0 ? std::get_if<HyperEllipsoid>(&world.model.bodies[b].shape) : nullptr)
       thinner = std::min(thinner, 2 * shape->semi_axes.minCoeff());
-  if (depth > thinner) too_deep_.note(depth, time, c);
+  // a dented panel moves with the part: the part is squeezed by its own share
+  const double pressed = c.ploughing > 0 ? c.share_a * depth : depth;
+  if (pressed > thinner) too_deep_.note(pressed, time, c);
 }
 
 /// What rigid contacts and joints promise to keep. What overlaps at the start is told by itself, and takes its time to part.
@@ -165,6 +178,7 @@ void Recorder::tally_contact(const World& world, const Constraint& c, double tim
 }
 
 void Recorder::sample(const World& world, const State& state, Recording& recording) {
+  watch_halt(world, state);
   const bool others_moved = kept_ != world.still.changes;
   keep(world, state);
   if (!yields(world.model.settings.contact_law, true) || world.model.persons.empty()) return;
@@ -200,20 +214,32 @@ void Recorder::sample(const World& world, const State& state, Recording& recordi
   sampled_ = state.time;
 }
 
+/// A body by itself slides to rest at once, and friction may change on its last steps: the step after which it would stop within
+/// two more tells when, but not the one in which it stops. Limbs settle for long: of them the recorded interval tells.
+void Recorder::watch_halt(const World& world, const State& state) {
+  constexpr double kHum = 3e-4;  // [-] what the solver may leave of a speed that is none
+  const double step = state.time - watched_;
+  watched_ = state.time;
+  for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
+    if (world.topology.trees[t].end - world.topology.trees[t].begin != 1) continue;
+    const double motion = motion_of(world, state, t), slowed = step_motion_[t] - motion;
+    step_motion_[t] = motion;
+    if (motion < 1 && motion > std::max(0.5 * slowed, kHum) && motion < 2 * slowed)
+      halted_[t] = state.time + motion / slowed * step;
+  }
+}
+
 void Recorder::watch_rest(const World& world, const State& state, double since) {
   for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
-    double motion = 0;
-    for (int l = world.topology.trees[t].begin; l < world.topology.trees[t].end; ++l) {
-      const Twist& V = state.V_WB[world.topology.links[l].body];
-      motion = std::max({motion, V.v.norm() / kStillSpeed, V.w.norm() / kStillTurn});
-    }
+    const double motion = motion_of(world, state, t);
     if (!(motion < 1)) {
       still_since_[t] = -1;
     } else if (still_since_[t] < 0) {
       still_since_[t] = state.time;
       // it slows down as it has since the instant before: that is when it stops, and not at the first instant it is slow
       const double slowing = since > 0 ? (motion_[t] - motion) / since : 0;
-      halted_[t] = state.time + (slowing > 0 ? std::min(motion / slowing, kStillTime) : 0);
+      const bool seen = since > 0 && halted_[t] > state.time - since;  // step by step
+      if (!seen) halted_[t] = state.time + (slowing > 0 ? std::min(motion / slowing, kStillTime) : 0);
     }
     motion_[t] = motion;
   }

@@ -42,6 +42,7 @@ class Recorder {
   void keep(const World&, const State&);
   void note_head(const Constraint&, double time);
   void watch_rest(const World&, const State&, double since);
+  void watch_halt(const World&, const State&);
   void watch_events(const World&, const Constraint&, double time);
   void watch_bounds(const World&, const Constraint&, double time);
   void watch_compression(const World&, const Constraint&, double time, double duration);
@@ -50,6 +51,8 @@ class Recorder {
   std::vector<double> still_since_;  // [s] per tree, negative: moving
   std::vector<double> halted_;       // [s] per tree: when it stopped, between recorded instants
   std::vector<double> motion_;       // [-] per tree at the last snapshot: fastest body by what counts as still
+  std::vector<double> step_motion_;  // [-] the same at the last step, of trees of one body
+  double watched_ = 0;               // [s] when that was
   std::vector<Event> events_;
   std::vector<char> hit_vehicle_, hit_head_, hit_ground_;  // per person
   std::vector<char> trunk_;                                // per body: of hips, head and what joins them

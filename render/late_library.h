@@ -1,5 +1,4 @@
-// Libraries that take long to load and that most runs do without are loaded where they are first needed: libav* 35 ms, OSMesa 14
-// ms.
+// Libraries that take long to load and that most runs do without are loaded where they are first needed: libav* and OSMesa.
 #pragma once
 
 namespace render {

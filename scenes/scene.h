@@ -77,9 +77,15 @@ struct Scene {
 };
 
 struct ImportedMesh;
-/// Mesh files as they were brought in, by path. Whoever loads variants of a scene keeps one, and every file is read once; what is
-/// written to a mesh file after that is not seen.
-using MeshShelf = std::map<std::string, std::shared_ptr<const ImportedMesh>>;
+/// Mesh files as they were brought in, and what was made of them for contact. Whoever loads variants of a scene keeps one, and
+/// every file is read once; what is written to a mesh file after that is not seen.
+struct MeshShelf {
+  using Solid = std::shared_ptr<const engine::TriangleMesh>;
+  using Look = std::shared_ptr<const render::Mesh>;
+  std::map<std::string, std::shared_ptr<const ImportedMesh>> files;                // by path
+  std::map<std::pair<Solid, double>, Solid> coarse;                                // by surface and tolerance [m]
+  std::map<std::pair<Solid, Look>, std::shared_ptr<const engine::Panels>> panels;  // of a surface, by how its mesh looks
+};
 
 /// Reads, checks and completes a scene. Overrides are applied before checking. Throws SceneErrors with everything found.
 Scene load(const SceneFile&, const std::vector<std::string>& overrides = {}, MeshShelf* shelf = nullptr);

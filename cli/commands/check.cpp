@@ -18,6 +18,7 @@ struct CheckWish {
   std::vector<std::string> scenes;
   std::vector<std::string> set;
   std::vector<std::string> allow;
+  std::string output;
   bool json = false;
   bool quiet = false;
 };
@@ -33,7 +34,7 @@ Verdict verdict_of(const std::string& file, const CheckWish& wish) {
   try {
     const scenes::Scene scene = scenes::load(scenes::read_scene_file(file, {wish.allow.begin(), wish.allow.end()}), wish.set);
     for (const std::string& warning : scene.warnings) out.warnings.push_back(finding_of(warning, "odd"));
-    for (const std::string& sentence : foresee(scene)) out.warnings.push_back({file, 0, 0, "foreseen", sentence});
+    for (const std::string& sentence : foresee(scene, wish.output)) out.warnings.push_back({file, 0, 0, "foreseen", sentence});
   } catch (const scenes::SceneErrors& found) {
     out.errors = found.findings;
   }
@@ -72,6 +73,8 @@ std::function<int()> declare_check(Arguments& arguments) {
   const auto wish = std::make_shared<CheckWish>();
   arguments.positionals("SCENE", wish->scenes, "scene files (TOML)");
   arguments.repeatable("--set", wish->set, "PATH=VALUE", "change a value of every scene before checking");
+  arguments.option("-o,--output", wish->output, "OUT",
+                   "where a film would go: whether its disk has room (default: as render has it)");
   declare_allow(arguments, wish->allow);
   arguments.flag("--json", wish->json, "print the verdicts as JSON");
   arguments.flag("-q,--quiet", wish->quiet, "errors only");

@@ -90,7 +90,7 @@ int run(const FitWish& wish) {
     refuse_existing(folder / name, wish.overwrite);
   const inference::FolderLock lock(folder);
 
-  inference::Ensemble ensemble(scene, {folder, jobs, progress_of(wish.scene), "fit"});
+  inference::Ensemble ensemble(scene, {folder, jobs, progress_of(wish.scene), "fit", ""});
   inference::Search found = inference::search(scene, prior, ensemble, search);
   std::vector<inference::Calibration> calibrations;
   if (cases > 0) {

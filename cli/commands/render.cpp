@@ -7,6 +7,7 @@
 
 #include "cli/camera_presets.h"
 #include "cli/command.h"
+#include "cli/disk_room.h"
 #include "cli/estimate.h"
 #include "cli/exit.h"
 #include "cli/film_plan.h"
@@ -153,6 +154,26 @@ void hold_to_memory(std::vector<View>& views, double ceiling, const scenes::Scen
     cli::hold_to_memory(estimate_film(seen_by(view, scene), plan_of(scene), view.plan), ceiling, view.plan.job.workers, quiet);
 }
 
+/// Pictures of a view if the run takes its whole time; none of a film too long to be drawn, whose run may still end early.
+int most_frames(const View& view, double duration) {
+  if (!view.plan.stills.empty()) return 0;
+  try {
+    return frames_of(view.plan, view.stage, duration).size();
+  } catch (const render::FilmTooLong&) {
+    return 0;
+  }
+}
+
+/// A disk that is full is told before the run. It is a guess, so the work is done all the same.
+void tell_room(const std::vector<View>& views, double duration) {
+  for (const View& view : views) {
+    const bool keeps_frames = view.plan.resume && render::is_video(view.plan.job.container);
+    const render::FilmJob& film = view.plan.job;
+    if (const auto told = short_of_room(keeps_frames ? frames_job(film) : film, most_frames(view, duration)))
+      fmt::print(stderr, "crashreel: warning: {}\n", *told);
+  }
+}
+
 /// Folders made and held against other runs.
 std::vector<std::unique_ptr<OutputLock>> held(const std::vector<View>& views) {
   std::vector<std::unique_ptr<OutputLock>> locks;
@@ -226,6 +247,7 @@ int render_scene(const RenderWish& wish, const Arguments& arguments) {
   if (ceiling > 0) hold_to_memory(views, ceiling, scene, wish.scene.quiet);
   const auto locks = held(views);
   tell_when_stopped(kept_of(views.front().plan));
+  if (!wish.scene.quiet) tell_room(views, scene.model.settings.duration);
 
   const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
   mark_with_fingerprints(views, scene, arguments, recording);

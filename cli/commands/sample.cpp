@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/exit.h"
+#include "cli/inference/rest.h"
 #include "cli/inference/sample.h"
 #include "cli/output/whole_file.h"
 #include "cli/parse.h"
@@ -17,12 +18,44 @@ namespace {
 
 struct SampleWish {
   SceneArguments scene;
-  std::string folder, runs, seed = "1", jobs;
+  std::string folder, runs, seed = "1", jobs, part;
   std::vector<std::string> grid;
   bool overwrite = false;
 };
 
 constexpr int kMostRuns = 10'000'000;
+constexpr int kMostParts = 100'000;
+
+/// "K/N" of --part; {1, 1} where it is not given.
+struct Part {
+  int number = 1, of = 1;
+  std::string name() const { return of == 1 ? "" : fmt::format("{}-of-{}", number, of); }
+};
+
+Part part_of(const std::string& text) {
+  if (text.empty()) return {};
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos)
+    throw UsageError(fmt::format("--part is \"{}\": must be K/N, like 3/8 for the third of eight jobs", text));
+  Part out;
+  out.of = parse_integer("--part", text.substr(slash + 1), 1, kMostParts);
+  out.number = parse_integer("--part", text.substr(0, slash), 1, out.of);
+  return out;
+}
+
+/// Every N-th run of the plan into a journal of its own; results are for the job that joins the parts.
+int run_part(const scenes::Scene& scene, const SampleWish& wish, const Part& part, const std::vector<std::vector<std::string>>& all,
+             int jobs) {
+  std::vector<std::vector<std::string>> mine;
+  for (std::size_t i = static_cast<std::size_t>(part.number - 1); i < all.size(); i += static_cast<std::size_t>(part.of))
+    mine.push_back(all[i]);
+  inference::Ensemble ensemble(scene, {wish.folder, jobs, progress_of(wish.scene), "sample", part.name()});
+  ensemble.run(mine);
+  if (!wish.scene.quiet)
+    fmt::print("part {} of {}: {} of {} runs are done; the same command without --part joins them\n", part.number, part.of,
+               mine.size(), all.size());
+  return kDone;
+}
 
 int run(const SampleWish& wish) {
   const scenes::Scene scene = load_scene(wish.scene);
@@ -37,16 +70,20 @@ int run(const SampleWish& wish) {
                     scene.path.string()));
   const int seed = parse_integer("--seed", wish.seed, 0, 1'000'000'000);
   const int jobs = wish.jobs.empty() ? study::available_cores() : parse_integer("--jobs", wish.jobs, 1, 1024);
+  const Part part = part_of(wish.part);
   const std::filesystem::path folder = wish.folder;
   make_writable_folder(folder);
-  for (const char* name : {"runs.csv", "sample.json", "sample.pdf", "sample.svg", "sample.png"})
-    refuse_existing(folder / name, wish.overwrite);
-  const inference::FolderLock lock(folder);
+  if (part.of == 1)
+    for (const char* name : {"runs.csv", "sample.json", "sample.pdf", "sample.svg", "sample.png", "rest_cloud.pdf",
+                             "rest_cloud.svg", "rest_ghosts.png"})
+      refuse_existing(folder / name, wish.overwrite);
+  const inference::FolderLock lock(folder, part.name());
 
   inference::Table table = inference::plan_rows(prior, grid, static_cast<std::uint64_t>(count), static_cast<std::uint64_t>(seed));
   std::vector<std::vector<std::string>> overrides;
   for (const inference::Row& row : table.rows) overrides.push_back(inference::overrides_of(prior, table, row));
-  inference::Ensemble ensemble(scene, {folder, jobs, progress_of(wish.scene), "sample"});
+  if (part.of > 1) return run_part(scene, wish, part, overrides, jobs);
+  inference::Ensemble ensemble(scene, {folder, jobs, progress_of(wish.scene), "sample", ""});
   const std::vector<inference::Answer> answers = ensemble.run(overrides);
   for (std::size_t i = 0; i < answers.size(); ++i) table.rows[i].answer = answers[i];
   inference::judge(scene.inference.evidence, table);
@@ -56,11 +93,13 @@ int run(const SampleWish& wish) {
   const auto json = inference::sample_json(scene, prior, sample);
   write_whole(folder / "sample.json", json.dump(2) + "\n");
   render::charts::write_page(inference::sample_page(scene, prior, sample), folder / "sample");
+  std::string rests;
+  for (const std::string& file : inference::draw_rests(scene, prior, sample, folder)) rests += ", " + file;
   if (wish.scene.json)
     fmt::print("{}\n", json.dump(2));
   else
-    fmt::print("{}{}: runs.csv, sample.json, sample.pdf, sample.svg, sample.png\n", inference::sample_text(scene, prior, sample),
-               wish.folder);
+    fmt::print("{}{}: runs.csv, sample.json, sample.pdf, sample.svg, sample.png{}\n", inference::sample_text(scene, prior, sample),
+               wish.folder, rests);
   return kDone;
 }
 
@@ -76,6 +115,8 @@ std::function<int()> declare_sample(Arguments& arguments) {
   arguments.option("--seed", wish->seed, "S", "which of the possible samples (default 1)");
   arguments.repeatable("--grid", wish->grid, "KEY=VALUES",
                        "every one of these values of a key: vehicle.sedan.speed=\"30,40,50 km/h\"");
+  arguments.option("--part", wish->part, "K/N",
+                   "only every N-th run from the K-th on, for array jobs; the command without it joins the parts in DIR");
   arguments.option("--jobs", wish->jobs, "N", "runs side by side (default: every core); the numbers do not hang on it");
   arguments.flag("--overwrite", wish->overwrite, "replace results that exist; finished runs are used again");
   return [wish] { return run(*wish); };

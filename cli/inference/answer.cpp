@@ -47,8 +47,11 @@ Answer answer(const scenes::Scene& scene, const std::vector<std::string>& overri
       out.status = fmt::format("diverged at {:.4f} s, body {}: {}", failure->time, failure->body, failure->message);
       return out;
     }
-    for (const study::Quantity& q : study::quantities_of(variant.model, recording)) out.outputs[q.name] = q.value;
-    for (const scenes::Evidence& e : scene.inference.evidence) out.predicted.push_back(observe(e, variant.model, recording));
+    const std::vector<engine::Metric> metrics = engine::measure(variant.model, recording);
+    for (const study::Quantity& q : study::quantities_of(variant.model, recording, metrics)) out.outputs[q.name] = q.value;
+    for (const scenes::Evidence& e : scene.inference.evidence)
+      out.predicted.push_back(observe(e, variant.model, recording, metrics));
+    out.rests = rest_places(variant.model, recording);
     out.touched = std::any_of(recording.events.begin(), recording.events.end(), is_meeting);
   } catch (const scenes::SceneErrors& error) {
     out.status = "refused: " + first_line(error.what());
@@ -59,6 +62,7 @@ Answer answer(const scenes::Scene& scene, const std::vector<std::string>& overri
 std::string as_line(const std::string& name, const Answer& a) {
   Json json = {{"run", name}, {"status", a.status}, {"touched", a.touched}, {"out", Json::object()}, {"predicted", Json::array()}};
   for (const auto& [key, value] : a.outputs) json["out"][key] = std::isfinite(value) ? Json(value) : Json(nullptr);
+  if (!a.rests.empty()) json["rests"] = a.rests;
   for (const auto& p : a.predicted) json["predicted"].push_back(p ? numbers_json(*p) : Json(nullptr));
   return json.dump() + "\n";
 }
@@ -70,6 +74,7 @@ std::optional<std::pair<std::string, Answer>> from_line(const std::string& line)
   out.status = json["status"].get<std::string>();
   out.touched = json["touched"].get<bool>();
   for (const auto& [key, value] : json["out"].items()) out.outputs[key] = number_of(value);
+  if (const auto rests = json.find("rests"); rests != json.end()) out.rests = rests->get<decltype(out.rests)>();
   for (const Json& p : json["predicted"]) {
     if (p.is_null()) {
       out.predicted.emplace_back();

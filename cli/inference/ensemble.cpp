@@ -9,6 +9,7 @@
 #include "cli/exit.h"
 #include "cli/inference/crew.h"
 #include "cli/output/whole_file.h"
+#include "cli/process.h"
 #include "cli/study/trial.h"
 #include "scenes/loader/sha256.h"
 
@@ -26,9 +27,10 @@ std::string head_of(const scenes::Scene& scene) {
 
 }  // namespace
 
-FolderLock::FolderLock(const std::filesystem::path& folder)
-    : lock_(folder / "runs", [](const std::string& name) {
-        for (const char* ours : {"runs.", "sample.", "fit.", "posterior.", "best."})
+FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& part)
+    : lock_(folder / (part.empty() ? "runs" : "runs-" + part), [whole = part.empty()](const std::string& name) {
+        if (!whole) return false;  // a part writes nothing but its journal
+        for (const char* ours : {"runs.", "sample.", "fit.", "posterior.", "best.", "rest_"})
           if (name.starts_with(ours)) return true;
         return false;
       }) {}
@@ -37,14 +39,17 @@ Ensemble::Ensemble(const scenes::Scene& scene, EnsembleWish wish) : scene_(scene
   make_writable_folder(wish_.folder);
   make_writable_folder(wish_.folder / "runs");
   const std::string head = head_of(scene_);
-  journal_ = wish_.folder / "runs" / (head.substr(15, 32) + ".jsonl");
+  journal_ = wish_.folder / "runs" / (head.substr(15, 32) + (wish_.part.empty() ? "" : "." + wish_.part) + ".jsonl");
+  tell_when_stopped(
+      fmt::format("finished runs are kept in {}/runs, and the same command goes on from there", wish_.folder.string()));
   // meshes are brought in once, before the processes part
   scenes::load(scene_.file, scene_.overrides, meshes_.get());
   recall();
 }
 
-void Ensemble::recall() {
-  std::ifstream in(journal_);
+/// The lines that are whole.
+std::string Ensemble::recall(const std::filesystem::path& journal) {
+  std::ifstream in(journal);
   std::string all;
   for (std::string line; std::getline(in, line);) {
     const auto found = from_line(line);
@@ -52,8 +57,15 @@ void Ensemble::recall() {
     known_.insert(*found);
     all += line + "\n";
   }
-  // written anew, so that a broken last line does not swallow the next one
-  if (in.is_open()) write_whole(journal_, all);
+  return all;
+}
+
+void Ensemble::recall() {
+  const std::string ours = journal_.filename().string().substr(0, 32);
+  for (const auto& entry : std::filesystem::directory_iterator(journal_.parent_path()))
+    if (entry.path().filename().string().starts_with(ours) && entry.path() != journal_) recall(entry.path());
+  // written anew, so that a broken last line does not swallow the next one; those of other parts are theirs
+  if (std::filesystem::exists(journal_)) write_whole(journal_, recall(journal_));
 }
 
 void Ensemble::keep(const std::string& name, const Answer& a) {

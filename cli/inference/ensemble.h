@@ -2,6 +2,7 @@
 // soon as it is done, so that a job broken off goes on where it stood.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -20,6 +21,7 @@ struct Answer {
   std::string status = "ok";                                  // else why there is none: "diverged at 0.431 s, body ..."
   std::map<std::string, double> outputs;                      // measures by name ("throw_distance_m", "delta_v_mps red")
   std::vector<std::optional<std::vector<double>>> predicted;  // of each piece of evidence
+  std::map<std::string, std::array<double, 2>> rests;         // [m] where each person, vehicle and free body was at the end
   bool touched = false;                                       // a person and a vehicle, or two vehicles, met
   bool ok() const { return status == "ok"; }
 };
@@ -29,12 +31,13 @@ struct EnsembleWish {
   int jobs = 1;
   ShowProgress show = ShowProgress::automatic;
   std::string verb = "sample";
+  std::string part;  // "3-of-8": a job beside others of the same folder, with a journal of its own
 };
 
 class Ensemble {
  public:
-  /// `scene` as loaded, with its overrides. Answers of an earlier job with the same scene and program are taken over. Throws
-  /// MachineError.
+  /// `scene` as loaded, with its overrides. Answers of earlier jobs with the same scene and program are taken over, those of all
+  /// parts too. Throws MachineError.
   Ensemble(const scenes::Scene& scene, EnsembleWish wish);
 
   /// Answers in the order of the runs; each run is its overrides on top of the scene's. A run that was done before is not done
@@ -43,6 +46,7 @@ class Ensemble {
 
  private:
   void recall();
+  std::string recall(const std::filesystem::path& journal);
   void keep(const std::string& name, const Answer&);
 
   scenes::Scene scene_;
@@ -55,7 +59,8 @@ class Ensemble {
 /// Holds off other jobs that would write the same results into the folder.
 class FolderLock {
  public:
-  explicit FolderLock(const std::filesystem::path& folder);
+  /// Parts of one plan do not hold each other off.
+  explicit FolderLock(const std::filesystem::path& folder, const std::string& part = "");
 
  private:
   OutputLock lock_;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/measure/metrics.h"
-
 namespace cli::inference {
 namespace {
 
@@ -38,6 +36,12 @@ bool holds(const std::vector<int>& bodies, int body) {
   return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
 }
 
+/// Of no person and no vehicle.
+bool is_free(const Model& model, int body) {
+  return std::none_of(model.persons.begin(), model.persons.end(), [&](const auto& p) { return holds(p.bodies, body); }) &&
+         std::none_of(model.vehicles.begin(), model.vehicles.end(), [&](const auto& v) { return v.body == body; });
+}
+
 Vec3 centre(const Model& model, const std::vector<int>& bodies, const Snapshot& s) {
   Vec3 sum = Vec3::Zero();
   double mass = 0;
@@ -48,18 +52,24 @@ Vec3 centre(const Model& model, const std::vector<int>& bodies, const Snapshot& 
   return sum / mass;
 }
 
-Prediction metric(const Evidence& e, const Model& model, const Recording& recording) {
+Prediction metric(const Evidence& e, const std::vector<engine::Metric>& metrics) {
   std::vector<double> found;
-  for (const engine::Metric& m : engine::measure(model, recording))
+  for (const engine::Metric& m : metrics)
     if (m.key == e.metric && m.text.empty() && (e.of.empty() || m.object == e.of)) found.push_back(m.value);
   if (found.size() != 1) return std::nullopt;
   return found;
 }
 
+/// Where it first touched the ground: of persons and vehicles an event, of a free body the first touch that is recorded.
 Prediction landing(const Evidence& e, const Model& model, const Recording& recording) {
   const std::vector<int> bodies = bodies_of(model, e.of);
+  const auto place = [](const Vec3& p) { return std::vector<double>{p.x(), p.y()}; };
   for (const engine::Event& event : recording.events)
-    if (event.kind == "ground_contact" && holds(bodies, event.body_a)) return std::vector<double>{event.point.x(), event.point.y()};
+    if (event.kind == "ground_contact" && holds(bodies, event.body_a)) return place(event.point);
+  const bool free = std::all_of(bodies.begin(), bodies.end(), [&](int b) { return is_free(model, b); });
+  for (const Snapshot& s : recording.snapshots)
+    for (const engine::ContactRecord& c : s.contacts)
+      if (free && c.body_b < 0 && c.normal_impulse > 0 && holds(bodies, c.body_a)) return place(c.point);
   return std::nullopt;
 }
 
@@ -141,10 +151,10 @@ Prediction mark(const Evidence& e, const Model& model, const Recording& recordin
 
 }  // namespace
 
-Prediction observe(const Evidence& e, const Model& model, const Recording& recording) {
+Prediction observe(const Evidence& e, const Model& model, const Recording& recording, const std::vector<engine::Metric>& metrics) {
   switch (e.seen) {
     case Seen::metric:
-      return metric(e, model, recording);
+      return metric(e, metrics);
     case Seen::rest_place: {
       const std::vector<int> bodies = bodies_of(model, e.of);
       if (bodies.empty()) return std::nullopt;
@@ -164,6 +174,20 @@ Prediction observe(const Evidence& e, const Model& model, const Recording& recor
       return std::vector<double>{first_touch(e, model, recording) ? 1.0 : 0.0};
   }
   return std::nullopt;
+}
+
+std::map<std::string, std::array<double, 2>> rest_places(const Model& model, const Recording& recording) {
+  std::map<std::string, std::array<double, 2>> out;
+  const Snapshot& end = recording.snapshots.back();
+  const auto add = [&](const std::string& name, const std::vector<int>& bodies) {
+    const Vec3 p = centre(model, bodies, end);
+    out[name] = {p.x(), p.y()};
+  };
+  for (const auto& person : model.persons) add(person.name, person.bodies);
+  for (const auto& vehicle : model.vehicles) add(vehicle.name, {vehicle.body});
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (!model.bodies[b].fixed && is_free(model, static_cast<int>(b))) add(model.bodies[b].name, {static_cast<int>(b)});
+  return out;
 }
 
 double misfit(const Evidence& e, const Prediction& predicted) {

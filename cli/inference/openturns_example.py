@@ -25,6 +25,6 @@ def travel(points):
 
 law = ot.ComposedDistribution([ot.Uniform(26 * 0.44704, 34 * 0.44704), ot.Normal(0.6, 0.04)])
 model = ot.PythonFunction(2, 1, func_sample=travel)
-indices = ot.SaltelliSensitivityAlgorithm(law, model, 512)
+indices = ot.SaltelliSensitivityAlgorithm(law, 512, model)
 for name, first, total in zip(INPUTS, indices.getFirstOrderIndices(), indices.getTotalOrderIndices()):
     print(f"{name}: alone {first:.2f}, with others {total:.2f}")

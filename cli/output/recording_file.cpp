@@ -39,8 +39,11 @@ auto fields(Is<engine::Snapshot> auto& s) {
 auto fields(Is<engine::Event> auto& e) {
   return std::tie(e.time, e.kind, e.body_a, e.body_b, e.point, e.value, e.normal, e.velocity);
 }
+auto fields(Is<engine::PlanLine::Acted> auto& a) {
+  return std::tie(a.told, a.in_reach, a.first, a.last);
+}
 auto fields(Is<engine::PlanLine> auto& p) {
-  return std::tie(p.effect, p.active, p.forced, p.reason, p.left_out, p.called_for);
+  return std::tie(p.effect, p.active, p.forced, p.reason, p.left_out, p.called_for, p.not_before, p.acted);
 }
 auto fields(Is<engine::Diagnostics> auto& d) {
   return std::tie(d.max_joint_gap, d.max_joint_angle_error, d.max_penetration, d.rest_penetration, d.max_compression,

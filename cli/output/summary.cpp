@@ -38,7 +38,7 @@ Json vector_json(const engine::Vec3& v) {
   return Json::array({v.x(), v.y(), v.z()});
 }
 
-/// Stiffness of what yields, where anything does: of parts of persons by name, and of a vehicle's panels to a head.
+/// Stiffness of what yields, where anything does: of parts of persons by name, and of a vehicle's panels to them.
 Json stiffness_json(const engine::Model& model) {
   Json parts = Json::object(), panels = Json::object();
   if (!engine::yields(model.settings.contact_law, true)) return {};
@@ -48,8 +48,8 @@ Json stiffness_json(const engine::Model& model) {
       parts[body.name] = body.surface.stiffness.at(0);
     }
   for (int p = 0; p <= static_cast<int>(engine::Panel::underside); ++p)
-    panels[engine::name_of(static_cast<engine::Panel>(p))] = engine::head_stiffness_of(static_cast<engine::Panel>(p));
-  return {{"parts", parts}, {"panels_to_a_head", panels}};
+    panels[engine::name_of(static_cast<engine::Panel>(p))] = engine::stiffness_of(static_cast<engine::Panel>(p));
+  return {{"parts", parts}, {"panels", panels}};
 }
 
 Json settings_json(const engine::Model& model) {

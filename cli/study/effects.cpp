@@ -75,8 +75,7 @@ charts::Table table_of(const EffectsStudy& study) {
   }
   table.note =
       "In brackets: no more than minute changes of the scene do. \"gone\": the run without it no longer defines the measure. An "
-      "effect "
-      "whose absence changes nothing here may matter in another scene; none is left out unless the scene's author says so.";
+      "effect whose absence changes nothing here may matter in another scene; none is left out unless the scene's author says so.";
   return table;
 }
 

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "cli/output/csv.h"
-#include "engine/measure/metrics.h"
 
 namespace cli::study {
 namespace {
@@ -28,7 +27,11 @@ std::string key_of(const std::string& quantity) {
 }  // namespace
 
 std::vector<Quantity> quantities_of(const engine::Model& model, const engine::Recording& recording) {
-  const std::vector<engine::Metric> metrics = engine::measure(model, recording);
+  return quantities_of(model, recording, engine::measure(model, recording));
+}
+
+std::vector<Quantity> quantities_of(const engine::Model& model, const engine::Recording& recording,
+                                    const std::vector<engine::Metric>& metrics) {
   std::vector<Quantity> out;
   const auto owners = model.persons.size() + model.vehicles.size() + model.bodies.size();
   for (const engine::Metric& metric : metrics) {

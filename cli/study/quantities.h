@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/measure/metrics.h"
 #include "engine/model/model.h"
 #include "engine/recording.h"
 
@@ -16,6 +17,8 @@ struct Quantity {
 
 /// Measures first, then joint_gap_m and energy_residual_J, which are 0 in a perfect run.
 std::vector<Quantity> quantities_of(const engine::Model&, const engine::Recording&);
+/// The same from measures that are there already.
+std::vector<Quantity> quantities_of(const engine::Model&, const engine::Recording&, const std::vector<engine::Metric>&);
 
 /// True for the quantities whose right value is 0.
 bool is_defect(const std::string& quantity);

@@ -67,8 +67,8 @@ void check_target(const Target& target, const std::vector<std::string>& names) {
   const std::string near = scenes::nearest(target.quantity, names);
   std::set<std::string> keys;  // without whose they are
   for (const std::string& name : names) keys.insert(name.substr(0, name.find(' ')));
-  throw UsageError(fmt::format("--target: the scene has no measure {}{}; it has {}", target.quantity,
-                               near.empty() ? "" : fmt::format("; did you mean {}?", near), fmt::join(keys, ", ")));
+  throw UsageError(fmt::format("--target: the scene has no measure {}{} it has {}", target.quantity,
+                               near.empty() ? ";" : fmt::format("; did you mean {}?", near), fmt::join(keys, ", ")));
 }
 
 TargetAnswer search(const Study& study, const Target& target) {

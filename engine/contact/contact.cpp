@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "engine/contact/ploughing.h"
 #include "engine/laws/compliant_contact.h"
 #include "engine/world.h"
 
@@ -37,29 +38,28 @@ bool is_head(const Model& model, int body) {
   return is_part(model, body) && model.persons[model.bodies[body].person].head == body;
 }
 
-/// S of both surfaces [N/m]. To a head a vehicle is what the panel it meets is, unless the scene gives a stiffness of its own.
+/// S of both surfaces [N/m]. To a person a vehicle is what the panel it meets is, unless the scene gives a stiffness of its own.
 std::pair<double, double> stiffnesses(const Model& model, const Motion& at, const SurfaceContact& touch, int a, int b) {
   const auto surface = [&](int body) -> const SurfaceProperties& {
     return body >= 0 ? model.bodies[body].surface : model.ground.surface;
   };
   const auto own = [&](int body) { return surface(body).stiffness.at(at.time); };
   double S_b = own(b);
-  const auto* mesh = is_head(model, a) && b >= 0 ? std::get_if<MeshShape>(&model.bodies[b].shape) : nullptr;
+  const auto* mesh = is_part(model, a) && b >= 0 ? std::get_if<MeshShape>(&model.bodies[b].shape) : nullptr;
   if (mesh && mesh->panels && !surface(b).stiffness_given) {
     const Pose X_MW = (at.X_WB[b] * mesh->X_BM).inverse();
-    S_b = head_stiffness_of(panel_at(*mesh->mesh, *mesh->panels, X_MW * touch.p_b, X_MW.q * touch.normal));
+    S_b = stiffness_of(panel_at(*mesh->mesh, *mesh->panels, X_MW * touch.p_b, X_MW.q * touch.normal));
   }
   return {own(a), S_b};
 }
 
-/// Both surfaces of a compliant contact as springs in series; returns the share of the depth that surface a gives way by, from
-/// depth_a S_a = depth_b S_b, eq. (81).
-double set_stiffness(Constraint& c, const Model& model, const Motion& at, const SurfaceContact& touch) {
+/// Both surfaces of a compliant contact as springs in series. They share the depth by depth_a S_a = depth_b S_b, eq. (81).
+void set_stiffness(Constraint& c, const Model& model, const Motion& at, const SurfaceContact& touch) {
   const auto [S_a, S_b] = stiffnesses(model, at, touch, c.record_a, c.record_b);
   c.stiffness = stiffness_in_series(S_a, S_b);
   c.hysteresis = c.restitution;
   c.restitution = 0;
-  return S_b / (S_a + S_b);
+  c.share_a = S_b / (S_a + S_b);
 }
 
 /// Half of the thinner part along the normal is what the two can give way by; into a panel a little less than by
@@ -73,6 +73,26 @@ void set_room(Constraint& c, const World& world, const Motion& at) {
   }
   if (c.shapes.on_vehicle()) c.room *= 0.9 * (1 + may_pass(world.model, c.record_a));
   c.struck_mass = 1 / c.free_response;
+}
+
+/// A part that lies in a dent of bodywork, which is the panel's share of the depth. Only where persons alone yield.
+void set_ploughing(Constraint& c, const World& world, const Motion& at) {
+  constexpr double kSlips = 1e-6;  // [m/s]
+  const Model& model = world.model;
+  if (model.settings.contact_law != ContactLaw::persons_yield || !is_part(model, c.record_a) || c.record_b < 0 || c.gap >= 0)
+    return;
+  const auto* part = std::get_if<HyperEllipsoid>(&model.bodies[c.record_a].shape);
+  const auto* mesh = std::get_if<MeshShape>(&model.bodies[c.record_b].shape);
+  if (!part || !mesh || !mesh->panels || c.shapes.b != ShapeKind::mesh) return;
+  const auto velocity = [&](int body) -> Vec3 {
+    const Twist& V = at.V_WB[body];
+    return V.v + V.w.cross(c.point - at.X_WB[body].p);
+  };
+  const Vec3 normal = c.frame.col(0), u = velocity(c.record_a) - velocity(c.record_b), slip = u - u.dot(normal) * normal;
+  const Vec3 along = slip.norm() > kSlips ? Vec3(slip.normalized()) : Vec3(c.frame.col(1));
+  const Quat q_BW = at.X_WB[c.record_a].q.conjugate();
+  c.ploughing = (1 - c.hysteresis) * ploughing(*part, q_BW * normal, q_BW * along, (c.share_a - 1) * c.gap);
+  c.friction += c.ploughing;
 }
 
 /// How the contact's bodies answer an impulse were they free, and were all that hangs on them one piece.
@@ -109,19 +129,21 @@ void add_contact(ContactSearch& search, const PairKind& kind, const SurfaceConta
   c.friction = surfaces.friction;
   c.restitution = surfaces.restitution;
   const bool compliant = yields_between(world.model, a, b);
-  const double share_a = compliant ? set_stiffness(c, world.model, search.at, touch) : 0.5;
+  if (compliant) set_stiffness(c, world.model, search.at, touch);
   const Vec3 way = touch.p_b - touch.p_a, along = way.dot(touch.normal) * touch.normal;
-  c.point = touch.p_a + share_a * along + touch.share_across * (way - along);
+  c.point = touch.p_a + c.share_a * along + touch.share_across * (way - along);
   const Vec3 t1 = touch.normal.unitOrthogonal();
   c.frame << touch.normal, t1, touch.normal.cross(t1);
   if (c.body_a >= 0) c.J_a = contact_rows(c, search.at.X_WB[c.body_a], 1);
   if (c.body_b >= 0) c.J_b = contact_rows(c, search.at.X_WB[c.body_b], -1);
   set_responses(c, world);
-  c.gap = touch.gap;
+  // rigid, what rests would sink by as much before its corners carried; what yields sinks by its load
+  c.gap = compliant ? touch.gap : touch.gap - touch.lifted;
   c.key = key_of(touch, a, b, effect);
   c.effect = effect;
   c.shapes = kind.shapes;
   if (compliant) set_room(c, world, search.at);
+  if (compliant) set_ploughing(c, world, search.at);
   search.found.push_back(c);
 }
 

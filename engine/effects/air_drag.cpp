@@ -27,9 +27,9 @@ constexpr SceneKey kKeys[] = {
     {"density", "kg/m^3", 1, "'1.2 kg/m^3'", "Density of the air; 0 for a vacuum.", 0},
     {"wind", "m/s", 3, "'0 0 0 m/s'", "Velocity of the air over the ground."},
     {"drag", "", 1, "1.2", "Drag coefficient of persons and free bodies, each segment by its own section.", 0},
-    {"vehicle_drag", "", 3, "[0, 0, 0]",
-     "Drag coefficients of all meshes along their length, width and height, by the sides of their boxes. Zeros: each vehicle has "
-     "its own, other meshes those of a saloon car, [0.3, 0.8, 1].",
+    {"vehicle_drag", "", 3, "",
+     "Drag coefficients of all meshes along their length, width and height, by the sides of their boxes. Left out: each vehicle "
+     "has its own, other meshes those of a saloon car, [0.3, 0.8, 1].",
      0},
 };
 
@@ -55,14 +55,14 @@ Vec3 sections_of(const Body& body) {
   return Vec3::Zero();
 }
 
-/// Coefficients along the axes of a body: `of_all` meshes, or each vehicle's own where that is zero.
-Vec3 drag_of(const Model& model, const Body& body, const Vec3& drag, const Vec3& of_all) {
+/// Coefficients along the axes of a body: those given for all meshes, or each vehicle's own where there are none.
+Vec3 drag_of(const Model& model, const Body& body, const Vec3& drag, const Vec3* of_all_meshes) {
   if (!is_mesh(body)) return drag;
-  if (!of_all.isZero(0)) return of_all;
+  if (of_all_meshes) return *of_all_meshes;
   return body.vehicle >= 0 ? model.vehicles[body.vehicle].drag : kMeshDrag;
 }
 
-std::vector<Vec3> drag_areas(const Model& model, const Vec3& drag, const Vec3& of_all_meshes) {
+std::vector<Vec3> drag_areas(const Model& model, const Vec3& drag, const Vec3* of_all_meshes = nullptr) {
   std::vector<Vec3> out;
   for (const Body& body : model.bodies)
     out.push_back(body.fixed ? Vec3(Vec3::Zero())
@@ -141,7 +141,7 @@ double greatest_energy(const Model& model) {
 
 /// The greatest loss before the run. Of bodies with masses m and areas A that share an energy E the drag is rho E max(A/m) at most.
 Loss loss_before(const Model& model, const std::vector<Group>& groups) {
-  const std::vector<Vec3> areas = drag_areas(model, kDrag, Vec3::Zero());
+  const std::vector<Vec3> areas = drag_areas(model, kDrag);
   const double energy = greatest_energy(model), T = model.settings.duration;
   Loss worst;
   for (const Group& group : groups) {
@@ -155,7 +155,7 @@ Loss loss_before(const Model& model, const std::vector<Group>& groups) {
 
 /// The greatest loss of those the air of a run, if it had any, does not act on.
 Loss loss_along(const Model& model, const Recording& run, bool had_air) {
-  const std::vector<Vec3> areas = drag_areas(model, kDrag, Vec3::Zero());
+  const std::vector<Vec3> areas = drag_areas(model, kDrag);
   Loss worst;
   for (const Group& group : groups_of(model)) {
     if (had_air && group.usual) continue;
@@ -203,7 +203,7 @@ Finding look_at_usual(const Model& model) {
 /// The wind on persons that keep their pose until something touches them.
 LeftOut push_on_waiting(const Model& model) {
   const double wind = input(model, "air.wind")->norm(), density = input(model, "air.density")->x();
-  const std::vector<Vec3> areas = drag_areas(model, input(model, "air.drag")->x() * Vec3::Ones(), Vec3::Zero());
+  const std::vector<Vec3> areas = drag_areas(model, input(model, "air.drag")->x() * Vec3::Ones());
   LeftOut out;
   for (const Person& person : model.persons) {
     if (!person.zero_condition || wind * density == 0) continue;
@@ -240,12 +240,12 @@ Air air_of(const Model& model) {
     const double drag = input(model, "air.drag")->x();
     air.density = density->x();
     air.wind = *input(model, "air.wind");
-    air.drag_area = drag_areas(model, drag * Vec3::Ones(), *input(model, "air.vehicle_drag"));
+    air.drag_area = drag_areas(model, drag * Vec3::Ones(), input(model, "air.vehicle_drag"));
     return air;
   }
   if (!look_at(model).called_for) return air;  // switched on by hand
   air.density = kDensity;
-  air.drag_area = drag_areas(model, kDrag, Vec3::Zero());
+  air.drag_area = drag_areas(model, kDrag);
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (model.bodies[b].person < 0 && model.bodies[b].vehicle < 0) air.drag_area[b].setZero();
   return air;

@@ -31,7 +31,7 @@ struct SceneKey {
   const char* name;
   const char* unit;      // SI: "kg/m^3"; empty for a plain number
   int components;        // 1 or 3
-  const char* fallback;  // as in a scene file, with ' for "
+  const char* fallback;  // as in a scene file, with ' for "; empty: left out, there is no input
   const char* doc;       // a sentence
   double lower = -std::numeric_limits<double>::infinity();
 };
@@ -43,7 +43,7 @@ struct SceneSection {
   std::span<const SceneKey> keys = {};
 };
 
-/// What the scene has under such a key, by "section.key"; null where it has no such section.
+/// What the scene has under such a key, by "section.key"; null where it has no such section or key.
 inline const Vec3* input(const Model& model, const std::string& key) {
   const auto found = model.inputs.find(key);
   return found == model.inputs.end() ? nullptr : &found->second;

@@ -22,4 +22,8 @@ constexpr double kCornerLean = 1e-3;
 /// stand at 0.8 of the half widths and within some micrometres of the face.
 std::array<Vec3, 4> corner_directions(const HyperEllipsoid&, const Vec3& direction, double lean = kCornerLean);
 
+/// May the corners of the side that faces `direction` (body axes) carry for its deepest point at any tilt? Lying flat, they stand
+/// above it by most.
+bool corners_carry(const HyperEllipsoid&, const Vec3& direction);
+
 }  // namespace engine

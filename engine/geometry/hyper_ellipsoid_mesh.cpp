@@ -29,7 +29,7 @@ std::uint32_t key_of(const SurfaceContact& c, const Quat& q_MA, double exponent)
 /// Where all four corners of a flat side are above triangles of one plane, on whichever of them, they stand for the whole side. Its
 /// deepest point, which jumps, is left out if it is no deeper, and so are edges and vertices that do not stand out of the plane:
 /// borders, where triangles were missing or double. Over the border of a sheet a corner is missing, and all of them count.
-void let_four_corners_speak(std::vector<SurfaceContact>& found) {
+void let_four_corners_speak(const MeshTouch& s, std::vector<SurfaceContact>& found) {
   constexpr double kFlush = 1e-6;  // [m]
   constexpr std::uint32_t kAll = 0b11110;
   constexpr double kIdle = std::numeric_limits<double>::infinity();
@@ -44,6 +44,10 @@ void let_four_corners_speak(std::vector<SurfaceContact>& found) {
       lowest = std::min(lowest, c.gap);
     }
     if (corners != kAll) continue;
+    const double lifted = lowest - deepest.gap;
+    if (lifted <= kNoDeeper && corners_carry(s.shape, s.X_MA.q.conjugate() * -deepest.normal))
+      for (SurfaceContact& c : found)
+        if (c.key > 0 && c.key != kDeepest && on_its_plane(c)) c.lifted = lifted;
     for (SurfaceContact& c : found) {
       const bool idle_deepest = c.key == kDeepest && on_its_plane(c) && c.gap >= lowest - kNoDeeper;
       const bool flush = c.key == 0 && c.normal.dot(deepest.normal) > kCluster && deepest.normal.dot(c.p_b - deepest.p_b) < kFlush;
@@ -160,7 +164,7 @@ void touch_vertices(MeshTouch& s) {
 
 /// Of all points those that tell, with their keys, from the mesh's axes to the world's.
 void report(MeshTouch& s, const Pose& X_WA, const Quat& q_WM, ContactPoints& out) {
-  if (s.flat()) let_four_corners_speak(s.scratch.candidates);
+  if (s.flat()) let_four_corners_speak(s, s.scratch.candidates);
   keep_the_telling(s.scratch.candidates, 0.25 * s.shape.semi_axes.minCoeff(), s.flat() ? kKeep + 1 : kKeep, out);
   // in the order of a plane, so that a sheet of triangles is solved as one
   if (s.flat())

@@ -22,6 +22,13 @@ std::array<Vec3, 4> corner_directions(const HyperEllipsoid& shape, const Vec3& d
   return out;
 }
 
+bool corners_carry(const HyperEllipsoid& shape, const Vec3& direction) {
+  int face = 0;
+  direction.cwiseAbs().maxCoeff(&face);
+  const Vec3 flat = Vec3::Unit(face);
+  return shape.semi_axes[face] - support_point(shape, corner_directions(shape, flat)[0])[face] < kNoDeeper;
+}
+
 void contacts_with_plane(const HyperEllipsoid& shape, const Pose& X_WA, const Vec3& normal, double offset, double margin,
                          ContactPoints& out) {
   out.clear();
@@ -52,7 +59,13 @@ void contacts_with_plane(const HyperEllipsoid& shape, const Pose& X_WA, const Ve
     lowest = std::min(lowest, c.gap);
     out.push_back(c);
   }
-  if (out.empty() || deepest.gap < lowest - kNoDeeper) out.push_back(deepest);
+  const double lifted = lowest - deepest.gap;
+  if (out.empty() || lifted > kNoDeeper) {
+    out.push_back(deepest);
+    return;
+  }
+  if (!corners_carry(shape, down_A)) return;
+  for (SurfaceContact& c : out) c.lifted = lifted;
 }
 
 }  // namespace engine

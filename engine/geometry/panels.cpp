@@ -45,7 +45,7 @@ const char* name_of(Panel panel) {
   return kPanels[static_cast<std::size_t>(panel)].name;
 }
 
-double head_stiffness_of(Panel panel) {
+double stiffness_of(Panel panel) {
   return kPanels[static_cast<std::size_t>(panel)].stiffness;
 }
 

@@ -1,4 +1,4 @@
-// Panels of a vehicle, and how hard each is to a head. Names are those of reports and of `head_impact_panel`.
+// Panels of a vehicle, and how hard each is to a person. Names are those of reports and of `head_impact_panel`.
 #pragma once
 
 #include <cstdint>
@@ -28,11 +28,11 @@ const char* name_of(Panel);
 /// Panel of each triangle of a collision mesh, in its order.
 using Panels = std::vector<Panel>;
 
-/// Stiffness [N/m] of a panel under a headform. Bonnet 50 to 150 kN/m and windscreen 30 to 80 kN/m, the middle taken: Exploration
-/// of the stiffness profiles of modern cars in pedestrian impacts, Proc. IMechE D 227, 2013, from 139 Euro NCAP headform and
-/// legform tests, and the studies it compares with. Pillars and edges, stiffer by some times in the same tests, and the other
-/// panels are estimates.
-double head_stiffness_of(Panel);
+/// Stiffness [N/m] of a panel under a headform, and taken for all parts of a person. Bonnet 50 to 150 kN/m and windscreen 30 to 80
+/// kN/m, the middle taken: Exploration of the stiffness profiles of modern cars in pedestrian impacts, Proc. IMechE D 227, 2013,
+/// from 139 Euro NCAP headform and legform tests, and the studies it compares with. Pillars and edges, stiffer by some times in the
+/// same tests, and the other panels are estimates.
+double stiffness_of(Panel);
 
 /// The panel nearest to `point` among triangles that face like `normal` (mesh frame, unit); unknown where there is none within 0.1
 /// m.

@@ -23,10 +23,8 @@ constexpr const char* kMoving = "still moving when the run ends";
 constexpr Definition kDefinitions[] = {
     {"throw_distance_m", "m", "throw distance",
      "Level distance of the centre of mass from where it was at the first touch with a vehicle to where it rests, or is when the "
-     "run "
-     "ends. Of a rider from the first touch of the rider or of what it rides; of what is ridden by itself (Simms and Wood, "
-     "Pedestrian "
-     "and Cyclist Impact, 2009: total throw).",
+     "run ends. Of a rider from the first touch of the rider or of what it rides; of what is ridden by itself (Simms and Wood, "
+     "Pedestrian and Cyclist Impact, 2009: total throw).",
      kUnstruck, kPath, true},
     {"throw_along_m", "m", "throw along",
      "Part of the throw along the heading of the vehicle at the first touch; of a rider along the heading of the faster of the "
@@ -45,22 +43,19 @@ constexpr Definition kDefinitions[] = {
      "the person did not land, or was never off vehicle and ground for 50 ms before", kPhase, true},
     {"landing_m", "m", "landing",
      "Distance of the phase landing: from the trunk's touch of the ground until the bounces are over, that is until some part "
-     "touches "
-     "the ground without a break of 50 ms.",
+     "touches the ground without a break of 50 ms.",
      kNotLanded, kPhase},
     {"slide_m", "m", "slide", "Distance of the phase slide: from the end of the bounces to rest, or the end of the run.",
      kNotLanded, kPhase, true},
     {"landing_s", "s", "landing",
      "Time at which hips, head or what joins them first touch the ground after the first touch with a vehicle; of who lay there, "
-     "after "
-     "having been off it for 50 ms. Feet and hands do not count.",
+     "after having been off it for 50 ms. Feet and hands do not count.",
      kNotLanded, "exact to the step; which part lands first is chaotic", true},
     {"first_ground_contact_s", "s", "on the ground", "The same as landing_s under its older name.", kNotLanded,
      "exact to the step; which part lands first is chaotic"},
     {"rest_s", "s", "rest",
      "Time from which no part moves faster than 0.05 m/s or 0.3 rad/s for 0.25 s or more until the run ends. Of rider and mount "
-     "each "
-     "its own.",
+     "each its own.",
      kMoving, "to the recorded interval", true},
     {"travel_m", "m", "way", "Level distance from start to end of who or what no vehicle touched.", "a person that was struck",
      kPath, true},
@@ -86,15 +81,13 @@ constexpr Definition kDefinitions[] = {
     {"head_impact_vehicle_z_m", "m", "z on the vehicle", "The same upwards from the ground at static ride.", kNoHead,
      "as wrap-around distance"},
     {"wrap_around_distance_m", "m", "wrap-around distance",
-     "Length of a taut tape in the vertical fore and aft plane through the head's place of touch: from the ground vertically below "
-     "the "
-     "foremost part over front and bonnet to that place (Euro NCAP, Pedestrian Testing Protocol, wrap around distance).",
+     "Length of a taut tape in the vertical fore and aft plane through the head's place of touch: from the ground vertically "
+     "below the foremost part over front and bonnet to that place (Euro NCAP, Pedestrian Testing Protocol, wrap around distance).",
      "the head met no vehicle that came with its front, or a place no tape from the front reaches (flank, underside)",
      "multibody persons wrap farther than finite-element ones (Fahlstedt et al. 2016)", true},
     {"hic15", "", "HIC15",
      "Head injury criterion of the resultant acceleration of the head's centre over windows of 15 ms at most, from the head's "
-     "first "
-     "touch of vehicle or ground on, whatever it touches (49 CFR 571.208 S6.2).",
+     "first touch of vehicle or ground on, whatever it touches (49 CFR 571.208 S6.2).",
      kNoForce, kHic, true},
     {"hic36", "", "HIC36", "The same over windows of 36 ms at most.", kNoForce, kHic},
     {"three_ms_g", "g", "3 ms clip", "Largest acceleration of the head that is held for 3 ms without a break, same course.",
@@ -109,22 +102,18 @@ constexpr Definition kDefinitions[] = {
     {"peak_acceleration_mps2", "m/s^2", "peak acceleration",
      "Largest acceleration of a part's centre, mean over a step; free fall counts one g.", kNoForce, "grows with stiffness"},
     {"delta_v_mps", "m/s", "delta-v",
-     "Change of the velocity of the centre of mass in the plane of the road over the collision phase, less what tyres and gravity "
-     "did meanwhile; of "
-     "several phases the largest. Begin and end of the phase as 49 CFR 563.5 says: exchange of more than 0.8 km/h of the lighter "
-     "mass "
-     "within 20 ms, 250 ms at most.",
+     "Change of the velocity of the centre of mass in the plane of the road over the collision phase, less what tyres and "
+     "gravity did meanwhile; of several phases the largest. Begin and end of the phase as 49 CFR 563.5 says: exchange of more "
+     "than 0.8 km/h of the lighter mass within 20 ms, 250 ms at most.",
      kNoImpact, "published limits of a single delta-v are 9 to 25 % (Smith and Noga)", true},
     {"pdof_deg", "deg", "PDOF",
      "Direction that delta-v's force came from in the vehicle's axes just before the phase: 0 from the front, 90 from the right, "
-     "180 "
-     "from behind.",
+     "180 from behind.",
      kNoImpact, "with delta-v", true},
     {"ees_mps", "m/s", "EES",
      "Energy equivalent speed: speed at which the vehicle has as much kinetic energy as its share of the energy lost in that "
-     "phase. Two "
-     "under the same force share it in inverse proportion to stiffness where the scene tells the stiffnesses apart, else to mass; "
-     "what is fixed has none. impacts.csv names the rule.",
+     "phase. Two under the same force share it in inverse proportion to stiffness where the scene tells the stiffnesses apart, "
+     "else to mass; what is fixed has none. impacts.csv names the rule.",
      "no collision with another vehicle or object", "the energy contains what friction between the two took", true},
     {"rest_x_m", "m", "rest x", "Place of the vehicle's centre of mass at rest, world x.", kMoving, "to the recorded interval",
      true},
@@ -135,9 +124,8 @@ constexpr Definition kDefinitions[] = {
     {"path_m", "m", "path", "Length of the level path of the vehicle's centre of mass over the run.", "never",
      "to the recorded interval"},
     {"nearest_approach_m", "m", "nearest approach",
-     "In a run in which no vehicle touches anybody: least distance of a part of a person and a vehicle's surface; without persons, "
-     "of "
-     "two vehicles' convex outlines seen from above.",
+     "In a run in which no vehicle touches anybody: least distance of a part of a person and a vehicle's surface; without "
+     "persons, of two vehicles' convex outlines seen from above.",
      "a vehicle touched a person or vehicle, or there are no two", "to the recorded interval", true},
     {"nearest_approach_s", "s", "nearest approach", "Time of that.", "as nearest_approach_m", "to the recorded interval", true},
 };

@@ -36,7 +36,7 @@ struct Impact {
   double closing_speed = kUnknown;   // [m/s] along the normal at the point, before
   Vec3 impulse = Vec3::Zero();       // [N s] on a, world
   double friction_used = kUnknown;   // [-] tangential over normal impulse
-  double friction_limit = kUnknown;  // [-] coefficient of the pair
+  double friction_limit = kUnknown;  // [-] coefficient of the surfaces, without what a dent adds
   double energy_lost = 0;            // [J] deformation and friction between the two
   const char* ees_rule = "";         // how that was shared: "by stiffness", "by mass", "all to the one that moves"
 };

@@ -32,7 +32,7 @@ struct SurfaceProperties {
   // [N/m] S of eq. (68), compliant law only. Person and bodywork in series then yield 200 kN/m: a leg struck at 40 km/h goes in by
   // 4 cm, less than half its thickness, a head of 4.6 kg that meets the bonnet at 40 km/h by 5 cm.
   Schedule stiffness = 400e3;
-  bool stiffness_given = false;  // by the scene: it stands for all panels, and for a head too
+  bool stiffness_given = false;  // by the scene: it stands for all panels
 };
 
 /// A triangle mesh carried by a body; X_BM places the mesh frame in the body frame (origin: centre of mass).

@@ -25,8 +25,10 @@ struct Constraint {
   Vec3 point = Vec3::Zero();      // [m] world
   Mat3 frame = Mat3::Identity();  // columns: normal, t1, t2 (contacts and wheels)
   double gap = 0;                 // [m] or [rad]; negative: penetration, beyond the limit
-  double friction = 0;            // [-]
+  double friction = 0;            // [-] with what ploughing adds
+  double ploughing = 0;           // [-] share of it: of a part that lies in a dent of a panel
   double restitution = 0;         // [-]
+  double share_a = 0.5;           // [-] of the depth, by which surface a gives way
   double softness = 0;            // [1/kg] added to the normal's own response: 1 / (dt (k dt + c))
   double target = 0;              // [m/s] what u_0 + softness * impulse must reach
   double stiffness = 0;           // [N/m] compliant contact, both surfaces in series; [N m/rad] compliant stop; 0: rigid
@@ -53,9 +55,9 @@ struct Constraint {
   /// What a contact or limit is when it is found; the rest is of the step that solves it.
   template <class S>
   static auto fields(S& s) {
-    return std::tie(s.kind, s.rows, s.slides, s.body_a, s.body_b, s.J_a, s.J_b, s.point, s.frame, s.gap, s.friction, s.restitution,
-                    s.stiffness, s.hysteresis, s.room, s.struck_mass, s.free_response, s.whole_response, s.key, s.effect, s.shapes,
-                    s.record_a, s.record_b);
+    return std::tie(s.kind, s.rows, s.slides, s.body_a, s.body_b, s.J_a, s.J_b, s.point, s.frame, s.gap, s.friction, s.ploughing,
+                    s.restitution, s.stiffness, s.hysteresis, s.room, s.struck_mass, s.share_a, s.free_response, s.whole_response,
+                    s.key, s.effect, s.shapes, s.record_a, s.record_b);
   }
 };
 

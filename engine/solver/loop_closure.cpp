@@ -45,7 +45,7 @@ void LoopClosure::reset(const Topology& topology) {
   for (const int j : topology.loops) rows += row_count(model_.joints[j].kind);
   for (auto* vector : {&wanted_, &multiplier_, &residual_, &step_, &softness_}) vector->setZero(rows);
   damped_.setIdentity(rows, rows);
-  factor_ = Eigen::LLT<Eigen::MatrixXd>(rows);
+  factor_.compute(damped_);  // room for all rows; one only made to a size has a state that is no number
   const auto all = static_cast<std::size_t>(rows);
   G_.reserve(whole_rows(all) * all);
   if (loops > 0) response_.reset(topology, 2 * loops);

@@ -101,6 +101,7 @@ void take_mean_friction(StepContext& s) {
     const StepWay way{c.point, V.v + V.w.cross(c.point - s.state.X_WB[c.record_a].p), s.state.time, s.length};
     const Body& body = model.bodies[c.record_a];
     c.friction = c.record_b < 0 ? mean_friction(body, model.ground, way) : mean_friction(body, model.bodies[c.record_b], way);
+    c.friction += c.ploughing;
   }
 }
 

@@ -109,7 +109,11 @@ void exchange(StepContext& s) {
 
 bool is_instant(const World& world, const Constraint& c) {
   if (!is_contact(c) || is_compliant(c)) return false;
-  return c.restitution > 0 || (is_free(world, c.body_a) && is_free(world, c.body_b));
+  return c.restitution > 0 || is_between_free(world, c);
+}
+
+bool is_between_free(const World& world, const Constraint& c) {
+  return is_free(world, c.body_a) && is_free(world, c.body_b);
 }
 
 bool places_impacts(const World& world, const State& state) {

@@ -14,6 +14,9 @@ using OnImpulses = std::function<void(const std::vector<Constraint>&, double tim
 /// landing. Parts of persons and vehicles that do not rebound lie down within a step: there are many of them.
 bool is_instant(const World&, const Constraint&);
 
+/// Between bodies by themselves, or one and what is fixed.
+bool is_between_free(const World&, const Constraint&);
+
 /// Are impacts still placed within the step? Of a chatter those beyond some number act where the bodies are.
 bool places_impacts(const World&, const State&);
 

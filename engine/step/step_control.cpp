@@ -9,6 +9,7 @@
 #include "engine/step/bounds.h"
 #include "engine/step/energy_ledger.h"
 #include "engine/step/impact.h"
+#include "engine/step/slip_end.h"
 
 namespace engine {
 namespace {
@@ -95,6 +96,7 @@ double StepControl::cut_at_impact(const StepContext& s) {
   double taken = s.length;
   if (placed_ != s.length) {
     placings_ = 0;
+    stopping_.reset();
     uncut_ = s.length;
     if (placing_) {
       const NextImpact next = next_impact(s);
@@ -122,6 +124,20 @@ Verdict StepControl::place_impact(const StepContext& s) {
   ++placings_;
   placed_ = better;
   return {Verdict::Kind::place, better};
+}
+
+/// Where a slip ends or turns, the step ends: friction that turns about within it would be off by what it gives in a step.
+Verdict StepControl::place_slip_end(const StepContext& s) {
+  constexpr int kMostPlacings = 4;
+  constexpr double kNear = 1e-6;  // [-] of the length
+  if (!placing_ || !s.impulses || placings_ == kMostPlacings) return {};
+  const std::optional<SlipEnd> end = slip_end(s, stopping_);
+  if (!end || std::abs(end->time - s.length) <= kNear * s.length || !(end->time < uncut_)) return {};
+  stopping_ = end->key;
+  cut_ = true;
+  ++placings_;
+  placed_ = end->time;
+  return {Verdict::Kind::place, placed_};
 }
 
 int StepControl::parts(double length, double fastest_swing) const {
@@ -164,7 +180,10 @@ Verdict StepControl::judge_end(StepContext& s) {
   if (may_halve_ &&
       (lost >= 0 || gained || unsolved || !acceptable(state_.contacts.list, s.buffers.end_contacts, depth_tolerance_)))
     return {Verdict::Kind::again, 0.5 * s.length};
-  if (lost < 0) return place_impact(s);
+  if (lost < 0) {
+    const Verdict slips = place_slip_end(s);
+    return slips.kind == Verdict::Kind::place || stopping_ ? slips : place_impact(s);
+  }
   world_.log.failure = failure_of(world_, s.constraints, lost, state_.time + s.length, kNotANumber);
   return {Verdict::Kind::ended, s.length};
 }

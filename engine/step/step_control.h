@@ -48,21 +48,23 @@ class StepControl {
  private:
   Verdict end_run(int body, const char* effect, const char* message);
   Verdict place_impact(const StepContext&);
+  Verdict place_slip_end(const StepContext&);
 
   World& world_;
   State& state_;
   const Settings& settings_;
-  const double shortest_;         // [s]
-  const double depth_tolerance_;  // [m] what a step may add to a penetration
-  double turning_ = 0;            // [rad/s] of the fastest body
-  double length_ = 0;             // [s]
-  double error_ = 0;              // [m] of the smooth motion
-  bool placing_ = false;          // impacts are still placed inside this step
-  bool cut_ = false;              // the step ends at one
-  std::uint64_t striking_ = 0;    // the contact that makes it
-  double uncut_ = 0;              // [s] the step without it
-  double placed_ = 0;             // [s] the attempt that shall end right at it
-  int placings_ = 0;              // such attempts
+  const double shortest_;                  // [s]
+  const double depth_tolerance_;           // [m] what a step may add to a penetration
+  double turning_ = 0;                     // [rad/s] of the fastest body
+  double length_ = 0;                      // [s]
+  double error_ = 0;                       // [m] of the smooth motion
+  bool placing_ = false;                   // impacts are still placed inside this step
+  bool cut_ = false;                       // the step ends at one
+  std::uint64_t striking_ = 0;             // the contact that makes it
+  double uncut_ = 0;                       // [s] the step without it
+  double placed_ = 0;                      // [s] the attempt that shall end right at it
+  int placings_ = 0;                       // such attempts
+  std::optional<std::uint64_t> stopping_;  // the contact whose slip ends there
   bool may_halve_ = false;
   bool crossed_ = false;  // it ends at an event of a compliant contact
 };

@@ -3,41 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "render/figures/figures.h"
 #include "render/figures/outline.h"
+#include "render/figures/plan.h"
 #include "render/figures/sheet.h"
 
 namespace render {
 namespace {
 
-constexpr double kLeft = kMargin, kTop = 28, kRight = kSheetWidth - kMargin, kBottom = kSheetHeight - 22;  // [mm] of the plan
 constexpr double kAround = 1.2;    // [m] kept free around what moves
 constexpr double kLeastLine = 32;  // [mm] of a dimension that holds its own number
 constexpr double kSkids = 0.3;     // [m/s] slip that leaves a mark
-
-/// World to paper: x right, y up, one scale.
-struct Plan {
-  double denominator = 100;  // of the scale
-  Point2 middle{0, 0};
-  double x(double wx) const { return (kLeft + kRight) / 2 + 1000 * (wx - middle.x()) / denominator; }
-  double y(double wy) const { return (kTop + kBottom) / 2 - 1000 * (wy - middle.y()) / denominator; }
-  Point2 at(const Vec3& p) const { return {x(p.x()), y(p.y())}; }
-};
-
-/// The largest usual scale at which the box fits the sheet.
-Plan plan_for(const Point2& lower, const Point2& upper) {
-  constexpr std::array kScales{20, 25, 50, 75, 100, 125, 150, 200, 250, 300, 400, 500, 750, 1000, 1500, 2000, 5000};
-  Plan plan;
-  plan.middle = 0.5 * (lower + upper);
-  for (const int scale : kScales) {
-    plan.denominator = scale;
-    if (1000 * (upper.x() - lower.x()) / scale <= kRight - kLeft && 1000 * (upper.y() - lower.y()) / scale <= kBottom - kTop) break;
-  }
-  return plan;
-}
 
 struct Site {
   const Stage& stage;
@@ -56,58 +34,6 @@ std::vector<double> times_of_interest(const PersonFacts& p, const engine::Record
   if (p.landed) out.push_back(*p.landed);
   out.push_back(p.rest.value_or(r.end_time()));
   return out;
-}
-
-void path(cairo_t* c, const std::vector<Point2>& polygon, const Plan& plan) {
-  for (const Point2& p : polygon) cairo_line_to(c, plan.x(p.x()), plan.y(p.y()));
-  cairo_close_path(c);
-}
-
-void draw_road(cairo_t* c, const Site& site) {
-  const RoadLook& road = site.stage.road;
-  if (!road.road) return;
-  const double lower = road.centre_y - road.width / 2;
-  for (int lane = 0; lane <= road.lanes; ++lane) {
-    const bool edge = lane == 0 || lane == road.lanes;
-    const double y = site.plan.y(lower + lane * road.width / road.lanes);
-    if (y < kTop || y > kBottom) continue;
-    grey(c, 0.55);
-    cairo_set_line_width(c, edge ? 0.5 : 0.35);
-    const double dash[] = {1000 * 3 / site.plan.denominator, 1000 * 6 / site.plan.denominator};
-    cairo_set_dash(c, dash, edge ? 0 : 2, 0);
-    draw_line(c, kLeft, y, kRight, y);
-  }
-  cairo_set_dash(c, nullptr, 0, 0);
-}
-
-void draw_vehicles(cairo_t* c, const Site& site, double time, bool end) {
-  const engine::Snapshot s = site.recording.at(time);
-  for (const MeshActor& actor : site.stage.meshes) {
-    if (actor.body < 0) continue;
-    path(c, seen_from_above(*actor.mesh, pose(s, actor.body) * actor.X_BM), site.plan);
-    grey(c, end ? 0.90 : 0.97);
-    cairo_fill_preserve(c);
-    grey(c, 0.25);
-    cairo_set_line_width(c, 0.3);
-    set_dashes(c, end ? 0 : 1);
-    cairo_stroke(c);
-    set_dashes(c, 0);
-  }
-}
-
-void draw_person(cairo_t* c, const Site& site, const PersonFacts& facts, double time, double lightness) {
-  const engine::Snapshot s = site.recording.at(time);
-  for (const PersonActor& person : site.stage.persons) {
-    if (person.name != facts.name) continue;
-    for (const PersonActor::Segment& segment : person.segments) {
-      path(c, seen_from_above(segment.shape, pose(s, segment.body)), site.plan);
-      grey(c, lightness);
-      cairo_fill_preserve(c);
-      grey(c, 0);
-      cairo_set_line_width(c, 0.15);
-      cairo_stroke(c);
-    }
-  }
 }
 
 void draw_skids(cairo_t* c, const Site& site) {
@@ -239,35 +165,6 @@ void draw_key(cairo_t* c, const Site& site) {
   }
 }
 
-void draw_scale(cairo_t* c, const Site& site) {
-  const double metre = 1000 / site.plan.denominator;
-  const double length = metre >= 15 ? 2 : metre >= 6 ? 5 : metre >= 3 ? 10 : 50;  // [m]
-  const double x = kMargin, y = kSheetHeight - 15;
-  for (int i = 0; i < 4; ++i) {  // black and white by turns
-    cairo_rectangle(c, x + i * length * metre / 4, y, length * metre / 4, 1.6);
-    grey(c, i % 2 == 0 ? 0 : 1);
-    cairo_fill_preserve(c);
-    grey(c, 0);
-    cairo_set_line_width(c, 0.2);
-    cairo_stroke(c);
-  }
-  draw_text(c, x + length * metre + 2, y + 1.8, fmt::format("{:g} m    scale 1:{:g} on A4", length, site.plan.denominator), 3.2);
-  // north, or the x axis where nobody has said where north is
-  const double angle = site.stage.north.value_or(0);
-  const Point2 at(kSheetWidth - kMargin - 9, kSheetHeight - 19), along(std::cos(angle), -std::sin(angle));
-  const Point2 tail = at - 5 * along, tip = at + 5 * along, side(-along.y(), along.x());
-  cairo_set_line_width(c, 0.4);
-  draw_line(c, tail.x(), tail.y(), tip.x(), tip.y());
-  cairo_move_to(c, tip.x(), tip.y());
-  for (const double s : {1.0, -1.0}) {
-    const Point2 wing = tip - 2.6 * along + s * 1.1 * side;
-    cairo_line_to(c, wing.x(), wing.y());
-  }
-  cairo_fill(c);
-  const Point2 name = tip + 2.4 * along;
-  draw_text(c, name.x(), name.y() + 1.1, site.stage.north ? "N" : "x", 3.2, Align::centre);
-}
-
 }  // namespace
 
 Vec3 centre_of_mass(const PersonFacts& person, const engine::Recording& recording, double time) {
@@ -307,21 +204,22 @@ std::vector<std::string> site_diagram(const Stage& stage, const engine::Recordin
     cairo_save(c);
     cairo_rectangle(c, kLeft, kTop, kRight - kLeft, kBottom - kTop);
     cairo_clip(c);
-    draw_road(c, site);
+    draw_road(c, stage, site.plan);
     draw_skids(c, site);
-    draw_vehicles(c, site, hit, false);
-    draw_vehicles(c, site, recording.end_time(), true);
+    draw_vehicles(c, stage, site.plan, recording.at(hit), {0.97, 1});
+    draw_vehicles(c, stage, site.plan, recording.at(recording.end_time()), {0.90, 0});
     for (const PersonFacts& p : job.persons) {
       const std::vector<double> times = times_of_interest(p, recording);
       for (std::size_t i = 0; i < times.size(); ++i)
-        draw_person(c, site, p, times[i], 0.92 - 0.42 * static_cast<double>(i + 1) / static_cast<double>(times.size()));
+        draw_person(c, stage, site.plan, p.name, recording.at(times[i]),
+                    {0.92 - 0.42 * static_cast<double>(i + 1) / static_cast<double>(times.size()), 0});
       draw_path(c, site, p);
       draw_dimensions(c, site, p);
       draw_numbers(c, site, p);
     }
     cairo_restore(c);
     draw_key(c, site);
-    draw_scale(c, site);
+    draw_scale(c, stage, site.plan);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/figures/figures.h"
+#include "render/figures/rest_cloud.h"
 #include "render/image/png.h"
 #include "render/painter.h"
 #include "render/text/labels.h"
@@ -98,6 +99,36 @@ std::vector<std::string> stroboscopic_still(const Stage& stage, const engine::Re
   Image image;
   painter.paint(scene, recording, {to, "stroboscopic", 1}, image);
   return write(job, "stroboscopic.png", image);
+}
+
+std::vector<std::string> rest_ghosts(const Stage& stage, const engine::Recording& middle, const FigureJob& job,
+                                     const RestFigure& figure) {
+  // the ends of the runs as instants of one recording, the one in full last: figures of earlier instants are drawn pale
+  engine::Recording ends = middle;
+  ends.snapshots.clear();
+  for (const RestGhost& g : figure.ghosts) ends.snapshots.push_back(g.end);
+  ends.snapshots.push_back(middle.snapshots.back());
+  for (std::size_t i = 0; i < ends.snapshots.size(); ++i) ends.snapshots[i].time = static_cast<double>(i);
+  const std::vector<Vec3> points = places(stage, ends, job, 0);
+  if (points.empty()) return {};
+  Stage scene = stage;
+  scene.cameras.insert(scene.cameras.begin(), beside(points, static_cast<double>(job.width) / job.height));
+  scene.overlays = {};
+  scene.overlays.ghost_interval = 0.5;  // of instants a second apart
+  scene.overlays.contacts = scene.overlays.forces = scene.overlays.caption = false;
+  Painter painter(job.width, job.height, job.quality);
+  Image image;
+  painter.paint(scene, ends, {ends.end_time(), "stroboscopic", 1}, image);
+  DrawList list;
+  LabelItem key;
+  key.lines = {"solid: " + figure.middle};
+  for (const RestGhost& g : figure.ghosts) key.lines.push_back("pale: " + g.label);
+  key.sizes.assign(key.lines.size(), 26);
+  key.colours.assign(key.lines.size(), {1, 1, 1, 1});
+  key.anchor = {0.02f, 0.03f};
+  list.labels.push_back(key);
+  draw_labels(list, image);
+  return write(job, "rest_ghosts.png", image);
 }
 
 std::vector<std::string> contact_sheet(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {

@@ -16,10 +16,8 @@ struct Builder {
   Scene scene;
   Errors errors;
   std::filesystem::path folder;  // of the scene file
-  MeshShelf meshes;              // by path: ten cars load one mesh
-  MeshShelf* shelf = nullptr;    // of mesh files that other loads have brought in
-  // by surface and tolerance [m], for contact: ten cars coarsen one mesh and touch the same triangles
-  std::map<std::pair<std::shared_ptr<const engine::TriangleMesh>, double>, std::shared_ptr<const engine::TriangleMesh>> coarse;
+  MeshShelf* shelf = nullptr;    // ten cars load and coarsen one mesh, here or in a load before
+  std::map<std::string, std::shared_ptr<const ImportedMesh>> meshes;  // by path: those of this scene, each told of once
 
   std::string assets;  // hashes of the library files and meshes read, in order
 

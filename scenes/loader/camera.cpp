@@ -127,9 +127,10 @@ void read_camera(Builder& builder, Reader& r) {
 void check_camera_name(Builder& builder, Reader& r, const std::string& name, std::string_view key) {
   std::vector<std::string> names;
   for (const render::Camera& camera : builder.scene.stage.cameras) names.push_back(camera.name);
-  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  if (!r.has(key) || std::find(names.begin(), names.end(), name) != names.end()) return;  // what is missing has been told
   const std::string guess = nearest(name, names);
-  r.fail(key, guess.empty() ? "is no camera of the scene" : fmt::format("is no camera of the scene; did you mean \"{}\"?", guess));
+  r.fail(key, guess.empty() ? fmt::format("is no camera of the scene; it has {}", fmt::join(names, ", "))
+                            : fmt::format("is no camera of the scene; did you mean \"{}\"?", guess));
 }
 
 namespace {

@@ -46,9 +46,11 @@ void read_inputs_of_effects(Builder& builder, Reader& scene) {
   for (const OwnSection& own : own_sections()) {
     std::optional<Reader> r = scene.table(own.section.name);
     if (!r) continue;
-    for (const Key& key : own.keys)
+    for (const Key& key : own.keys) {
+      if (key.fallback.empty() && !r->has(key.name)) continue;
       builder.scene.model.inputs[r->path(key.name)] =
           key.type == Type::vector3 ? r->vector(key.name) : engine::Vec3(r->number(key.name), 0, 0);
+    }
   }
 }
 

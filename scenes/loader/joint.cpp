@@ -53,9 +53,8 @@ const Key kKeys[] = {
     {"child", Type::text, Dimension::none, kRequired, "The body that hangs on the parent."},
     {"at", Type::vector3, Dimension::length, "", "The joint's centre at the start, in the world. Left out: the child's centre."},
     {"axis", Type::vector3, Dimension::none, "[0, 1, 0]",
-     "World direction of the joint frame's y at the start: what a revolute turns about and a prismatic slides along, the parent's "
-     "arm "
-     "of a cardan cross."},
+     "World direction of the joint frame's y at the start: what a revolute turns about and a prismatic slides along, the "
+     "parent's arm of a cardan cross."},
     {"second_axis", Type::vector3, Dimension::none, "",
      "World direction of the joint frame's x, at right angles to axis: the child's arm of a cardan cross."},
     kRange,

@@ -22,6 +22,14 @@ std::string no_element(const Value* list, const std::string& kind, const std::st
                      names.empty() ? "" : fmt::format("; it has {}", fmt::join(names, ", ")));
 }
 
+std::string no_variable(const Value* variables, const std::string& part) {
+  std::vector<std::string> names;
+  if (variables)
+    for (const Entry& entry : variables->entries) names.push_back(entry.key);
+  return fmt::format("names no variable: [variables] has no \"{}\"; {}", part,
+                     names.empty() ? "write it there" : fmt::format("it has {}", fmt::join(names, ", ")));
+}
+
 }  // namespace
 
 KeyOfPath key_of_path(const Value& root, const std::string& path) {
@@ -33,11 +41,11 @@ KeyOfPath key_of_path(const Value& root, const std::string& path) {
     const Key* key = section->find(part);
     if (!key && (key = section->find(singular(part)))) key = key->section ? (part = singular(part), key) : nullptr;
     if (!key) return {nullptr, nullptr, unknown(*section, parts[i])};
+    const Value* parent = value;
     value = value ? value->find(part) : nullptr;
     if (!key->section) {
       if (i + 1 == parts.size()) {
-        if (section->name == "variables" && !value)
-          return {nullptr, nullptr, fmt::format("names no variable: [variables] has no \"{}\"", part)};
+        if (section->name == "variables" && !value) return {nullptr, nullptr, no_variable(parent, part)};
         return {key, value, ""};
       }
       return {nullptr, nullptr,

@@ -196,7 +196,8 @@ Scene load(const SceneFile& file, const std::vector<std::string>& overrides, Mes
   resolve_variables(root, builder.errors);
   builder.folder = file.path.parent_path();
   builder.scene.file = file;
-  builder.shelf = shelf;
+  MeshShelf own;
+  builder.shelf = shelf ? shelf : &own;
   Reader r(root, scene_section(), "", builder.errors);
   builder.scene.title = r.text("title");
   builder.scene.path = file.path;

@@ -264,15 +264,13 @@ std::shared_ptr<const ImportedMesh> import_mesh(Builder& builder, Reader& r, std
   if (file.empty()) return nullptr;
   auto& cached = builder.meshes[file.string()];
   if (cached) return cached;
-  std::shared_ptr<const ImportedMesh> imported;
-  if (builder.shelf) imported = (*builder.shelf)[file.string()];
+  auto& imported = builder.shelf->files[file.string()];
   std::string problem;
   if (!imported) imported = bring_in(std::filesystem::canonical(file), extension, problem);
   if (!imported) {
     r.fail(key, import_problem(problem, extension));
     return nullptr;
   }
-  if (builder.shelf) (*builder.shelf)[file.string()] = imported;
   builder.assets += imported->sha256;
   if (imported->not_finite > 0)
     r.warn(key, fmt::format("has {} triangles with coordinates that are not finite or farther than 1000 km; they are left out",

@@ -29,11 +29,9 @@ const Key kKeys[] = {
                                                "Time between recorded instants, rounded to whole steps.", Range{0, 1, true}}),
     bound<&engine::Settings::scheme>(
         {"scheme", Type::choice, Dimension::none, "'stepping'",
-         "Integration. stepping: Runge-Kutta 4 for the smooth motion, contacts, limits and joint resistance implicit at the end of "
-         "the "
-         "step. "
-         "rk4: joint resistance and compliant contacts too are evaluated anew in each of four stages. "
-         "adaptive: rk4 with steps no longer than `step`, divided until the error is below `adaptive_tolerance`.",
+         "Integration. stepping: Runge-Kutta 4 for the smooth motion, contacts, limits and joint resistance implicit at the end "
+         "of the step. rk4: joint resistance and compliant contacts too are evaluated anew in each of four stages. adaptive: rk4 "
+         "with steps no longer than `step`, divided until the error is below `adaptive_tolerance`.",
          kAny, "stepping|rk4|adaptive"}),
     bound<&engine::Settings::adaptive_tolerance>(
         {"adaptive_tolerance", Type::number, Dimension::length, "'0.01 mm'",
@@ -42,8 +40,7 @@ const Key kKeys[] = {
         {"contact_law", Type::choice, Dimension::none, "'persons_yield'",
          "persons_yield: a person's contacts and the ends of its joints' ranges by the compliant law, all else by default_auto. "
          "default_auto: surfaces do not give way; impulses at first touch, at all touching points at once, restitution is a ratio "
-         "of "
-         "speeds. compliant: force = stiffness x depth while closing, restitution x stiffness x depth while parting, so that "
+         "of speeds. compliant: force = stiffness x depth while closing, restitution x stiffness x depth while parting, so that "
          "restitution is the share of energy that comes back.",
          kAny, "default_auto|compliant|persons_yield"}),
     {"gravity", Type::number, Dimension::acceleration, "'9.81 m/s^2'", "Acceleration of gravity; 0 for none.", kNotNegative},

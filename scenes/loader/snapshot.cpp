@@ -41,8 +41,7 @@ const Key kSnapshotKeys[] = {
 const Key kExpectKeys[] = {
     {"*", Type::text, Dimension::none, "",
      "A measure of summary.json, with or without its unit, and its tolerance: `throw_distance = \"12.3 m +- 0.1 m\"`. Where "
-     "several "
-     "objects have it: `\"throw_distance pedestrian\"`."},
+     "several objects have it: `\"throw_distance pedestrian\"`."},
 };
 
 std::string_view trimmed(std::string_view text) {

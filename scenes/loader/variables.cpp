@@ -10,8 +10,7 @@ namespace {
 const Key kKeys[] = {
     {"*", Type::any, Dimension::none, "",
      "A quantity (`\"40 km/h\"`, `0.7`) or an expression over others (`\"-0.432 s * speed\"`): + - * / ^, parentheses, sqrt abs "
-     "min max "
-     "sin cos tan. `g` is 9.81 m/s^2 here. Every number of the scene may be such an expression."},
+     "min max sin cos tan. `g` is 9.81 m/s^2 here. Every number of the scene may be such an expression."},
 };
 
 bool is_numeric(Type type) {

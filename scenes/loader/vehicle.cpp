@@ -238,9 +238,11 @@ void read_vehicle(Builder& builder, Reader scene) {
   const double heading = r.number("heading");
   const engine::Pose X_WM = mesh_pose(builder, r, meshes, heading);
   const double tolerance = r.number("mesh_tolerance");
-  auto& coarse = builder.coarse[{meshes.collision->solid, tolerance}];
+  auto& coarse = builder.shelf->coarse[{meshes.collision->solid, tolerance}];
   if (!coarse) coarse = decimate(meshes.collision->solid, tolerance);
-  body.shape = engine::MeshShape{coarse, X_BM, tolerance, panels_of(*coarse, *meshes.bodywork->look)};
+  auto& panels = builder.shelf->panels[{coarse, meshes.bodywork->look}];
+  if (!panels) panels = panels_of(*coarse, *meshes.bodywork->look);
+  body.shape = engine::MeshShape{coarse, X_BM, tolerance, panels};
   body.X_WB = {X_WM * cg, X_WM.q.normalized()};
   if (r.has("velocity") && r.has("speed")) r.fail("velocity", "must not be given together with speed");
   body.V_WB.v =

@@ -157,6 +157,8 @@ TEST_F(Disturbed, AStoppedRunTellsWhatIsKept) {
             "crashreel: stopped by SIGTERM; nothing was kept; with --resume a film keeps its finished frames\n");
   EXPECT_EQ(stopped("render long.toml -o b.mp4 --resume", "b.mp4.lock"),
             "crashreel: stopped by SIGTERM; finished frames are kept, and the same command goes on from there\n");
+  EXPECT_EQ(stopped("sample " CRASHREEL_SOURCE_DIR "/scenes/gallery/sample_puck.toml -n 60000 -o s", "s/runs.lock"),
+            "crashreel: stopped by SIGTERM; finished runs are kept in s/runs, and the same command goes on from there\n");
 }
 
 TEST_F(Disturbed, ResumedFramesAreThoseOfAnUndisturbedRun) {

@@ -8,7 +8,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "cli/output/recording_file.h"
 #include "cli/output/summary.h"
+#include "engine/simulate.h"
 #include "tests/cli/program.h"
 
 using namespace cli_tests;
@@ -215,6 +217,27 @@ TEST(Simulate, SummaryHasEveryKeyOfTheContract) {
   EXPECT_LE(longest.at("processor_s").get<double>(), summary.at("cost").at("wall_s").get<double>());
   EXPECT_GT(longest.at("time_s").get<double>(), 0);
   EXPECT_FALSE(longest.at("bodies").empty());
+}
+
+TEST(RecordingFile, HoldsWhatTheRunSawOfEachEffect) {
+  const Folder folder;
+  const scenes::Scene scene = scenes::load(gallery("ball_default_auto.toml"));
+  const engine::Recording run = engine::simulate(scene.model);
+  folder.write("recording.bin", cli::recording_bytes(scene, run));
+  const std::optional<engine::Recording> kept = cli::read_recording(folder / "recording.bin", scene);
+  ASSERT_TRUE(kept);
+  ASSERT_EQ(kept->plan.size(), run.plan.size());
+  int acted = 0;
+  for (std::size_t i = 0; i < run.plan.size(); ++i) {
+    const engine::PlanLine &was = run.plan[i], &is = kept->plan[i];
+    EXPECT_EQ(is.not_before, was.not_before) << was.effect;
+    EXPECT_EQ(is.acted.told, was.acted.told) << was.effect;
+    EXPECT_EQ(is.acted.in_reach, was.acted.in_reach) << was.effect;
+    EXPECT_EQ(is.acted.first, was.acted.first) << was.effect;
+    EXPECT_EQ(is.acted.last, was.acted.last) << was.effect;
+    acted += was.acted.first > 0;
+  }
+  EXPECT_GT(acted, 0);  // the ball fell on the ground
 }
 
 TEST(SlowStep, IsToldFromASecondOfProcessorTimeOn) {

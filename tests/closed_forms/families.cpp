@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "tests/benchmark/exact_answers.h"
+#include "tests/closed_forms/exact_answers.h"
 
 namespace closed_forms {
 namespace {

@@ -1,6 +1,8 @@
 // Resistance of the air and wind against closed forms, and the bound of leaving them out against runs that have them.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -206,7 +208,7 @@ namespace {
 
 /// A library vehicle by itself, or with somebody on it.
 Model alone(const std::string& vehicle, const std::string& rider = "") {
-  const auto file = std::filesystem::temp_directory_path() / (vehicle + "_alone.toml");
+  const auto file = std::filesystem::temp_directory_path() / fmt::format("{}_alone_{}.toml", vehicle, getpid());
   std::ofstream(file) << "[[vehicle]]\nname = \"it\"\nmodel = \"" << vehicle << "\"\n" << rider;
   Model model = scenes::load(file).model;
   std::filesystem::remove(file);
@@ -243,6 +245,20 @@ TEST(AirDrag, OfAVehicleIsThatOfItsClass) {
     EXPECT_LT(area, bounds.second) << name;
   }
   EXPECT_GT(alone("bus").vehicles[0].drag.x(), 1.5 * alone("sedan").vehicles[0].drag.x());
+}
+
+/// Zeros given for all meshes are no drag; left out, the vehicle has its own.
+TEST(AirDrag, OfAVehicleIsNoneWhereTheSceneGivesZeros) {
+  const auto taken = [](const std::string& key) {
+    Model model = alone("sedan", "[air]\n" + key);
+    model.bodies[0].V_WB.v = {20, 0, 0};
+    model.settings.duration = 4e-3;
+    const Recording run = simulate(model);
+    const auto effect = std::find(run.effect_names.begin(), run.effect_names.end(), "air_drag") - run.effect_names.begin();
+    return run.snapshots.back().energies.dissipated.at(static_cast<std::size_t>(effect));
+  };
+  EXPECT_EQ(taken("vehicle_drag = [0, 0, 0]\n"), 0);
+  EXPECT_GT(taken(""), 0);
 }
 
 /// Wilson: 0.4 m^2 in touring position to 0.63 m^2 upright; Cossalter: 0.18 to 0.7 m^2.

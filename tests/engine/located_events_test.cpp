@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "engine/simulate.h"
+#include "tests/engine/experiment.h"
 
 namespace located_events_tests {
 namespace {
@@ -11,13 +13,7 @@ namespace {
 using namespace engine;
 
 Body round_body(const Vec3& axes, double exponent, const Vec3& at, const Vec3& velocity) {
-  Body body;
-  const HyperEllipsoid shape{axes, exponent};
-  body.name = "body";
-  body.mass = 1;
-  body.shape = shape;
-  body.inertia_B = principal_inertia(shape, 1).asDiagonal();
-  body.X_WB.p = at;
+  Body body = test::solid({axes, exponent}, 1, at);
   body.V_WB.v = velocity;
   return body;
 }
@@ -125,6 +121,56 @@ TEST(LocatedEvents, ARampAndAJumpOfFrictionAreOfSecondOrder) {
   const double coarse = worst(kEnd, 8e-3, error), fine = worst(kEnd, 1e-3, error);
   EXPECT_LT(coarse, 3e-4);
   EXPECT_LT(fine, coarse / 16);
+}
+
+TEST(LocatedEvents, ASlipThatTurnsIsExact) {
+  // up a slope of 25 degrees at 4 m/s; friction of 0.3 does not hold it there, and it comes back
+  constexpr double kSlope = 25 * std::numbers::pi / 180, kFriction = 0.3, kSpeed = 4, kEnd = 1.2;
+  const double up = kGravity * (std::sin(kSlope) + kFriction * std::cos(kSlope));
+  const double down = kGravity * (std::sin(kSlope) - kFriction * std::cos(kSlope)), back = kEnd - kSpeed / up;
+  const double exact = kSpeed * kSpeed / (2 * up) - 0.5 * down * back * back;
+  const auto error = [&](double step) {
+    Model model = on_ground(block({0, 0, 0}, {kSpeed, 0, 0}, kFriction), kEnd, step);
+    model.settings.gravity = kGravity * Vec3(-std::sin(kSlope), 0, -std::cos(kSlope));
+    return travel(model) - exact;
+  };
+  // 50 kg m^2 turn by some 1e-7 rad meanwhile
+  EXPECT_LT(worst(kEnd, 4e-3, error), 1e-6);
+}
+
+TEST(LocatedEvents, AFlatSideLiesWhereItIsAndSlidesToItsRest) {
+  // corners that stood micrometres above the side would let it sink by as much, and slide on by friction times that
+  constexpr double kFriction = 0.5, kSpeed = 3, kEnd = 1;
+  const double exact = kSpeed * kSpeed / (2 * kFriction * kGravity);
+  double deepest = 0;
+  const auto error = [&](double step) {
+    Body box = round_body({0.3, 0.3, 0.03}, 4, {0, 0, 0.03}, {kSpeed, 0, 0});
+    box.inertia_B = 1e7 * Mat3::Identity();
+    box.surface.friction_ground = kFriction;
+    const Recording run = simulate(on_ground(box, kEnd, step));
+    deepest = std::max(deepest, std::abs(run.snapshots.back().bodies[0].X_WB.p.z() - 0.03));
+    return run.snapshots.back().bodies[0].X_WB.p.x() - exact;
+  };
+  EXPECT_LT(worst(kEnd, 4e-3, error), 5e-8);
+  EXPECT_LT(deepest, 5e-8);
+}
+
+TEST(LocatedEvents, TheTimeOfRestIsSeenStepByStep) {
+  // friction grows from 0.3 to 0.7 in 0.8 s: v = g (0.3 t + 0.25 t^2)
+  constexpr double kSpeed = 2.5, kEnd = 1.2;
+  const double exact = (-0.3 + std::sqrt(0.09 + kSpeed / kGravity)) / 0.5;
+  const Schedule friction({{0, 0.3}, {0.8, 0.7}});
+  const auto error = [&](double step) {
+    Model model = on_ground(block({0, 0, 0}, {kSpeed, 0, 0}, friction), kEnd, step);
+    model.settings.record_interval = 10 * step;
+    for (const Event& event : simulate(model).events)
+      if (event.kind == "rest") return event.time - exact;
+    return kEnd;
+  };
+  // the mean loss of speed of one step for that of what is left, two steps at most: 1.5 h further on in the ramp, so 3 h^2 k/mu
+  constexpr double kRate = 0.5, kAtRest = 0.55;
+  EXPECT_LT(worst(kEnd, 4e-3, error), 3 * 4e-3 * 4e-3 * kRate / kAtRest);
+  EXPECT_LT(worst(kEnd, 0.5e-3, error), 3 * 0.5e-3 * 0.5e-3 * kRate / kAtRest);
 }
 
 }  // namespace

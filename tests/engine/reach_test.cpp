@@ -9,6 +9,7 @@
 
 #include "engine/plan.h"
 #include "engine/simulate.h"
+#include "tests/engine/experiment.h"
 
 namespace reach_tests {
 namespace {
@@ -16,13 +17,7 @@ namespace {
 using namespace engine;
 
 Body ball(const Vec3& at, const Vec3& velocity) {
-  Body body;
-  const HyperEllipsoid shape{Vec3(0.1, 0.1, 0.1), 2.0};
-  body.name = "ball";
-  body.mass = 1;
-  body.shape = shape;
-  body.inertia_B = principal_inertia(shape, 1).asDiagonal();
-  body.X_WB.p = at;
+  Body body = test::ball(0.1, 1, at);
   body.V_WB.v = velocity;
   return body;
 }
@@ -74,7 +69,6 @@ TEST(Reach, IsNoBoundOnWhatASpringOrTheWindMayDrive) {
   windy.inputs["air.density"] = {1.2, 0, 0};
   windy.inputs["air.wind"] = {30, 0, 0};
   windy.inputs["air.drag"] = {1.2, 0, 0};
-  windy.inputs["air.vehicle_drag"] = {0, 0, 0};
   EXPECT_TRUE(is_on(windy, "body_contact"));
   Model sprung = model;
   Joint hinge;

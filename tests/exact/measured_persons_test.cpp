@@ -45,7 +45,7 @@ const Struck kCases[] = {
      "sedan_pedestrian_40kmh",
      {"vehicle.sedan.model=bus", "vehicle.sedan.brake.deceleration=0.1 g", "simulation.duration=3 s"}},
     {"run_over", "sedan_pedestrian_40kmh",
-     child_and({"vehicle.sedan.model=bus", "vehicle.sedan.speed=90 km/h", "vehicle.sedan.front=-2.5 -1.75 m"})},
+     child_and({"vehicle.sedan.model=bus", "vehicle.sedan.speed=100 km/h", "vehicle.sedan.front=-2.5 -1.75 m"})},
 };
 
 class Measured : public testing::TestWithParam<Struck> {

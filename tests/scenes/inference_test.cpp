@@ -84,6 +84,21 @@ TEST(Uncertain, SaysWhatIsWrong) {
   EXPECT_THAT(errors("key = \"body.puck.mass\"\n"), ElementsAre(HasSubstr("says nothing of body.puck.mass; give one of uniform")));
 }
 
+TEST(Uncertain, AKeyThatDoesNotExistIsToldWithThoseThatDo) {
+  const auto errors = [](const std::string& key) {
+    return folder().errors("[variables]\nspeed = \"30 mph\"\n[[uncertain]]\nkey = \"" + key + "\"\nuniform = \"1 2 m/s\"\n" +
+                           kPuck);
+  };
+  EXPECT_THAT(
+      errors("variables.sped"),
+      ElementsAre("case.toml:4:7: uncertain.0.key is \"variables.sped\": names no variable: [variables] has no \"sped\"; it has "
+                  "speed"));
+  EXPECT_THAT(
+      errors("body.puk.mass"),
+      ElementsAre("case.toml:4:7: uncertain.0.key is \"body.puk.mass\": names no body of the scene: none is called or numbered "
+                  "\"puk\"; it has puck"));
+}
+
 TEST(Uncertain, CorrelationsThatContradictEachOtherAreRefused) {
   // a goes with b and with c, so b and c cannot go against each other
   const std::string text =
@@ -92,7 +107,9 @@ TEST(Uncertain, CorrelationsThatContradictEachOtherAreRefused) {
       "[uncertain.correlation]\n\"variables.b\" = 0.9\n\"variables.c\" = 0.9\n"
       "[[uncertain]]\nkey = \"variables.b\"\nuniform = \"0 1\"\n[uncertain.correlation]\n\"variables.c\" = -0.9\n"
       "[[uncertain]]\nkey = \"variables.c\"\nuniform = \"0 1\"\n";
-  EXPECT_THAT(folder().errors(text + kPuck + "friction = \"(a + b + c) / 3\"\n"), ElementsAre(HasSubstr("contradicts the others")));
+  EXPECT_THAT(
+      folder().errors(text + kPuck + "friction = \"(a + b + c) / 3\"\n"),
+      ElementsAre(HasSubstr("contradicts the others: no quantities can be correlated so among each other; make one smaller")));
 }
 
 TEST(Evidence, IsReadInTheUnitOfItsMeasure) {

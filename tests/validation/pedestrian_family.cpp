@@ -204,7 +204,7 @@ double head_speed(const std::vector<Outcome>& all, double car) {
 void trends() {
   std::vector<double> v, u, wrap, time;
   for (const double speed : {20.0, 30.0, 40.0, 50.0, 60.0}) {
-    const auto all = family({.speed = speed}, 3);
+    const auto all = family({.speed = speed}, 5);
     v.push_back(speed / 3.6);
     u.push_back(head_speed(all, v.back()));
     wrap.push_back(spread(all, [](const Outcome& o) { return o.wrap; }).median);
@@ -222,7 +222,7 @@ void walking() {
   std::vector<double> w, u;
   for (const double walks : {0.7, 1.4, 2.1}) {
     w.push_back(walks);
-    u.push_back(head_speed(family({.walks = walks}, 3), 40 / 3.6));
+    u.push_back(head_speed(family({.walks = walks}, 5), 40 / 3.6));
   }
   const double slope = line_through(w, u).slope;
   tell("head's speed with the pedestrian's, slope", "below 10 %", fmt::format("{:.1f} %", 100 * slope), std::abs(slope) < 0.1);

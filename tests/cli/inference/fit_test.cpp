@@ -150,6 +150,18 @@ TEST(Fit, SaysWhatIsMissing) {
   EXPECT_THAT(unknown.err, HasSubstr("did you mean travel_m?"));
 }
 
+TEST(Fit, SaysWhatCannotBe) {
+  const Folder folder;
+  EXPECT_EQ(fit(folder, kGallery + "fit_puck.toml", {"-n", "0"}).err,
+            "crashreel: -n is \"0\": must be a whole number in 2..1000000\n");
+  // evidence that no run can meet: 300 m from at most 70 mph
+  const Result far = fit(folder, kGallery + "fit_puck.toml", {"-n", "32", "--set", "evidence.0.value=\"300 m\""});
+  EXPECT_EQ(far.code, 0);
+  EXPECT_THAT(far.out, HasSubstr("No single number can be given: no run comes near the evidence \"slide\": the nearest is "));
+  EXPECT_THAT(far.out,
+              HasSubstr(" tolerances off. The evidence, its tolerance, the ranges of the inputs or the model is wrong.\n"));
+}
+
 TEST(Eval, AnswersDakota) {
   const Folder folder;
   folder.write(

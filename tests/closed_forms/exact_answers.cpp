@@ -1,4 +1,4 @@
-#include "tests/benchmark/exact_answers.h"
+#include "tests/closed_forms/exact_answers.h"
 
 #include <algorithm>
 #include <array>
