@@ -13,11 +13,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <initializer_list>
 #include <new>
 #include <string>
 #include <string_view>
 
 #include "cli/exit.h"
+#include "render/late_library.h"
 
 namespace cli {
 namespace {
@@ -37,15 +39,18 @@ const char* name_of(int stop) {
   return stop == SIGINT ? "SIGINT" : stop == SIGHUP ? "SIGHUP" : "SIGTERM";
 }
 
+/// What a handler leaves behind in place of destructors.
+void last_words(std::initializer_list<const char*> texts) {
+  for (const char* text : texts)
+    if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
+  if (getpid() != program) return;
+  for (const auto& file : passing_files)
+    if (const char* path = file.load()) unlink(path);
+}
+
 void end_now(int) {
   if (asked_to_stop == 0) return;  // an alarm that is not ours
-  if (getpid() == program) {
-    for (const char* text :
-         {"crashreel: stopped by ", name_of(asked_to_stop), "; ", static_cast<const char*>(kept_text.data()), "\n"})
-      if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
-    for (const auto& file : passing_files)
-      if (const char* path = file.load()) unlink(path);
-  }
+  if (getpid() == program) last_words({"crashreel: stopped by ", name_of(asked_to_stop), "; ", kept_text.data(), "\n"});
   _exit(128 + asked_to_stop);
 }
 
@@ -126,17 +131,25 @@ void take_over_streams() {
   if (std::FILE* stream = fopencookie(&results, "w", functions)) stdout = stream;
 }
 
+[[noreturn]] void tell_of_memory() {
+  last_words({"crashreel: not enough memory\n"});
+  _exit(kMachineFailed);
+}
+
 /// Libraries that promise not to throw run out of memory all the same; then no catch is reached.
 [[noreturn]] void end_without_memory() {
   try {
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
   } catch (const std::bad_alloc&) {
-    constexpr char kMessage[] = "crashreel: not enough memory\n";
-    if (::write(STDERR_FILENO, kMessage, sizeof kMessage - 1) < 0) _exit(kMachineFailed);
-    _exit(kMachineFailed);
+    tell_of_memory();
   } catch (...) {
   }
   std::abort();
+}
+
+/// libgcrypt, which libavformat brings along, aborts in its constructor without memory. Any other abort is a fault of the program.
+void end_aborted(int) {
+  if (render::is_loading_library()) tell_of_memory();
 }
 
 }  // namespace
@@ -171,6 +184,7 @@ void prepare_process() {
   signal(SIGXFSZ, SIG_IGN);
   program = getpid();
   handle(SIGALRM, end_now);
+  handle(SIGABRT, end_aborted);
   for (const int stop : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};
     sigaction(stop, nullptr, &before);

@@ -119,17 +119,11 @@ void Recorder::watch_events(const World& world, const Constraint& c, double time
 }
 
 /// A part pressed in by all its thickness has slipped through: its law no longer knows from which side it came.
-void Recorder::watch_compression(const World& world, const Constraint& c, double time, double duration) {
+void Recorder::watch_compression(const Constraint& c, double time, double duration) {
   const double depth = -c.gap;
   if (duration <= 0 || c.impulse[0] < 0.5 * c.stiffness * depth * duration) return;  // slack: it springs back
   compression_ = std::max(compression_, depth);
-  double thinner = std::numeric_limits<double>::infinity();
-  for (const int b : {c.record_a, c.record_b})
-    if (const auto* shape = b >= 0 ? std::get_if<HyperEllipsoid>(&world.model.bodies[b].shape) : nullptr)
-      thinner = std::min(thinner, 2 * shape->semi_axes.minCoeff());
-  // a dented panel moves with the part: the part is squeezed by its own share
-  const double pressed = c.ploughing > 0 ? c.share_a * depth : depth;
-  if (pressed > thinner) too_deep_.note(pressed, time, c);
+  if (depth > c.thickness) too_deep_.note(depth, time, c);
 }
 
 /// What rigid contacts and joints promise to keep. What overlaps at the start is told by itself, and takes its time to part.
@@ -155,7 +149,7 @@ void Recorder::tally(const World& world, const std::vector<Constraint>& conditio
 void Recorder::tally_contact(const World& world, const Constraint& c, double time, double duration) {
   watch_events(world, c, time);
   if (c.impulse[0] <= 0 && c.gap > 0) return;
-  if (is_compliant(c)) watch_compression(world, c, time, duration);
+  if (is_compliant(c)) watch_compression(c, time, duration);
   auto at = std::lower_bound(tallies_.begin(), tallies_.end(), c.key, [](const Tally& t, std::uint64_t k) { return t.key < k; });
   if (at == tallies_.end() || at->key != c.key) at = tallies_.insert(at, Tally{c.key, {}, 0, Vec3::Zero()});
   ContactRecord& r = at->record;

@@ -45,7 +45,7 @@ class Recorder {
   void watch_halt(const World&, const State&);
   void watch_events(const World&, const Constraint&, double time);
   void watch_bounds(const World&, const Constraint&, double time);
-  void watch_compression(const World&, const Constraint&, double time, double duration);
+  void watch_compression(const Constraint&, double time, double duration);
 
   std::vector<Tally> tallies_;       // sorted by key
   std::vector<double> still_since_;  // [s] per tree, negative: moving

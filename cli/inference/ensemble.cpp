@@ -36,12 +36,12 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& p
       }) {}
 
 Ensemble::Ensemble(const scenes::Scene& scene, EnsembleWish wish) : scene_(scene), wish_(std::move(wish)) {
+  tell_when_stopped(
+      fmt::format("finished runs are kept in {}/runs, and the same command goes on from there", wish_.folder.string()));
   make_writable_folder(wish_.folder);
   make_writable_folder(wish_.folder / "runs");
   const std::string head = head_of(scene_);
   journal_ = wish_.folder / "runs" / (head.substr(15, 32) + (wish_.part.empty() ? "" : "." + wish_.part) + ".jsonl");
-  tell_when_stopped(
-      fmt::format("finished runs are kept in {}/runs, and the same command goes on from there", wish_.folder.string()));
   // meshes are brought in once, before the processes part
   scenes::load(scene_.file, scene_.overrides, meshes_.get());
   recall();

@@ -101,8 +101,9 @@ charts::Chart residuals(const scenes::Scene& scene, const Fit& fit) {
   return chart;
 }
 
-std::string value_in_words(const Interval& i, const scenes::WrittenUnit& unit) {
-  const double fine = std::max((i.high - i.low) / 8, std::abs(i.median) / 1e4);
+/// To an eighth of its width, but no finer than `least`: ends that agree have no digits of their own.
+std::string value_in_words(const Interval& i, const scenes::WrittenUnit& unit, double least) {
+  const double fine = std::max((i.high - i.low) / 8, least);
   return std::isfinite(i.mean) ? fmt::format("{} to {}", told(i.low, {"", unit.factor}, fine), told(i.high, unit, fine)) : "none";
 }
 
@@ -119,7 +120,7 @@ charts::Bars leave_one_out(const Prior& prior, const Fit& fit, std::size_t main)
     bars.rows.push_back({c.name,
                          {enough ? std::max(0.0, (r.high - r.low) / width - 1) : 0, 0},
                          {enough ? fmt::format("{:.1f} times", (r.high - r.low) / width) : "too few runs",
-                          enough ? value_in_words(r, u.unit) : ""}});
+                          enough ? value_in_words(r, u.unit, width / 100) : ""}});
   }
   return bars;
 }
@@ -137,7 +138,7 @@ charts::Table evidence_table(const scenes::Scene& scene, const Fit& fit) {
       value +=
           (k ? ", " : "") + told(seen.value[k], k + 1 == seen.value.size() ? seen.unit : scenes::WrittenUnit{"", seen.unit.factor},
                                  seen.tolerance / 10);
-      predicted += (k ? "; " : "") + value_in_words(c.predicted[k], seen.unit);
+      predicted += (k ? "; " : "") + value_in_words(c.predicted[k], seen.unit, seen.tolerance / 100);
     }
     const bool apart = c.p_value < kContradicts / static_cast<double>(fit.checks.size());
     table.rows.push_back({seen.name, value, told(seen.tolerance, seen.unit, seen.tolerance / 10), predicted,

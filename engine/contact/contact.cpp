@@ -60,6 +60,9 @@ void set_stiffness(Constraint& c, const Model& model, const Motion& at, const Su
   c.hysteresis = c.restitution;
   c.restitution = 0;
   c.share_a = S_b / (S_a + S_b);
+  for (const int body : {c.record_a, c.record_b})
+    if (const auto* shape = body >= 0 ? std::get_if<HyperEllipsoid>(&model.bodies[body].shape) : nullptr)
+      c.thickness = std::min(c.thickness, 2 * shape->semi_axes.minCoeff());
 }
 
 /// Half of the thinner part along the normal is what the two can give way by; into a panel a little less than by
@@ -75,7 +78,8 @@ void set_room(Constraint& c, const World& world, const Motion& at) {
   c.struck_mass = 1 / c.free_response;
 }
 
-/// A part that lies in a dent of bodywork, which is the panel's share of the depth. Only where persons alone yield.
+/// A part that lies in a dent of bodywork, which is the panel's share of the depth. It has gone through once all of it, as it lies,
+/// is within. Only where persons alone yield.
 void set_ploughing(Constraint& c, const World& world, const Motion& at) {
   constexpr double kSlips = 1e-6;  // [m/s]
   const Model& model = world.model;
@@ -91,6 +95,7 @@ void set_ploughing(Constraint& c, const World& world, const Motion& at) {
   const Vec3 normal = c.frame.col(0), u = velocity(c.record_a) - velocity(c.record_b), slip = u - u.dot(normal) * normal;
   const Vec3 along = slip.norm() > kSlips ? Vec3(slip.normalized()) : Vec3(c.frame.col(1));
   const Quat q_BW = at.X_WB[c.record_a].q.conjugate();
+  c.thickness = 2 * support_value(*part, q_BW * normal);
   c.ploughing = (1 - c.hysteresis) * ploughing(*part, q_BW * normal, q_BW * along, (c.share_a - 1) * c.gap);
   c.friction += c.ploughing;
 }

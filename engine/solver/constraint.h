@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <tuple>
 
 #include "engine/geometry/shape_pair.h"
@@ -33,19 +34,20 @@ struct Constraint {
   double target = 0;              // [m/s] what u_0 + softness * impulse must reach
   double stiffness = 0;           // [N/m] compliant contact, both surfaces in series; [N m/rad] compliant stop; 0: rigid
   double hysteresis = 0;          // [-] compliant contact: share of the energy that comes back
-  double room = 0;                // [m] depth at which what yields bottoms out; 0: never
-  double struck_mass = 0;         // [kg] that a contact with room stops by itself: of its bodies were they free, its share of it
-  double free_response = 0;       // [1/kg] contact or compliant stop: of its two bodies were they free of joints
-  double whole_response = 0;      // [1/kg] contact: of all that hangs on its bodies, moving as one
-  double rolling_bound = 0;       // [N s] wheel: most that brake can give along t1
-  double rolling_drive = 0;       // [N s] wheel: what the engine gives along t1
-  double grip_softness = 0;       // [1/kg] wheel: added to the lateral's own response: a tyre needs slip to give a force
-  Vec3 impulse = Vec3::Zero();    // [N s] result, in row coordinates
-  double push = 0;                // [N s^2] moves bodies apart that stand inside each other, without giving them speed
-  Vec3 u_before = Vec3::Zero();   // [m/s] at the start of the step
-  Vec3 u_smooth = Vec3::Zero();   // [m/s] at its end under smooth forces alone
-  Vec3 u_free = Vec3::Zero();     // [m/s] the same with joint resistance: what the solver starts from
-  Vec3 u_after = Vec3::Zero();    // [m/s] with them
+  double thickness = std::numeric_limits<double>::infinity();  // [m] depth at which what yields has gone through
+  double room = 0;                                             // [m] depth at which what yields bottoms out; 0: never
+  double struck_mass = 0;        // [kg] that a contact with room stops by itself: of its bodies were they free, its share of it
+  double free_response = 0;      // [1/kg] contact or compliant stop: of its two bodies were they free of joints
+  double whole_response = 0;     // [1/kg] contact: of all that hangs on its bodies, moving as one
+  double rolling_bound = 0;      // [N s] wheel: most that brake can give along t1
+  double rolling_drive = 0;      // [N s] wheel: what the engine gives along t1
+  double grip_softness = 0;      // [1/kg] wheel: added to the lateral's own response: a tyre needs slip to give a force
+  Vec3 impulse = Vec3::Zero();   // [N s] result, in row coordinates
+  double push = 0;               // [N s^2] moves bodies apart that stand inside each other, without giving them speed
+  Vec3 u_before = Vec3::Zero();  // [m/s] at the start of the step
+  Vec3 u_smooth = Vec3::Zero();  // [m/s] at its end under smooth forces alone
+  Vec3 u_free = Vec3::Zero();    // [m/s] the same with joint resistance: what the solver starts from
+  Vec3 u_after = Vec3::Zero();   // [m/s] with them
   std::uint64_t key = 0;
   int effect = 0;                    // index into Plan::active
   ShapePair shapes;                  // contact
@@ -56,8 +58,8 @@ struct Constraint {
   template <class S>
   static auto fields(S& s) {
     return std::tie(s.kind, s.rows, s.slides, s.body_a, s.body_b, s.J_a, s.J_b, s.point, s.frame, s.gap, s.friction, s.ploughing,
-                    s.restitution, s.stiffness, s.hysteresis, s.room, s.struck_mass, s.share_a, s.free_response, s.whole_response,
-                    s.key, s.effect, s.shapes, s.record_a, s.record_b);
+                    s.restitution, s.stiffness, s.hysteresis, s.room, s.struck_mass, s.share_a, s.thickness, s.free_response,
+                    s.whole_response, s.key, s.effect, s.shapes, s.record_a, s.record_b);
   }
 };
 

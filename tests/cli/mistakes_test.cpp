@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.h"
+#include "tests/cli/slip.h"
 
 using namespace cli_tests;
 using testing::HasSubstr;
@@ -12,16 +13,6 @@ using testing::StartsWith;
 using Json = nlohmann::json;
 
 namespace {
-
-struct Slip {
-  std::string name;
-  std::string scene;
-  std::string told;  // everything on standard error
-};
-
-void PrintTo(const Slip& slip, std::ostream* out) {
-  *out << slip.name;
-}
 
 const std::string kPerson = "[[person]]\nname = \"p\"\n";
 

@@ -32,19 +32,6 @@ std::vector<std::string> film(const std::vector<std::string>& more) {
   return out;
 }
 
-int under_shell(const Folder& folder, const std::string& line) {
-  const std::string command = "cd '" + folder.path().string() + "' && P='" + program() + "' && " + line;
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::vector<std::string> out;
-  for (const auto& entry : fs::directory_iterator(folder)) out.push_back(entry.path().filename().string());
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
 /// A picture of one bit a pixel: some kilobytes, whatever its size.
 void write_black(const fs::path& file, png_uint_32 side) {
   std::FILE* out = std::fopen(file.c_str(), "wb");
@@ -123,13 +110,14 @@ TEST_F(Planted, FramesOfTwoRunsHaveTwoFingerprints) {
 
 TEST_F(Planted, ASceneFromAPipeIsHashedAsItWasRead) {
   folder.write("other.toml", ball_with("1 0 0 m/s", "2 0 0 m/s"));
-  ASSERT_EQ(under_shell(folder, "cat ball.toml | $P simulate /dev/stdin -o out --resume >/dev/null"), 0);
+  ASSERT_EQ(under_shell(folder, "cat ball.toml | $P simulate /dev/stdin -o out --resume >/dev/null").code, 0);
   EXPECT_THAT(contents(folder / "out/summary.json"), HasSubstr(scenes::sha256(kBall)));
-  EXPECT_EQ(under_shell(folder, "cat ball.toml | $P simulate /dev/stdin -o out --resume >said"), 0);
+  EXPECT_EQ(under_shell(folder, "cat ball.toml | $P simulate /dev/stdin -o out --resume >said").code, 0);
   EXPECT_EQ(contents(folder / "said"), "out: finished before\n");
-  EXPECT_EQ(under_shell(folder, "cat other.toml | $P simulate /dev/stdin -o out --resume >/dev/null 2>&1"), 2);
-  ASSERT_EQ(under_shell(folder, "cat ball.toml | $P render /dev/stdin -o a.mp4 --size 64x64 -j 1 --resume >/dev/null"), 0);
-  EXPECT_EQ(under_shell(folder, "cat other.toml | $P render /dev/stdin -o a.mp4 --size 64x64 -j 1 --resume >/dev/null 2>&1"), 2);
+  EXPECT_EQ(under_shell(folder, "cat other.toml | $P simulate /dev/stdin -o out --resume >/dev/null 2>&1").code, 2);
+  ASSERT_EQ(under_shell(folder, "cat ball.toml | $P render /dev/stdin -o a.mp4 --size 64x64 -j 1 --resume >/dev/null").code, 0);
+  EXPECT_EQ(under_shell(folder, "cat other.toml | $P render /dev/stdin -o a.mp4 --size 64x64 -j 1 --resume >/dev/null 2>&1").code,
+            2);
 }
 
 TEST_F(Planted, AFinishedResultIsPrintedAgainAndAPartOfOneIsNone) {
@@ -168,7 +156,8 @@ TEST_F(Planted, LinksUnderTheNamesOfPartsAreNotFollowed) {
   const std::string prefix = "exec timeout 20 sh -c '";
   for (const char* plant : {"ln -s ../victim", "mkfifo", "ln -s /dev/null"}) {
     EXPECT_EQ(under_shell(folder, prefix + plant +
-                                      " out/trajectory.csv.$$.part; exec \"$0\" simulate ball.toml -o out --overwrite' $P 2>said"),
+                                      " out/trajectory.csv.$$.part; exec \"$0\" simulate ball.toml -o out --overwrite' $P 2>said")
+                  .code,
               3);
     EXPECT_THAT(contents(folder / "said"), HasSubstr("is in the way and is no plain file"));
     for (const std::string& name : names_in(folder / "out"))
@@ -269,8 +258,9 @@ TEST_F(Planted, ARunStoppedTwiceEndsAtOnceAndLeavesNoLock) {
 }
 
 TEST_F(Planted, AFullDiskLeavesNoPartOfAFigure) {
-  EXPECT_EQ(under_shell(folder, "ulimit -f 1; $P figure ball.toml -o figures --size 64x64 --quality draft 2>/dev/null >/dev/null"),
-            3);
+  EXPECT_EQ(
+      under_shell(folder, "ulimit -f 1; $P figure ball.toml -o figures --size 64x64 --quality draft 2>/dev/null >/dev/null").code,
+      3);
   for (const std::string& name : names_in(folder / "figures")) EXPECT_FALSE(name.ends_with(".part")) << name;
 }
 
@@ -293,10 +283,11 @@ TEST_F(Planted, APictureIsHeldToTheCeilingOfMemory) {
 TEST_F(Planted, AFilmIsReadAsTheContainerItsNameSays) {
   // opened, the pipe would hold the run for ever
   folder.write("a.mp4", "#EXTM3U\n#EXT-X-VERSION:3\n#EXT-X-TARGETDURATION:10\n#EXTINF:9.9,\nsecret.ts\n#EXT-X-ENDLIST\n");
-  EXPECT_EQ(under_shell(folder, "mkfifo secret.ts; timeout 20 $P render ball.toml --size 64x64 -j 1 -o a.mp4 --resume 2>/dev/null"),
-            2);
+  EXPECT_EQ(
+      under_shell(folder, "mkfifo secret.ts; timeout 20 $P render ball.toml --size 64x64 -j 1 -o a.mp4 --resume 2>/dev/null").code,
+      2);
   folder.write("b.mkv", "ffconcat version 1.0\nfile secret.ts\n");
-  EXPECT_EQ(under_shell(folder, "timeout 20 $P render ball.toml --size 64x64 -j 1 -o b.mkv --resume 2>/dev/null"), 2);
+  EXPECT_EQ(under_shell(folder, "timeout 20 $P render ball.toml --size 64x64 -j 1 -o b.mkv --resume 2>/dev/null").code, 2);
 }
 
 TEST_F(Planted, ASceneReadsBelowItsFolderOnly) {

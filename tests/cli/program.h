@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -68,6 +69,25 @@ inline Result run(const Folder& folder, const std::vector<std::string>& argument
   command += " >.stdout 2>.stderr </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / ".stdout"), contents(folder / ".stderr")};
+}
+
+/// Runs a line of a shell inside `folder`, the program as $P: "ulimit -n 4; $P render ...".
+inline Result under_shell(const Folder& folder, const std::string& line) {
+  const std::string said = folder.path().string() + ".said";
+  const std::string command =
+      "cd '" + folder.path().string() + "' && P='" + program() + "' && ( " + line + " ) >'" + said + "' 2>'" + said + ".too'";
+  const int status = std::system(command.c_str());
+  Result out{WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(said), contents(said + ".too")};
+  for (const std::string& file : {said, said + ".too"}) std::filesystem::remove(file);
+  return out;
+}
+
+/// What lies in a folder, by name.
+inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
+  std::vector<std::string> out;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) out.push_back(entry.path().filename().string());
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
 /// A ball dropped from 20 cm: the smallest scene in which something happens.
