@@ -147,9 +147,9 @@ void take_over_streams() {
   std::abort();
 }
 
-/// libgcrypt, which libavformat brings along, aborts in its constructor without memory. Any other abort is a fault of the program.
-void end_aborted(int) {
-  if (render::is_loading_library()) tell_of_memory();
+/// libgcrypt, which libavformat brings along, aborts in its constructor without memory, and OSMesa crashes.
+[[noreturn]] void end_failed_load(int) {
+  tell_of_memory();
 }
 
 }  // namespace
@@ -178,13 +178,13 @@ void prepare_process() {
   void* frame = nullptr;
   backtrace(&frame, 1);
   std::set_terminate(end_without_memory);
+  render::end_failed_load_by(end_failed_load);
   fill_standard_descriptors();
   take_over_streams();
   signal(SIGPIPE, SIG_IGN);
   signal(SIGXFSZ, SIG_IGN);
   program = getpid();
   handle(SIGALRM, end_now);
-  handle(SIGABRT, end_aborted);
   for (const int stop : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};
     sigaction(stop, nullptr, &before);

@@ -6,8 +6,9 @@ namespace render {
 /// A function of a shared library, which is loaded where it is not yet. Throws RenderError: no such library or function.
 void* late_function(const char* library, const char* function);
 
-/// Whether a library is being loaded. Some end the program from their constructors where they get no memory.
-bool is_loading_library();
+/// What ends the program where a library fails in its constructors, as OSMesa does without memory: it follows a null pointer.
+/// Called from a signal's handler, with the signal.
+void end_failed_load_by(void (*end)(int));
 
 /// What holds such a function.
 template <auto& function>

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <new>
 #include <optional>
 
 #include "render/error.h"
@@ -23,6 +24,18 @@ void check(int code, const std::string& what) {
   char text[AV_ERROR_MAX_STRING_SIZE] = "";
   av_strerror(code, text, sizeof text);
   throw RenderError(what + ": " + text);
+}
+
+/// What libav* allocated, which is null where memory has run out.
+template <class T>
+T* allocated(T* it) {
+  if (!it) throw std::bad_alloc();
+  return it;
+}
+
+/// One more entry of a dictionary of libav*.
+void set(AVDictionary*& entries, const char* key, const std::string& value) {
+  if (av_dict_set(&entries, key, value.c_str(), 0) < 0) throw std::bad_alloc();
 }
 
 /// A name with a colon in it is a file's name, not a protocol's.
@@ -44,32 +57,32 @@ constexpr AVRational kMilliseconds{1, 1000};
 /// Tells the container its chapters; before its header is written.
 void add_chapters(AVFormatContext* out, const Story& story) {
   if (story.chapters.size() < 2) return;
-  out->chapters = static_cast<AVChapter**>(av_calloc(story.chapters.size(), sizeof(AVChapter*)));
+  out->chapters = static_cast<AVChapter**>(allocated(av_calloc(story.chapters.size(), sizeof(AVChapter*))));
   for (const Passage& p : story.chapters) {
-    auto* chapter = static_cast<AVChapter*>(av_mallocz(sizeof(AVChapter)));
-    chapter->id = out->nb_chapters + 1;
+    auto* chapter = static_cast<AVChapter*>(allocated(av_mallocz(sizeof(AVChapter))));
+    out->chapters[out->nb_chapters++] = chapter;
+    chapter->id = out->nb_chapters;
     chapter->time_base = kMilliseconds;
     chapter->start = std::lround(1000 * p.from);
     chapter->end = std::lround(1000 * p.to);
-    av_dict_set(&chapter->metadata, "title", p.text.c_str(), 0);
-    out->chapters[out->nb_chapters++] = chapter;
+    set(chapter->metadata, "title", p.text);
   }
 }
 
 /// A stream for subtitles; none where there are no subtitles.
 AVStream* add_subtitle_stream(AVFormatContext* out, const Story& story, bool mp4) {
   if (story.subtitles.empty()) return nullptr;
-  AVStream* stream = avformat_new_stream(out, nullptr);
+  AVStream* stream = allocated(avformat_new_stream(out, nullptr));
   stream->codecpar->codec_type = AVMEDIA_TYPE_SUBTITLE;
   stream->codecpar->codec_id = mp4 ? AV_CODEC_ID_MOV_TEXT : AV_CODEC_ID_SUBRIP;
   stream->time_base = kMilliseconds;
-  av_dict_set(&stream->metadata, "language", "eng", 0);
+  set(stream->metadata, "language", "eng");
   if (mp4) {
     // 3GPP TS 26.245, TextSampleEntry: centred below, no box, font 1 at 18 in white; one font
     constexpr std::uint8_t kEntry[] = {0, 0,  0,   0,   1,   0xff, 0, 0, 0, 0,  0,    0,    0,    0,    0,   0,
                                        0, 0,  0,   0,   0,   0,    0, 1, 0, 18, 0xff, 0xff, 0xff, 0xff, 0,   0,
                                        0, 18, 'f', 't', 'a', 'b',  0, 1, 0, 1,  5,    'S',  'e',  'r',  'i', 'f'};
-    stream->codecpar->extradata = static_cast<std::uint8_t*>(av_mallocz(sizeof kEntry + AV_INPUT_BUFFER_PADDING_SIZE));
+    stream->codecpar->extradata = static_cast<std::uint8_t*>(allocated(av_mallocz(sizeof kEntry + AV_INPUT_BUFFER_PADDING_SIZE)));
     std::memcpy(stream->codecpar->extradata, kEntry, sizeof kEntry);
     stream->codecpar->extradata_size = sizeof kEntry;
   }
@@ -78,7 +91,7 @@ AVStream* add_subtitle_stream(AVFormatContext* out, const Story& story, bool mp4
 
 void write_subtitles(AVFormatContext* out, AVStream* stream, const Story& story, bool mp4, const std::string& to) {
   if (!stream) return;
-  AVPacket* packet = av_packet_alloc();
+  AVPacket* packet = allocated(av_packet_alloc());
   for (const Passage& p : story.subtitles) {
     const std::size_t head = mp4 ? 2 : 0;  // an MP4's text comes after its length
     const std::string text = p.text.substr(0, 0xffff);
@@ -102,7 +115,7 @@ void write_subtitles(AVFormatContext* out, AVStream* stream, const Story& story,
 AVFormatContext* open_film(const std::string& file, const char* container) {
   AVFormatContext* in = nullptr;
   AVDictionary* options = nullptr;
-  av_dict_set(&options, "protocol_whitelist", "file", 0);
+  set(options, "protocol_whitelist", "file");
   const int opened = avformat_open_input(&in, url(file).c_str(), av_find_input_format(container), &options);
   av_dict_free(&options);
   check(opened, "cannot read " + file);
@@ -116,21 +129,21 @@ void remux(const std::string& from, const std::string& to, std::int64_t frames, 
   AVFormatContext* out = nullptr;
   check(avformat_find_stream_info(in, nullptr), "cannot read back " + from);
   check(avformat_alloc_output_context2(&out, nullptr, "mp4", url(to).c_str()), "cannot write " + to);
-  AVStream* stream = avformat_new_stream(out, nullptr);
+  AVStream* stream = allocated(avformat_new_stream(out, nullptr));
   check(avcodec_parameters_copy(stream->codecpar, in->streams[0]->codecpar), "cannot write " + to);
   stream->codecpar->codec_tag = 0;
   stream->time_base = in->streams[0]->time_base;
   stream->avg_frame_rate = in->streams[0]->avg_frame_rate;
-  for (const auto& [key, value] : metadata) av_dict_set(&out->metadata, key.c_str(), value.c_str(), 0);
+  for (const auto& [key, value] : metadata) set(out->metadata, key.c_str(), value);
   add_chapters(out, story);
   AVStream* const subtitles = add_subtitle_stream(out, story, true);
   check(avio_open(&out->pb, url(to).c_str(), AVIO_FLAG_WRITE), "cannot write " + to);
   AVDictionary* options = nullptr;
-  av_dict_set(&options, "movflags", "faststart+use_metadata_tags", 0);
+  set(options, "movflags", "faststart+use_metadata_tags");
   check(avformat_write_header(out, &options), "cannot write " + to);
   av_dict_free(&options);
   write_subtitles(out, subtitles, story, true, to);
-  AVPacket* packet = av_packet_alloc();
+  AVPacket* packet = allocated(av_packet_alloc());
   std::int64_t copied = 0;
   int got = 0;
   for (; (got = av_read_frame(in, packet)) >= 0; ++copied) {
@@ -168,8 +181,11 @@ struct VideoEncoder::Impl {
   AVPacket* packet = nullptr;
   std::int64_t next = 0;
 
+  Impl() { load_libav(); }  // what release() calls
   // here and not in the encoder's own destructor: a constructor that throws leaves nothing behind either
   ~Impl() { release(); }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
 
   void open(int width, int height, double fps) {
     const std::string what = "cannot write " + output.string();
@@ -178,8 +194,8 @@ struct VideoEncoder::Impl {
     if (!coder) throw RenderError(what + ": this libavcodec has no " + name);
     check(avformat_alloc_output_context2(&format, nullptr, lossless ? "matroska" : "mp4", url(part->path().string()).c_str()),
           what);
-    stream = avformat_new_stream(format, nullptr);
-    codec = avcodec_alloc_context3(coder);
+    stream = allocated(avformat_new_stream(format, nullptr));
+    codec = allocated(avcodec_alloc_context3(coder));
     codec->width = width;
     codec->height = height;
     codec->pix_fmt = lossless ? AV_PIX_FMT_BGR0 : AV_PIX_FMT_YUV420P;
@@ -196,27 +212,27 @@ struct VideoEncoder::Impl {
     if (lossless) {
       codec->level = 3;  // slices with checksums: a damaged frame is known as such
       codec->slices = 4;
-      av_opt_set_int(codec->priv_data, "slicecrc", 1, 0);
+      check(av_opt_set_int(codec->priv_data, "slicecrc", 1, 0), what);
     } else {
-      av_opt_set(codec->priv_data, "preset", "veryfast", 0);
-      av_opt_set(codec->priv_data, "crf", "20", 0);
+      check(av_opt_set(codec->priv_data, "preset", "veryfast", 0), what);
+      check(av_opt_set(codec->priv_data, "crf", "20", 0), what);
       // half the work at the same structural similarity, for files an eighth larger; and every frame follows the one before
       codec->me_subpel_quality = 1;
       codec->max_b_frames = 0;
-      av_opt_set(codec->priv_data, "motion-est", "dia", 0);
-      av_opt_set(codec->priv_data, "weightp", "none", 0);
+      check(av_opt_set(codec->priv_data, "motion-est", "dia", 0), what);
+      check(av_opt_set(codec->priv_data, "weightp", "none", 0), what);
     }
     check(avcodec_open2(codec, coder, nullptr), what);
     check(avcodec_parameters_from_context(stream->codecpar, codec), what);
     stream->time_base = codec->time_base;
     stream->avg_frame_rate = rate;
     write_header(what);
-    frame = av_frame_alloc();
+    frame = allocated(av_frame_alloc());
     frame->format = codec->pix_fmt;
     frame->width = width;
     frame->height = height;
     check(av_frame_get_buffer(frame, 0), what);
-    packet = av_packet_alloc();
+    packet = allocated(av_packet_alloc());
   }
 
   void write_header(const std::string& what) {
@@ -224,11 +240,11 @@ struct VideoEncoder::Impl {
     AVDictionary* options = nullptr;
     if (lossless) {                          // written in one go; an MP4 gets these when it is rewritten with its index in front
       format->flags |= AVFMT_FLAG_BITEXACT;  // no random identifiers: equal films, equal files
-      for (const auto& [key, value] : metadata) av_dict_set(&format->metadata, key.c_str(), value.c_str(), 0);
+      for (const auto& [key, value] : metadata) set(format->metadata, key.c_str(), value);
       add_chapters(format, story);
       subtitles = add_subtitle_stream(format, story, false);
     } else {
-      av_dict_set(&options, "movflags", "frag_keyframe+empty_moov", 0);
+      set(options, "movflags", "frag_keyframe+empty_moov");
     }
     check(avio_open(&format->pb, url(part->path().string()).c_str(), AVIO_FLAG_WRITE), what);
     check(avformat_write_header(format, &options), what);
@@ -281,7 +297,6 @@ struct VideoEncoder::Impl {
 VideoEncoder::VideoEncoder(const std::filesystem::path& output, int width, int height, double fps,
                            const std::map<std::string, std::string>& metadata, const Story& story)
     : impl_(std::make_unique<Impl>()) {
-  load_libav();  // first: what is given up below is released by it
   Impl& m = *impl_;
   m.lossless = output.extension() == ".mkv";
   if (!m.lossless && (width % 2 || height % 2))
