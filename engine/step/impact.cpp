@@ -29,8 +29,8 @@ bool choose_members(StepContext& s, const std::vector<int>& island) {
   s.buffers.members.clear();
   for (const int i : island) {
     Constraint& c = s.constraints[i];
-    if (c.kind == ConstraintKind::wheel || c.gap > touching) continue;
-    const bool closing = is_contact(c) && c.u_before[0] < -v_impact, instant = is_instant(s.world, c);
+    if (c.kind == ConstraintKind::wheel || c.gap > touching) continue;  // closed loops have no gap: they take part
+    const bool closing = c.u_before[0] < -v_impact, instant = is_instant(s.world, c);
     if (placing && closing && instant && c.gap > kTogether) continue;
     s.buffers.members.push_back(i);
     any = any || (closing && instant);
@@ -108,7 +108,9 @@ void exchange(StepContext& s) {
 }  // namespace
 
 bool is_instant(const World& world, const Constraint& c) {
-  if (!is_contact(c) || is_compliant(c)) return false;
+  if (is_compliant(c)) return false;
+  if (c.kind == ConstraintKind::limit) return world.model.bodies[c.record_a].person < 0;
+  if (!is_contact(c)) return false;
   return c.restitution > 0 || is_between_free(world, c);
 }
 

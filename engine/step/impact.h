@@ -10,8 +10,8 @@ namespace engine {
 /// Told of impulses that have been exchanged: the conditions, the time, and over how long (0: an instant) [s].
 using OnImpulses = std::function<void(const std::vector<Constraint>&, double time, double duration)>;
 
-/// Is the touch of these surfaces an instant, with an exchange of impulses of its own? One that rebounds is, and a free body's
-/// landing. Parts of persons and vehicles that do not rebound lie down within a step: there are many of them.
+/// Is the touch of these surfaces an instant, with an exchange of impulses of its own? One that rebounds is, a free body's landing,
+/// and the end of a joint's range. Parts of persons and vehicles that do not rebound lie down within a step: there are many.
 bool is_instant(const World&, const Constraint&);
 
 /// Between bodies by themselves, or one and what is fixed.

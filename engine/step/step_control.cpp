@@ -109,12 +109,28 @@ double StepControl::cut_at_impact(const StepContext& s) {
   return taken;
 }
 
+/// An impact that the speeds at the start did not foretell: a force brought it about within the step. Of several the deepest.
+bool StepControl::find_crossing(const StepContext& s) {
+  if (!placing_) return false;
+  double deepest = -kPlaced;
+  for (const Constraint& c : s.buffers.end_contacts) {
+    if (c.gap >= deepest || !is_instant(world_, c) || row_velocity(c, s.end.V_WB)[0] > -impact_speed(s)) continue;
+    const auto& before = state_.contacts.list;
+    const auto same = std::find_if(before.begin(), before.end(), [&](const Constraint& b) { return b.key == c.key; });
+    if (same != before.end() && same->gap <= kPlaced) continue;
+    deepest = c.gap;
+    striking_ = c.key;
+    cut_ = true;
+  }
+  return cut_;
+}
+
 /// A cut step ends where the surfaces would touch if they closed as fast as at its start. One that ends short of the touch or
 /// beyond it by more than rounding is taken again, by Newton's rule on its length.
 Verdict StepControl::place_impact(const StepContext& s) {
   constexpr int kMostPlacings = 4;
   constexpr double kNear = 0.1 * kPlaced;
-  if (!cut_ || placings_ == kMostPlacings) return {};
+  if (placings_ == kMostPlacings || !(cut_ || find_crossing(s))) return {};
   const auto& found = s.buffers.end_contacts;
   const auto strikes = std::find_if(found.begin(), found.end(), [this](const Constraint& c) { return c.key == striking_; });
   if (strikes == found.end() || std::abs(strikes->gap) <= kNear) return {};

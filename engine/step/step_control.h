@@ -47,6 +47,7 @@ class StepControl {
 
  private:
   Verdict end_run(int body, const char* effect, const char* message);
+  bool find_crossing(const StepContext&);
   Verdict place_impact(const StepContext&);
   Verdict place_slip_end(const StepContext&);
 
