@@ -131,7 +131,8 @@ void add_contact(ContactSearch& search, const PairKind& kind, const SurfaceConta
   if (c.body_a < 0 && c.body_b < 0) return;
   c.record_a = a;
   c.record_b = b;
-  c.friction = surfaces.friction;
+  c.rolls = touch.rolls;
+  c.friction = c.rolls ? 0 : surfaces.friction;
   c.restitution = surfaces.restitution;
   const bool compliant = yields_between(world.model, a, b);
   if (compliant) set_stiffness(c, world.model, search.at, touch);

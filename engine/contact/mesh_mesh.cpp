@@ -6,7 +6,7 @@ namespace engine {
 namespace {
 
 constexpr double kFarther = 0.01;     // [m] a point so much deeper than the way since allows came from behind
-constexpr double kUnderWheel = 0.75;  // [-] cosine to the vehicle's up axis: other meshes nearer to level carry no wheel
+constexpr double kUnderWheel = 0.75;  // [-] cosine to the vehicle's up axis: a wheel rolls on what is nearer to level
 
 /// Where the boxes of a pair meet; nothing if a step cannot bring them together.
 std::optional<Aabb> shared_box(const Outlook& outlook, std::size_t which, double margin) {
@@ -40,6 +40,7 @@ Touches touches_between<ShapeKind::mesh, ShapeKind::mesh>(const Outlook& outlook
                      .X_WM = at.X_WB[pair.b] * shape.X_BM,
                      .within = *within,
                      .rolls = kUnderWheel,
+                     .is_road = false,
                      .least = clearance.by_now(X_AB, world.reach[high]) - kFarther},
                     margin);
   clearance = {0, X_AB};

@@ -159,7 +159,8 @@ void touch_with_points(const Outlook& outlook, int body, const std::vector<Surfa
       if (c.gap >= margin) continue;
       c.p_b = p - c.gap * Vec3::UnitZ();
     }
-    if (points[i].wheel >= 0 && c.normal.dot(up) > target.rolls) continue;
+    c.rolls = points[i].wheel >= 0 && c.normal.dot(up) > target.rolls;
+    if (c.rolls && target.is_road) continue;
     out.push_back(c);
   }
   keep_spread(out, static_cast<std::size_t>(world.model.settings.contacts_per_pair));

@@ -39,7 +39,8 @@ struct PointTarget {
   Pose X_WM = {};
   double height = 0;                                        // [m]
   Aabb within = {};                                         // what is outside of this box is not looked at
-  double rolls = 0;                                         // [-] of wheels only with what is steeper to the up axis than this
+  double rolls = 0;                                         // [-] cosine to the up axis: a wheel rolls on what is nearer to level
+  bool is_road = true;                                      // its tyre carries a wheel that rolls there
   double least = -std::numeric_limits<double>::infinity();  // [m] what has a smaller gap is not met
 };
 

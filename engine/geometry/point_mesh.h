@@ -22,7 +22,7 @@ std::optional<NearestSurface> nearest_surface(const TriangleMesh&, const Vec3& p
 /// Point of the triangle a, b, c nearest to p.
 Vec3 nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Vertices of a mesh, thinned to the one farthest out in each cube of side `spacing` [m].
+/// Vertices of a mesh and points of its long edges, thinned to the one farthest out in each cube of side `spacing` [m].
 std::vector<Vec3> representative_points(const TriangleMesh&, double spacing);
 
 /// Of many contacts of one pair: the deepest and those farthest from what is chosen already, at most `most`. In place.

@@ -16,6 +16,7 @@ struct SurfaceContact {
   double gap = 0;               // [m] (p_a - p_b).normal; negative = penetration depth
   std::uint32_t key = 0;        // names the feature (quadrant, triangle cluster ...) so that warm starts find it again
   double share_across = 0.5;    // where flat sides leave p_a and p_b aside of each other: share of that way the contact lies at
+  bool rolls = false;           // a wheel of a on its tread: no friction
   double lifted = 0;            // [m] a corner of a flat side that carries for its deepest point: how far it stands above that
 };
 

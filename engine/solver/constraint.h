@@ -19,6 +19,7 @@ struct Constraint {
   ConstraintKind kind = ConstraintKind::contact;
   int rows = 3;
   bool slides = false;  // limit: the end of a slide [m], not of a turn [rad]
+  bool rolls = false;   // contact: of a wheel on its tread, without friction
   int body_a = -1;      // -1: the world
   int body_b = -1;
   Eigen::Matrix<double, 3, 6, Eigen::RowMajor> J_a = Eigen::Matrix<double, 3, 6>::Zero();  // first `rows` rows
@@ -57,9 +58,9 @@ struct Constraint {
   /// What a contact or limit is when it is found; the rest is of the step that solves it.
   template <class S>
   static auto fields(S& s) {
-    return std::tie(s.kind, s.rows, s.slides, s.body_a, s.body_b, s.J_a, s.J_b, s.point, s.frame, s.gap, s.friction, s.ploughing,
-                    s.restitution, s.stiffness, s.hysteresis, s.room, s.struck_mass, s.share_a, s.thickness, s.free_response,
-                    s.whole_response, s.key, s.effect, s.shapes, s.record_a, s.record_b);
+    return std::tie(s.kind, s.rows, s.slides, s.rolls, s.body_a, s.body_b, s.J_a, s.J_b, s.point, s.frame, s.gap, s.friction,
+                    s.ploughing, s.restitution, s.stiffness, s.hysteresis, s.room, s.struck_mass, s.share_a, s.thickness,
+                    s.free_response, s.whole_response, s.key, s.effect, s.shapes, s.record_a, s.record_b);
   }
 };
 

@@ -96,7 +96,7 @@ void drop_open_conditions(StepContext& s) {
 void take_mean_friction(StepContext& s) {
   const Model& model = s.world.model;
   for (Constraint& c : s.constraints) {
-    if (!is_contact(c) || c.record_a < 0) continue;
+    if (!is_contact(c) || c.record_a < 0 || c.rolls) continue;
     const Twist& V = s.state.V_WB[c.record_a];
     const StepWay way{c.point, V.v + V.w.cross(c.point - s.state.X_WB[c.record_a].p), s.state.time, s.length};
     const Body& body = model.bodies[c.record_a];

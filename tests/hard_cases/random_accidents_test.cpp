@@ -141,21 +141,20 @@ TEST_P(RandomAccidents, SayThatTheyAreRight) {
       100 * unexplained, 1e3 * depth, 1e3 * crush, gap, angle, residual);
 }
 
-// One that goes beyond the bounds above.
+// One that goes beyond the bounds above: the tyre of a fallen bicycle gives energy it has not.
 TEST(RandomAccident, SaysWhereItFallsShort) {
-  for (const unsigned seed : {184U, 244U}) {
-    const scenes::testing::SceneFolder folder;
-    const engine::Recording it = engine::simulate(folder.load(accident(seed, kLaws[0].name)).model);
-    const auto& d = it.diagnostics;
-    const auto told = [&](const char* words) {
-      return std::any_of(d.warnings.begin(), d.warnings.end(),
-                         [&](const std::string& w) { return w.find(words) != std::string::npos; });
-    };
-    EXPECT_FALSE(d.warnings.empty()) << seed << " holds by now: take another that does not";
-    EXPECT_EQ(told("deg beyond its range"), degrees(d.max_joint_angle_error) > 0.5) << seed;
-    EXPECT_EQ(told("were solved to"), d.max_solver_residual > 1e-3) << seed;
-    EXPECT_TRUE(told("mm inside") || deepest(it, false) < 2e-3) << seed;  // snapshots do not see every step
-  }
+  constexpr unsigned kSeed = 214;
+  const scenes::testing::SceneFolder folder;
+  const engine::Recording it = engine::simulate(folder.load(accident(kSeed, kLaws[0].name)).model);
+  const auto& d = it.diagnostics;
+  const auto told = [&](const char* words) {
+    return std::any_of(d.warnings.begin(), d.warnings.end(),
+                       [&](const std::string& w) { return w.find(words) != std::string::npos; });
+  };
+  EXPECT_TRUE(told("has none to give")) << "it holds by now: take another that does not";
+  EXPECT_EQ(told("deg beyond its range"), degrees(d.max_joint_angle_error) > 0.5);
+  EXPECT_EQ(told("were solved to"), d.max_solver_residual > 1e-3);
+  EXPECT_TRUE(told("mm inside") || deepest(it, false) < 2e-3);  // snapshots do not see every step
 }
 
 }  // namespace
