@@ -35,20 +35,29 @@ Constraint seen_from_below(const Constraint& wheel) {
   return c;
 }
 
-/// Fastest body of a tree, by what counts as still.
-double motion_of(const World& world, const State& state, std::size_t tree) {
+/// Fastest body of a tree among those wanted, by what counts as still.
+template <class Wanted>
+double motion_of(const World& world, const State& state, std::size_t tree, const Wanted& wanted) {
   double motion = 0;
   for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
-    const Twist& V = state.V_WB[world.topology.links[l].body];
+    const int b = world.topology.links[l].body;
+    if (!wanted(b)) continue;
+    const Twist& V = state.V_WB[b];
     motion = std::max({motion, V.v.norm() / kStillSpeed, V.w.norm() / kStillTurn});
   }
   return motion;
+}
+
+double motion_of(const World& world, const State& state, std::size_t tree) {
+  return motion_of(world, state, tree, [](int) { return true; });
 }
 
 }  // namespace
 
 Recorder::Recorder(const World& world, const State& state)
     : still_since_(world.topology.trees.size(), -1),
+      rest_since_(world.topology.trees.size(), -1),
+      has_trunk_(world.topology.trees.size(), 0),
       halted_(world.topology.trees.size(), 0),
       motion_(world.topology.trees.size(), 0),
       step_motion_(world.topology.trees.size(), 0),
@@ -70,6 +79,9 @@ Recorder::Recorder(const World& world, const State& state)
       const double lowest = state.X_WB[b].p.z() - aabb_half_widths(*shape, state.X_WB[b].q).z();
       lying_[p] = lying_[p] || lowest - world.model.ground.height < 0.02;
     }
+  for (std::size_t t = 0; t < has_trunk_.size(); ++t)
+    for (int l = world.topology.trees[t].begin; l < world.topology.trees[t].end; ++l)
+      has_trunk_[t] = has_trunk_[t] || trunk_[world.topology.links[l].body];
 }
 
 void Recorder::keep(const World& world, const State& state) {
@@ -147,7 +159,7 @@ void Recorder::tally(const World& world, const std::vector<Constraint>& conditio
 }
 
 void Recorder::tally_contact(const World& world, const Constraint& c, double time, double duration) {
-  watch_events(world, c, time);
+  watch_events(world, c, time - duration);  // the push began with the step
   if (c.impulse[0] <= 0 && c.gap > 0) return;
   if (is_compliant(c)) watch_compression(c, time, duration);
   auto at = std::lower_bound(tallies_.begin(), tallies_.end(), c.key, [](const Tally& t, std::uint64_t k) { return t.key < k; });
@@ -166,6 +178,7 @@ void Recorder::tally_contact(const World& world, const Constraint& c, double tim
   if (r.state != ContactState::impact || r.normal_impulse == 0) r.state = state;
   r.normal_impulse += c.impulse[0];
   r.tangential_impulse += math::hypot(c.impulse[1], c.impulse[2]);
+  r.friction_limit += c.friction * c.impulse[0];
   r.energy_lost -= 0.5 * c.impulse.dot(c.u_before + c.u_after);
   at->impulse += c.frame * c.impulse;
   at->duration += duration;
@@ -225,15 +238,22 @@ void Recorder::watch_halt(const World& world, const State& state) {
 
 void Recorder::watch_rest(const World& world, const State& state, double since) {
   for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
-    const double motion = motion_of(world, state, t);
-    if (!(motion < 1)) {
+    const double any = motion_of(world, state, t);
+    if (!(any < 1))
       still_since_[t] = -1;
-    } else if (still_since_[t] < 0) {
+    else if (still_since_[t] < 0)
       still_since_[t] = state.time;
+    // a person rests with its trunk, while a foot may go on sinking for seconds
+    const double motion = has_trunk_[t] ? motion_of(world, state, t, [this](int b) { return trunk_[b] != 0; }) : any;
+    if (!(motion < 1)) {
+      rest_since_[t] = -1;
+    } else if (rest_since_[t] < 0) {
+      rest_since_[t] = state.time;
       // it slows down as it has since the instant before: that is when it stops, and not at the first instant it is slow
-      const double slowing = since > 0 ? (motion_[t] - motion) / since : 0;
-      const bool seen = since > 0 && halted_[t] > state.time - since;  // step by step
-      if (!seen) halted_[t] = state.time + (slowing > 0 ? std::min(motion / slowing, kStillTime) : 0);
+      const double slowing = since > 0 && !has_trunk_[t] ? (motion_[t] - motion) / since : 0;
+      const bool seen = since > 0 && halted_[t] > state.time - since;   // step by step
+      const double wait = slowing > 0 ? motion / slowing : kStillTime;  // long where it rocks or creeps: not by this slowing
+      if (!seen) halted_[t] = state.time + (wait < kStillTime ? wait : 0);
     }
     motion_[t] = motion;
   }

@@ -49,6 +49,8 @@ class Recorder {
 
   std::vector<Tally> tallies_;       // sorted by key
   std::vector<double> still_since_;  // [s] per tree, negative: moving
+  std::vector<double> rest_since_;   // [s] the same of its trunk, if it has one
+  std::vector<char> has_trunk_;      // per tree
   std::vector<double> halted_;       // [s] per tree: when it stopped, between recorded instants
   std::vector<double> motion_;       // [-] per tree at the last snapshot: fastest body by what counts as still
   std::vector<double> step_motion_;  // [-] the same at the last step, of trees of one body

@@ -65,11 +65,12 @@ void Recorder::warn_of_shortfalls(const World& world, std::vector<std::string>& 
 
 void Recorder::finish(const World& world, const State& state, Recording& recording) {
   for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
-    if (still_since_[t] < 0 || state.time - still_since_[t] < 0.9 * kStillTime) continue;
+    if (rest_since_[t] < 0 || state.time - rest_since_[t] < 0.9 * kStillTime) continue;
     const int root = world.topology.links[world.topology.trees[t].end - 1].body;
     const int person = world.model.bodies[root].person;
     if (person >= 0 && !state.released[person]) continue;
-    events_.push_back({std::min(halted_[t], state.time), "rest", root, -1, state.X_WB[root].p, 0});
+    const double time = std::min(halted_[t], state.time);
+    events_.push_back({time, "rest", root, -1, recording.at(time).bodies[root].X_WB.p, 0});
   }
   recording.events = world.log.events;
   recording.events.insert(recording.events.end(), events_.begin(), events_.end());

@@ -36,6 +36,7 @@ struct ContactRecord {
   double tangential_force = 0;    // [N]
   double normal_impulse = 0;      // [N s] since the snapshot before
   double tangential_impulse = 0;  // [N s] sum of magnitudes
+  double friction_limit = 0;      // [N s] most that friction could have made of them, with what a dent adds
   Vec3 impulse = Vec3::Zero();    // [N s] on a, world, since the snapshot before: the sum of vectors, which may turn meanwhile
   double energy_lost = 0;         // [J] since the snapshot before: minus the work of the impulse on both. Deformation and friction;
                                   // what is elastic comes back

@@ -65,8 +65,8 @@ render::PersonFacts facts_of(const engine::Model& model, const engine::Recording
   } else {
     facts.rest = engine::rest_of(model, recording, {index, -1, person.bodies});
   }
-  constexpr const char* kShown[] = {"throw_distance_m",      "contact_m", "carried_m", "airborne_m", "landing_m", "slide_m",
-                                    "wrap_around_distance_m"};
+  constexpr const char* kShown[] = {"throw_distance_m", "contact_m", "carried_m", "airborne_m",
+                                    "fall_m",           "landing_m", "slide_m",   "wrap_around_distance_m"};
   for (const char* key : kShown)
     for (const engine::Metric& m : metrics)
       if (m.key == key && m.object == person.name) facts.dimensions.emplace_back(engine::definition_of(key)->title, m.value);

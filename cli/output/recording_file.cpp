@@ -25,7 +25,8 @@ auto fields(Is<engine::BodyState> auto& s) {
 }
 auto fields(Is<engine::ContactRecord> auto& c) {
   return std::tie(c.shapes, c.body_a, c.body_b, c.point, c.normal, c.depth, c.force, c.normal_force, c.tangential_force,
-                  c.normal_impulse, c.tangential_impulse, c.impulse, c.energy_lost, c.slip, c.begun, c.state, c.exchange);
+                  c.normal_impulse, c.tangential_impulse, c.friction_limit, c.impulse, c.energy_lost, c.slip, c.begun, c.state,
+                  c.exchange);
 }
 auto fields(Is<engine::WheelRecord> auto& w) {
   return std::tie(w.vehicle, w.wheel, w.hub, w.contact, w.steer, w.spin, w.load, w.longitudinal, w.lateral, w.slip);

@@ -271,6 +271,26 @@ Json summary_json(const scenes::Scene& scene, const engine::Recording& recording
 
 namespace {
 
+/// As many digits as the measure bears: the rest of a number that hangs on stances and panels is noise. What a free body does is
+/// exact to the step and keeps six.
+std::string digits_of(const engine::Metric& metric, const engine::Definition* known) {
+  const std::string unit = known ? known->unit : "", key = metric.key;
+  if (key == "travel_m" || key == "turned_deg" || key == "rebound_height_m" || !known) return fmt::format("{:.6g}", metric.value);
+  if (unit == "s") return fmt::format("{:.3f}", metric.value);
+  if (unit == "deg") return fmt::format("{:.1f}", metric.value);
+  if (unit == "g" || key.starts_with("hic")) return fmt::format("{:.0f}", metric.value);
+  return fmt::format("{:.2f}", metric.value);
+}
+
+/// Beside a criterion that the road decided: one fall of many that could have been.
+const char* scattered(const engine::Metric& metric, const std::vector<engine::Metric>& all) {
+  if (metric.key != "hic15" && metric.key != "hic15_ground") return "";
+  const bool by_vehicle = std::any_of(all.begin(), all.end(), [&](const engine::Metric& m) {
+    return m.key == "hic15_vehicle" && m.object == metric.object && m.value >= metric.value;
+  });
+  return metric.key == "hic15" && by_vehicle ? "" : ", of the road: scatters widely";
+}
+
 /// Beside a way to rest of who does not rest yet: a longer run gives another number.
 const char* unfinished(const engine::Metric& metric, const std::vector<engine::AbsentMetric>& absent) {
   const bool to_rest = metric.key == "throw_distance_m" || metric.key == "slide_m";
@@ -295,7 +315,7 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
     const engine::Definition* known = engine::definition_of(metric.key);
     if (known && !known->main) continue;
     line(metric.object.empty() ? metric.key : metric.key + " " + metric.object,
-         metric.text.empty() ? fmt::format("{:.6g}{}", metric.value, unfinished(metric, absent)) : metric.text);
+         metric.text.empty() ? digits_of(metric, known) + scattered(metric, metrics) + unfinished(metric, absent) : metric.text);
   }
   std::string missing;
   for (const engine::AbsentMetric& a : absent)

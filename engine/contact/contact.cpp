@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -38,24 +39,26 @@ bool is_head(const Model& model, int body) {
   return is_part(model, body) && model.persons[model.bodies[body].person].head == body;
 }
 
+/// What a part of a person meets of a vehicle.
+std::optional<Panel> panel_met(const Model& model, const Motion& at, const SurfaceContact& touch, int a, int b) {
+  const auto* mesh = is_part(model, a) && b >= 0 ? std::get_if<MeshShape>(&model.bodies[b].shape) : nullptr;
+  if (!mesh || !mesh->panels) return std::nullopt;
+  const Pose X_MW = (at.X_WB[b] * mesh->X_BM).inverse();
+  return panel_at(*mesh->mesh, *mesh->panels, X_MW * touch.p_b, X_MW.q * touch.normal);
+}
+
 /// S of both surfaces [N/m]. To a person a vehicle is what the panel it meets is, unless the scene gives a stiffness of its own.
-std::pair<double, double> stiffnesses(const Model& model, const Motion& at, const SurfaceContact& touch, int a, int b) {
+std::pair<double, double> stiffnesses(const Model& model, double time, const std::optional<Panel>& panel, int a, int b) {
   const auto surface = [&](int body) -> const SurfaceProperties& {
     return body >= 0 ? model.bodies[body].surface : model.ground.surface;
   };
-  const auto own = [&](int body) { return surface(body).stiffness.at(at.time); };
-  double S_b = own(b);
-  const auto* mesh = is_part(model, a) && b >= 0 ? std::get_if<MeshShape>(&model.bodies[b].shape) : nullptr;
-  if (mesh && mesh->panels && !surface(b).stiffness_given) {
-    const Pose X_MW = (at.X_WB[b] * mesh->X_BM).inverse();
-    S_b = stiffness_of(panel_at(*mesh->mesh, *mesh->panels, X_MW * touch.p_b, X_MW.q * touch.normal));
-  }
-  return {own(a), S_b};
+  const auto own = [&](int body) { return surface(body).stiffness.at(time); };
+  return {own(a), panel && !surface(b).stiffness_given ? stiffness_of(*panel) : own(b)};
 }
 
 /// Both surfaces of a compliant contact as springs in series. They share the depth by depth_a S_a = depth_b S_b, eq. (81).
-void set_stiffness(Constraint& c, const Model& model, const Motion& at, const SurfaceContact& touch) {
-  const auto [S_a, S_b] = stiffnesses(model, at, touch, c.record_a, c.record_b);
+void set_stiffness(Constraint& c, const Model& model, double time, const std::optional<Panel>& panel) {
+  const auto [S_a, S_b] = stiffnesses(model, time, panel, c.record_a, c.record_b);
   c.stiffness = stiffness_in_series(S_a, S_b);
   c.hysteresis = c.restitution;
   c.restitution = 0;
@@ -65,16 +68,21 @@ void set_stiffness(Constraint& c, const Model& model, const Motion& at, const Su
       c.thickness = std::min(c.thickness, 2 * shape->semi_axes.minCoeff());
 }
 
-/// Half of the thinner part along the normal is what the two can give way by; into a panel a little less than by
-/// which its centre may pass before the part is taken for having gone through. Only where persons alone yield.
-void set_room(Constraint& c, const World& world, const Motion& at) {
+/// Half of the thinner part along the normal is what the two can give way by; into a panel a little less than by which the
+/// part's centre may pass: three quarters of a head's half thickness into sheet metal, which has something behind it, and all of
+/// it into a pane, which has not until the head is through. Only where persons alone yield.
+void set_room(Constraint& c, const World& world, const Motion& at, const std::optional<Panel>& panel) {
+  constexpr double kIntoMetal = 0.75;  // [-] of the half thickness
   if (world.model.settings.contact_law != ContactLaw::persons_yield) return;
   c.room = std::numeric_limits<double>::infinity();
   for (const int body : {c.record_a, c.record_b}) {
     const auto* part = is_part(world.model, body) ? std::get_if<HyperEllipsoid>(&world.model.bodies[body].shape) : nullptr;
     if (part) c.room = std::min(c.room, support_value(*part, at.X_WB[body].q.conjugate() * c.frame.col(0)));
   }
-  if (c.shapes.on_vehicle()) c.room *= 0.9 * (1 + may_pass(world.model, c.record_a));
+  if (c.shapes.on_vehicle()) {
+    const double most = may_pass(world.model, c.record_a);
+    c.room *= 0.9 * (1 + (panel && is_glass(*panel) ? most : std::min(most, kIntoMetal)));
+  }
   c.struck_mass = 1 / c.free_response;
 }
 
@@ -135,7 +143,8 @@ void add_contact(ContactSearch& search, const PairKind& kind, const SurfaceConta
   c.friction = c.rolls ? 0 : surfaces.friction;
   c.restitution = surfaces.restitution;
   const bool compliant = yields_between(world.model, a, b);
-  if (compliant) set_stiffness(c, world.model, search.at, touch);
+  const std::optional<Panel> panel = compliant ? panel_met(world.model, search.at, touch, a, b) : std::nullopt;
+  if (compliant) set_stiffness(c, world.model, search.at.time, panel);
   const Vec3 way = touch.p_b - touch.p_a, along = way.dot(touch.normal) * touch.normal;
   c.point = touch.p_a + c.share_a * along + touch.share_across * (way - along);
   const Vec3 t1 = touch.normal.unitOrthogonal();
@@ -148,7 +157,7 @@ void add_contact(ContactSearch& search, const PairKind& kind, const SurfaceConta
   c.key = key_of(touch, a, b, effect);
   c.effect = effect;
   c.shapes = kind.shapes;
-  if (compliant) set_room(c, world, search.at);
+  if (compliant) set_room(c, world, search.at, panel);
   if (compliant) set_ploughing(c, world, search.at);
   search.found.push_back(c);
 }
@@ -174,7 +183,7 @@ void share_stiffness(ContactSearch& search, std::size_t first) {
 
 double may_pass(const Model& model, int body) {
   const bool into_panel = model.settings.contact_law == ContactLaw::persons_yield && is_head(model, body);
-  return into_panel ? 0.75 : 0.25;
+  return into_panel ? 1.0 : 0.25;
 }
 
 void add_contacts(ContactSearch& search, const PairKind& kind, const ContactPair& pair, int effect) {

@@ -98,9 +98,9 @@ SurfacePairing mixed_surfaces(const Model&, int a, int b, const Vec3& point, dou
 /// Has the contacts of a pair found and appends them, rows and all. None of what waits or sleeps: those effects watch.
 void add_contacts(ContactSearch&, const PairKind&, const ContactPair&, int effect);
 
-/// By how much of its half thickness [-] the centre of a part may come to lie behind the panel it is pressed into. Mostly a
-/// quarter: it is the part that gives way. It is the panel that does under a head that yields hardly at all, by 12 to 19 cm at
-/// most.
+/// By how much of its half thickness [-] the centre of a part may come to lie behind the panel it is pressed into before it is
+/// taken for having gone through. Mostly a quarter: it is the part that gives way. It is the panel that does under a head that
+/// yields hardly at all: until the head is wholly behind it.
 double may_pass(const Model&, int body);
 
 }  // namespace engine

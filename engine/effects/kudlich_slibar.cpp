@@ -144,7 +144,7 @@ class ImpulseThroughJoints {
 };
 
 void record(World& world, const ImpactPair& pair, const State& state, const Vec3& point, const Vec3& normal,
-            const PlaneImpact& impact, double closing) {
+            const PlaneImpact& impact, double closing, double friction) {
   ContactRecord c;
   c.shapes = {ShapeKind::mesh, ShapeKind::mesh};
   c.body_a = pair.a;
@@ -155,6 +155,7 @@ void record(World& world, const ImpactPair& pair, const State& state, const Vec3
   c.impulse = impact.impulse;
   c.normal_impulse = impact.impulse.dot(normal);
   c.tangential_impulse = (impact.impulse - c.normal_impulse * normal).norm();
+  c.friction_limit = friction * c.normal_impulse;
   c.energy_lost = impact.energy_lost;
   c.exchange = true;
   c.begun = state.time;
@@ -274,7 +275,7 @@ class KudlichSlibar final : public EffectWith<ImpactMemory> {
         state.V_WB[body].w += through.change(body).tail<3>();
       }
     state.energy.dissipated[self_] += impact.energy_lost;
-    record(world, pair, state, point, normal, impact, -u.dot(normal));
+    record(world, pair, state, point, normal, impact, -u.dot(normal), mu);
     ++progress.exchanges;
   }
 

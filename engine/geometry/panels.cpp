@@ -49,6 +49,10 @@ double stiffness_of(Panel panel) {
   return kPanels[static_cast<std::size_t>(panel)].stiffness;
 }
 
+bool is_glass(Panel panel) {
+  return panel == Panel::windscreen || panel == Panel::side_window || panel == Panel::rear_window;
+}
+
 Panel panel_at(const TriangleMesh& mesh, const Panels& panels, const Vec3& point, const Vec3& normal) {
   constexpr double kNear = 0.1;             // [m]
   constexpr double kFacing = 0.25;          // [-] a contact on an edge faces between its two sides

@@ -34,6 +34,9 @@ using Panels = std::vector<Panel>;
 /// same tests, and the other panels are estimates.
 double stiffness_of(Panel);
 
+/// A pane: it gives way until a head has gone through it whole. Behind sheet metal lies something before that.
+bool is_glass(Panel);
+
 /// The panel nearest to `point` among triangles that face like `normal` (mesh frame, unit); unknown where there is none within 0.1
 /// m.
 Panel panel_at(const TriangleMesh&, const Panels&, const Vec3& point, const Vec3& normal);

@@ -25,7 +25,8 @@ class Absences {
 void absent_throw(const Model& model, const Recording& recording, int p, Absences& absent) {
   const std::string& name = model.persons[p].name;
   const auto t = throw_of_person(model, recording, p);
-  absent.note("rest_s", name, "still moving when the run ends");
+  const bool moves = velocity_of(model, {p, -1, model.persons[p].bodies}, recording.snapshots.back()).norm() > 0;
+  absent.note("rest_s", name, t || moves ? "still moving when the run ends" : "nothing touched it: it stands as it stood");
   if (!t) {
     absent.note("throw_distance_m", name, "no vehicle touched it");
     return;
@@ -35,6 +36,8 @@ void absent_throw(const Model& model, const Recording& recording, int p, Absence
   absent.note("carried_m", name, "never as fast as the vehicle while it pushed");
   const char* reason = t->landed ? "never off vehicle and ground for 50 ms before it landed" : "it did not land";
   absent.note("airborne_m", name, reason);
+  const char* flew = t->flew ? "it flew for 50 ms or more" : "a vehicle pushed it until it landed";
+  absent.note("fall_m", name, t->landed ? flew : "it did not land");
   absent.note("landing_m", name, "it did not land");
   absent.note("slide_m", name, "it did not land");
 }
@@ -67,6 +70,11 @@ std::vector<AbsentMetric> absent_metrics(const Model& model, const Recording& re
   for (const Vehicle& v : model.vehicles) {
     absent.note("rest_x_m", v.name, "still moving when the run ends");
     absent.note("delta_v_mps", v.name, "no impact");
+    const bool struck =
+        std::any_of(there.begin(), there.end(), [&](const Metric& m) { return m.key == "delta_v_mps" && m.object == v.name; });
+    if (struck)
+      absent.note("ees_mps", v.name,
+                  "no collision with a vehicle or object; or one with or of a two-wheeler, and nobody told the stiffnesses apart");
   }
   return absent.out;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/geometry/hyper_ellipsoid_mesh.h"
+#include "engine/measure/parties.h"
 
 namespace engine {
 namespace {
@@ -120,7 +121,8 @@ std::optional<Approach> of_vehicles(const Model& model, const Recording& recordi
   for (std::size_t i = 0; i < outlines.size(); ++i)
     for (std::size_t k = i + 1; k < outlines.size(); ++k) {
       const int a = outlines[i].first, b = outlines[k].first;
-      if (jointed(model, a, b)) continue;
+      const std::vector<int> train = joined_for_good(model, {a});
+      if (std::find(train.begin(), train.end(), b) != train.end()) continue;
       for (const Snapshot& s : recording.snapshots) {
         const auto at_a = placed(outlines[i].second, s.bodies[a].X_WB), at_b = placed(outlines[k].second, s.bodies[b].X_WB);
         const double d = std::min(apart(at_a, at_b), apart(at_b, at_a));

@@ -41,11 +41,17 @@ constexpr Definition kDefinitions[] = {
     {"airborne_m", "m", "airborne",
      "Distance of the phase flight: from the last push of a vehicle to landing, if for 50 ms or more neither touched.",
      "the person did not land, or was never off vehicle and ground for 50 ms before", kPhase, true},
+    {"fall_m", "m", "fall",
+     "Distance of the phase fall, in place of a flight: from the last push of a vehicle to landing, if a hand, a foot or the "
+     "vehicle touched again within 50 ms.",
+     "the person flew for 50 ms or more, was pushed until it landed, or did not land", kPhase, true},
     {"landing_m", "m", "landing",
      "Distance of the phase landing: from the trunk's touch of the ground until the bounces are over, that is until some part "
-     "touches the ground without a break of 50 ms.",
+     "touches the ground without a break of 50 ms; 0 where it does not bounce.",
      kNotLanded, kPhase},
-    {"slide_m", "m", "slide", "Distance of the phase slide: from the end of the bounces to rest, or the end of the run.",
+    {"slide_m", "m", "slide",
+     "Distance of the phase slide: from the end of the bounces to rest, or the end of the run; a vehicle that comes over the "
+     "person may push or drag it meanwhile.",
      kNotLanded, kPhase, true},
     {"landing_s", "s", "landing",
      "Time at which hips, head or what joins them first touch the ground after the first touch with a vehicle; of who lay there, "
@@ -54,8 +60,8 @@ constexpr Definition kDefinitions[] = {
     {"first_ground_contact_s", "s", "on the ground", "The same as landing_s under its older name.", kNotLanded,
      "exact to the step; which part lands first is chaotic"},
     {"rest_s", "s", "rest",
-     "Time from which no part moves faster than 0.05 m/s or 0.3 rad/s for 0.25 s or more until the run ends. Of rider and mount "
-     "each its own.",
+     "Time from which nothing of it moves faster than 0.05 m/s or 0.3 rad/s until the run ends, for 0.25 s or more; of a person "
+     "its trunk: hips, head and what joins them. A hand or a foot may settle later. Of rider and mount each its own.",
      kMoving, "to the recorded interval", true},
     {"travel_m", "m", "way", "Level distance from start to end of who or what no vehicle touched.", "a person that was struck",
      kPath, true},
@@ -66,7 +72,7 @@ constexpr Definition kDefinitions[] = {
     {"head_impact_s", "s", "head impact", "Time of the first touch of the head with a vehicle.", kNoHead,
      "10 to 20 ms between stances; exact to the step", true},
     {"head_impact_speed_mps", "m/s", "head impact speed",
-     "Speed of the centre of the head relative to the vehicle's surface at the place of that touch, one step before it.", kNoHead,
+     "Speed of the centre of the head relative to the vehicle's surface at the place of that touch, as it begins.", kNoHead,
      "varies with gait and offset by a fifth", true},
     {"head_impact_normal_mps", "m/s", "normal", "Part of that velocity along the surface's normal, positive: into it.", kNoHead,
      "as the speed"},
@@ -108,13 +114,16 @@ constexpr Definition kDefinitions[] = {
      kNoImpact, "published limits of a single delta-v are 9 to 25 % (Smith and Noga)", true},
     {"pdof_deg", "deg", "PDOF",
      "Direction that delta-v's force came from in the vehicle's axes just before the phase: 0 from the front, 90 from the right, "
-     "180 from behind.",
+     "-90 from the left, 180 from behind.",
      kNoImpact, "with delta-v", true},
     {"ees_mps", "m/s", "EES",
      "Energy equivalent speed: speed at which the vehicle has as much kinetic energy as its share of the energy lost in that "
      "phase. Two under the same force share it in inverse proportion to stiffness where the scene tells the stiffnesses apart, "
      "else to mass; what is fixed has none. impacts.csv names the rule.",
-     "no collision with another vehicle or object", "the energy contains what friction between the two took", true},
+     "no collision with another vehicle or object; or one of a two-wheeler with a car whose stiffnesses nobody told apart: the "
+     "rule "
+     "of masses is that of cars",
+     "the energy contains what friction between the two took", true},
     {"rest_x_m", "m", "rest x", "Place of the vehicle's centre of mass at rest, world x.", kMoving, "to the recorded interval",
      true},
     {"rest_y_m", "m", "rest y", "The same, world y.", kMoving, "to the recorded interval", true},

@@ -76,7 +76,7 @@ std::vector<Stretch> stretches(const Recording& recording, const std::vector<Vec
   for (std::size_t i = 0; i < n; ++i) {
     if (!(within[i] > bound) || push[i].isZero(0)) continue;
     Stretch s{i, i};
-    const double begin = recording.snapshots[i].time;
+    const double begin = recording.snapshots[i > 0 ? i - 1 : 0].time;  // the first push may be as old
     const auto time = [&](std::size_t k) { return recording.snapshots[k].time; };
     // on to the last instant from which enough is exchanged, over lulls no longer than the window
     for (std::size_t k = i + 1; k < n && time(k) - time(i) <= kWindow + 1e-9 && time(k) - begin <= kLongest; ++k)
@@ -126,6 +126,10 @@ ImpactSide side_of(const Model& model, const Recording& recording, const Party& 
   return side;
 }
 
+bool has_two_wheels(const Model& model, const Party& party) {
+  return party.vehicle >= 0 && model.vehicles[party.vehicle].wheels.size() == 2;
+}
+
 /// The two are pressed together by the same force: each takes up energy as it gives way, in inverse proportion to stiffness. Where
 /// nobody has told their stiffnesses apart they go with the masses, as crash tests of cars of all classes show on the whole.
 void share_energy(const Model& model, double time, Impact& impact) {
@@ -134,9 +138,12 @@ void share_energy(const Model& model, double time, Impact& impact) {
   if (impact.a.party.person >= 0 || impact.b.party.person >= 0 || !(impact.energy_lost > 0)) return;
   const double S_a = A.surface.stiffness.at(time), S_b = B.surface.stiffness.at(time);
   double of_a = B.mass / (A.mass + B.mass);
-  impact.ees_rule = "by mass";
-  if (S_a != S_b) of_a = S_b / (S_a + S_b), impact.ees_rule = "by stiffness";
-  if (A.fixed || B.fixed) of_a = A.fixed ? 0 : 1, impact.ees_rule = "all to the one that moves";
+  const char* rule = "by mass";
+  if (S_a != S_b) of_a = S_b / (S_a + S_b), rule = "by stiffness";
+  if (A.fixed || B.fixed) of_a = A.fixed ? 0 : 1, rule = "all to the one that moves";
+  // a two-wheeler and a car: no rule of cars' masses is theirs
+  if (rule == std::string("by mass") && has_two_wheels(model, impact.a.party) != has_two_wheels(model, impact.b.party)) return;
+  impact.ees_rule = rule;
   const auto speed = [&](double share, double mass) { return std::sqrt(2 * share * impact.energy_lost / mass); };
   if (impact.a.party.vehicle >= 0 && !A.fixed) impact.a.ees = speed(of_a, A.mass);
   if (impact.b.party.vehicle >= 0 && !B.fixed) impact.b.ees = speed(1 - of_a, B.mass);
@@ -145,7 +152,7 @@ void share_energy(const Model& model, double time, Impact& impact) {
 /// Point, plane, impulse and energy from the contacts of the phase; returns when the first of them began.
 double sum_contacts(const Recording& recording, const Pair& pair, const Stretch& span, Impact& out) {
   Vec3 place = Vec3::Zero(), normal = Vec3::Zero();
-  double weight = 0, first = recording.snapshots[span.first].time;
+  double weight = 0, pressed = 0, used = 0, limit = 0, first = recording.snapshots[span.first].time;
   for (std::size_t i = span.first; i <= span.last; ++i)
     for (const ContactRecord& c : recording.snapshots[i].contacts) {
       if (!between(pair, c) || c.impulse.isZero(0)) continue;
@@ -155,19 +162,15 @@ double sum_contacts(const Recording& recording, const Pair& pair, const Stretch&
       normal += (holds(pair.a, c.body_a) ? 1 : -1) * c.normal_impulse * c.normal;
       out.impulse += push_on(pair.a, c);
       out.energy_lost += c.energy_lost;
+      pressed += c.normal_impulse;
+      used += c.tangential_impulse;
+      limit += c.friction_limit;
       first = std::min(first, c.begun);
     }
   if (weight > 0) out.point = place / weight;
+  if (pressed > 0) out.friction_used = used / pressed, out.friction_limit = limit / pressed;
   if (normal.norm() > 0) out.normal = normal.normalized();
   return std::max(first, span.first > 0 ? recording.snapshots[span.first - 1].time : 0.0);
-}
-
-double friction_of(const Model& model, const Pair& pair, const ContactRecord& c, double time, bool by_kudlich_slibar) {
-  if (by_kudlich_slibar)
-    for (const ImpactSettings& s : model.impacts)
-      if (s.friction && between(pair, {.body_a = s.body_a, .body_b = s.body_b})) return *s.friction;
-  const auto mu = [&](int body) { return model.bodies[body].surface.friction_body.at(time); };
-  return std::min(mu(c.body_a), mu(c.body_b));
 }
 
 const char* law_of(const Model& model, const Pair& pair, const ContactRecord& c) {
@@ -187,12 +190,9 @@ Impact impact_of(const Model& model, const Recording& recording, const Pair& pai
   out.b = side_of(model, recording, pair.b, span);
   const Vec3 u = velocity_at(model, pair.a, before, out.point) - velocity_at(model, pair.b, before, out.point);
   out.closing_speed = -u.dot(out.normal);
-  const double pressed = out.impulse.dot(out.normal);
-  if (pressed > 0) out.friction_used = (out.impulse - pressed * out.normal).norm() / pressed;
   for (const ContactRecord& c : recording.snapshots[span.first].contacts) {
     if (!between(pair, c) || c.impulse.isZero(0)) continue;
     out.law = law_of(model, pair, c);
-    out.friction_limit = friction_of(model, pair, c, out.time, out.law == std::string("kudlich_slibar"));
     break;
   }
   share_energy(model, out.time, out);

@@ -35,8 +35,8 @@ struct Impact {
   Vec3 normal = Vec3::UnitZ();       // unit, from b to a: of the contact plane, mean by impulse
   double closing_speed = kUnknown;   // [m/s] along the normal at the point, before
   Vec3 impulse = Vec3::Zero();       // [N s] on a, world
-  double friction_used = kUnknown;   // [-] tangential over normal impulse
-  double friction_limit = kUnknown;  // [-] coefficient of the surfaces, without what a dent adds
+  double friction_used = kUnknown;   // [-] tangential over normal impulse, each contact along its own surface
+  double friction_limit = kUnknown;  // [-] most it could have been: coefficient of the surfaces and what a dent adds
   double energy_lost = 0;            // [J] deformation and friction between the two
   const char* ees_rule = "";         // how that was shared: "by stiffness", "by mass", "all to the one that moves"
 };

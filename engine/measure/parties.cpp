@@ -54,15 +54,19 @@ std::vector<int> trunk_of(const Model& model, int p) {
   return trunk;
 }
 
-std::optional<double> rest_of(const Model& model, const Recording& recording, const Party& party) {
-  // a trailer rests with what tows it: what is joined for good has one rest, named by one of its bodies
-  std::vector<int> joined = party.bodies;
+std::vector<int> joined_for_good(const Model& model, std::vector<int> joined) {
   for (std::size_t i = 0; i < joined.size(); ++i)
     for (const Joint& j : model.joints) {
       if (std::isfinite(j.breaking_force) || j.parent < 0 || (j.parent != joined[i] && j.child != joined[i])) continue;
       const int other = j.parent == joined[i] ? j.child : j.parent;
       if (std::find(joined.begin(), joined.end(), other) == joined.end()) joined.push_back(other);
     }
+  return joined;
+}
+
+std::optional<double> rest_of(const Model& model, const Recording& recording, const Party& party) {
+  // a trailer rests with what tows it: what is joined for good has one rest, named by one of its bodies
+  const std::vector<int> joined = joined_for_good(model, party.bodies);
   for (const Event& e : recording.events)
     if (e.kind == "rest" && std::find(joined.begin(), joined.end(), e.body_a) != joined.end()) return e.time;
   return std::nullopt;

@@ -28,7 +28,11 @@ Vec3 velocity_of(const Model&, const Party&, const Snapshot&);
 /// Hips, head and the parts that join them; of a person without a head hips and torso.
 std::vector<int> trunk_of(const Model&, int person);
 
+/// The bodies given and all that are joined to them for good, as a trailer to what tows it.
+std::vector<int> joined_for_good(const Model&, std::vector<int> bodies);
+
 /// When it came to rest for good, if it did within the run: its own bodies, not what it rode or what rode it.
+/// A person rests with its trunk.
 std::optional<double> rest_of(const Model&, const Recording&, const Party&);
 
 /// A push of a contact on the party, zero where it has no part in it; contacts within the party count for nothing.

@@ -103,8 +103,8 @@ void add_phases(const Model& model, const Recording& recording, const Party& par
   std::vector<std::pair<const char*, double>> begins{{"contact", t.hit}};
   if (carried) begins.emplace_back("carried", *carried);
   if (t.landed) {
-    if (t.flew) begins.emplace_back("flight", off);
-    begins.emplace_back("landing", t.flew ? *t.landed : off);
+    begins.emplace_back(t.flew ? "flight" : "fall", off);
+    begins.emplace_back("landing", *t.landed);
     begins.emplace_back("slide", settled_after(recording, party, *t.landed, t.end));
   }
   if (t.rest) begins.emplace_back("rest", *t.rest);
@@ -114,8 +114,10 @@ void add_phases(const Model& model, const Recording& recording, const Party& par
   for (std::size_t i = 0; i < begins.size(); ++i) {
     const bool last = i + 1 == begins.size();
     const double from = begins[i].second, to = last ? std::max(from, t.end) : begins[i + 1].second;
+    const bool rests = last && t.rest;  // to the end of the run, and no more of the throw
+    if (!last && to <= from) continue;
     const Vec3 start = place(from);
-    t.phases.push_back({begins[i].first, from, to, start, line.dot(place(to) - start)});
+    t.phases.push_back({begins[i].first, from, rests ? recording.end_time() : to, start, line.dot(place(to) - start)});
   }
 }
 

@@ -1,4 +1,4 @@
-// A throw and its phases: contact, carried, flight, landing, slide, rest.
+// A throw and its phases: contact, carried, flight or fall, landing, slide, rest.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace engine {
 
 /// One phase, from its beginning to the beginning of the next.
 struct ThrowPhase {
-  const char* name = "";      // "contact", "carried", "flight", "landing", "slide", "rest"
+  const char* name = "";      // "contact", "carried", "flight", "fall", "landing", "slide", "rest"
   double from = 0, to = 0;    // [s]
   Vec3 place = Vec3::Zero();  // [m] world: the centre of mass where it begins
   double distance = 0;        // [m] of the centre of mass along the line of the throw; the distances of all phases sum to the throw
@@ -35,9 +35,9 @@ struct Throw {
 ///
 /// contact: from the first touch until its centre moves along the throw as fast as the vehicle. carried: from there to the last
 /// push of a vehicle before it lands (to the end, if it never lands); a person who never reaches the vehicle's speed has contact
-/// alone. flight: from there to landing, if neither vehicle nor ground touched it for 50 ms or more; else that time counts to
-/// landing. landing: from the trunk's touch of the ground until something of the person touches the ground without a break of 50
-/// ms. slide: from there to rest, or the end of the run.
+/// alone. flight: from there to landing, if neither vehicle nor ground touched it for 50 ms or more; else fall, as of who comes
+/// down over a hand or a foot. landing: from the trunk's touch of the ground until something of the person touches the ground
+/// without a break of 50 ms. slide: from there to rest, or the end of the run. A phase that takes no time is not there.
 std::optional<Throw> throw_of_person(const Model&, const Recording&, int person);
 
 /// The same of what somebody rides, which has no trunk: one phase from its first touch to its rest.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "engine/measure/metrics.h"
@@ -17,6 +18,7 @@ const char* key_of(const std::string& phase) {
   if (phase == "contact") return "contact_m";
   if (phase == "carried") return "carried_m";
   if (phase == "flight") return "airborne_m";
+  if (phase == "fall") return "fall_m";
   return phase == "landing" ? "landing_m" : "slide_m";
 }
 
@@ -47,6 +49,9 @@ void measure_throw(const Model& model, const Recording& recording, int p, std::v
   for (const ThrowPhase& phase : t->phases)
     if (phase.name != std::string("rest")) out.push_back({key_of(phase.name), person.name, phase.distance});
   if (!t->landed) return;
+  for (const char* phase : {"landing", "slide"})  // it came down without a bounce, or stayed where it came down
+    if (std::none_of(t->phases.begin(), t->phases.end(), [&](const ThrowPhase& there) { return there.name == std::string(phase); }))
+      out.push_back({key_of(phase), person.name, 0});
   out.push_back({"landing_s", person.name, *t->landed});
   out.push_back({"first_ground_contact_s", person.name, *t->landed});
 }

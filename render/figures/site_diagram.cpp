@@ -114,7 +114,7 @@ void draw_dimensions(cairo_t* c, const Site& site, const PersonFacts& facts) {
   double row = 16;  // [mm] below the path
   bool crowded = false;
   for (const PhaseFacts& phase : facts.phases) {
-    if (phase.name != "flight" && phase.name != "landing" && phase.name != "slide") continue;
+    if (phase.name != "flight" && phase.name != "fall" && phase.name != "landing" && phase.name != "slide") continue;
     const double line = (site.plan.at(com(phase.to)) - site.plan.at(com(phase.from))).norm();
     if (line < 3) continue;
     if (crowded || line < kLeastLine) row += 8;

@@ -110,6 +110,21 @@ TEST(Simulate, ImpactsAreTheSameInTableAndSummary) {
   EXPECT_NE(red, 0);
 }
 
+TEST(Simulate, PrintsNoMoreDigitsThanAMeasureBears) {
+  const Folder folder;
+  const std::string scene = std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/sedan_pedestrian_40kmh.toml";
+  const Result result = run(folder, {"simulate", scene, "-q", "-o", "out", "--set", "simulation.duration=1.3 s"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, testing::ContainsRegex("head_impact_s pedestrian +[0-9]\\.[0-9][0-9][0-9]\n"));
+  EXPECT_THAT(result.out, testing::ContainsRegex("wrap_around_distance_m pedestrian [0-9]\\.[0-9][0-9]\n"));
+  EXPECT_THAT(result.out, testing::ContainsRegex("hic15_vehicle pedestrian +[0-9]+\n"));
+  EXPECT_THAT(result.out, testing::ContainsRegex("pdof_deg sedan +[0-9]+\\.[0-9]\n"));
+  // the same number, whole, for programs
+  const Json metrics = Json::parse(contents(folder / "out/summary.json")).at("metrics");
+  EXPECT_NEAR(metrics.at("head_impact_speed_mps").get<double>(),
+              std::stod(result.out.substr(result.out.find("head_impact_speed_mps pedestrian") + 33)), 0.0051);
+}
+
 TEST(Simulate, ContactRowsHaveTheirTangentialVector) {
   const Folder folder;
   const Result result = run(folder, {"simulate", gallery("puck_slide.toml"), "-o", "out"});

@@ -95,6 +95,42 @@ TEST(ThrowMetrics, AFootOnTheGroundIsNoLandingAndAWalkNoFlight) {
   EXPECT_TRUE(value_of(out, "slide_m"));
 }
 
+TEST(ThrowMetrics, WhoComesDownWithinAMomentFallsAndTheLandingBeginsOnTheGround) {
+  const Model model = person_and_car();
+  Recording run = struck_along_y();
+  run.events[1].time = 3.04;  // 40 ms after the last push
+  const auto thrown = throw_of_person(model, run, 0);
+  ASSERT_TRUE(thrown);
+  std::string names;
+  for (const ThrowPhase& p : thrown->phases) names += std::string(p.name) + " ";
+  EXPECT_EQ(names, "contact carried fall landing slide rest ");
+  EXPECT_EQ(thrown->phases[2].from, 3.0);
+  EXPECT_EQ(thrown->phases[3].from, 3.04) << "what comes before the touch of the ground is no landing";
+  std::vector<Metric> out;
+  measure_throw(model, run, 0, out);
+  EXPECT_EQ(value_of(out, "fall_m"), thrown->phases[2].distance);
+  EXPECT_FALSE(value_of(out, "airborne_m"));
+}
+
+TEST(ThrowMetrics, NoPhaseIsWithoutLengthAndRestLastsToTheEnd) {
+  const Model model = person_and_car();
+  Recording run = struck_along_y();
+  for (const int i : {4, 5}) run.snapshots[i].contacts.clear();  // no bounce
+  run.snapshots.push_back(run.snapshots.back());
+  run.snapshots.back().time = 7;
+  const auto thrown = throw_of_person(model, run, 0);
+  ASSERT_TRUE(thrown);
+  for (const ThrowPhase& p : thrown->phases) {
+    EXPECT_GT(p.to, p.from) << p.name;
+    EXPECT_STRNE(p.name, "landing");
+  }
+  EXPECT_EQ(thrown->phases.back().to, 7.0);
+  EXPECT_EQ(thrown->phases.back().distance, 0.0);
+  std::vector<Metric> out;
+  measure_throw(model, run, 0, out);
+  EXPECT_EQ(value_of(out, "landing_m"), 0.0) << "a figure, for who counts bounces over many runs";
+}
+
 TEST(ThrowMetrics, RiderAndMountHaveEachTheirOwnRestAndThrow) {
   Model model = person_and_car();
   model.bodies.emplace_back();  // a mount, which has its rider's number
@@ -178,6 +214,49 @@ TEST(NearestApproach, ARunWithoutATouchSaysHowNearItWas) {
   EXPECT_EQ(near->body_a, kHead);
   run.snapshots[3].contacts = {push(kHips, kCar, kOnVehicle, {1, 0, 0})};
   EXPECT_FALSE(nearest_approach(model, run)) << "they touched";
+}
+
+TEST(AbsentMetrics, WhoStandsIsNotSaidToMove) {
+  const Model model = person_and_car();
+  Recording run;
+  run.interval = 1;
+  run.snapshots = {still(0), still(1)};
+  const auto reason = [&] {
+    for (const AbsentMetric& a : absent_metrics(model, run, {}))
+      if (a.key == "rest_s" && a.object == "pedestrian") return a.reason;
+    return std::string();
+  };
+  EXPECT_EQ(reason(), "nothing touched it: it stands as it stood");
+  run.snapshots[1].bodies[kHips].V_WB.v = {1, 0, 0};
+  EXPECT_EQ(reason(), "still moving when the run ends");
+}
+
+TEST(NearestApproach, IsNotThatOfATrailerToWhatTowsIt) {
+  Model model = person_and_car();
+  model.persons.clear();
+  model.bodies.resize(3);
+  Recording run;
+  run.interval = 0.1;
+  run.snapshots = {still(0), still(0.1)};
+  for (int k = 1; k < 4; ++k) {  // dolly and trailer behind the car, another car far off
+    model.bodies.push_back(model.bodies[kCar]);
+    model.bodies.back().vehicle = k;
+    model.vehicles.push_back(model.vehicles[0]);
+    model.vehicles.back().body = kCar + k;
+    for (Snapshot& s : run.snapshots) {
+      s.bodies.push_back(s.bodies[kCar]);
+      s.bodies.back().X_WB.p.x() = k < 3 ? -5.0 * k : 50;
+    }
+  }
+  for (const int towed : {kCar + 1, kCar + 2}) {
+    Joint hitch;
+    hitch.parent = towed - 1;
+    hitch.child = towed;
+    model.joints.push_back(hitch);
+  }
+  const auto near = nearest_approach(model, run);
+  ASSERT_TRUE(near);
+  EXPECT_NEAR(near->distance, 50 - 4, 1e-9) << "of the car and the other one, each 4 m long";
 }
 
 TEST(Definitions, EveryMeasureIsDefinedOnceWithItsUnitInItsName) {

@@ -67,8 +67,9 @@ TEST(VehicleMetrics, RestIsPlaceHeadingAndLengthOfThePath) {
 }
 
 /// A car of 1000 kg at 10 m/s and a block of a given mass that stands; they lose `energy` at 0.05 s.
-std::vector<Impact> car_against_block(double mass, double energy, double stiffness = 400e3, bool fixed = false) {
+std::vector<Impact> car_against_block(double mass, double energy, double stiffness = 400e3, bool fixed = false, int wheels = 4) {
   Model model = person_and_car();
+  model.vehicles[0].wheels.resize(static_cast<std::size_t>(wheels));
   Body& block = model.bodies[kHips];
   block.person = -1;
   block.mass = mass;
@@ -83,6 +84,7 @@ std::vector<Impact> car_against_block(double mass, double energy, double stiffne
   }
   ContactRecord c = push(kCar, kHips, kVehicles, {-6000, 0, 0});
   c.normal = {-1, 0, 0};
+  c.friction_limit = 0.3 * c.normal_impulse;
   c.energy_lost = energy;
   c.begun = 0.043;
   run.snapshots[5].contacts = {c};
@@ -100,6 +102,50 @@ TEST(ImpactTable, EnergyGoesToTheSofterOrLighterAndNotByHalves) {
   const Impact barrier = car_against_block(1000, 20e3, 400e3, true).at(0);
   EXPECT_NEAR(barrier.a.ees, std::sqrt(2 * 20e3 / 1000), 1e-9);
   EXPECT_STREQ(barrier.ees_rule, "all to the one that moves");
+}
+
+TEST(ImpactTable, ATwoWheelerAndACarShareNoEnergyByARuleOfCars) {
+  const Impact by_mass = car_against_block(500, 20e3, 400e3, false, 2).at(0);
+  EXPECT_TRUE(std::isnan(by_mass.a.ees));
+  EXPECT_STREQ(by_mass.ees_rule, "");
+  EXPECT_STREQ(car_against_block(500, 20e3, 1200e3, false, 2).at(0).ees_rule, "by stiffness") << "where the scene tells them apart";
+  EXPECT_STREQ(car_against_block(500, 20e3, 400e3, true, 2).at(0).ees_rule, "all to the one that moves");
+}
+
+TEST(ImpactTable, FrictionIsThatOfEachContactAlongItsOwnSurface) {
+  // a limb lies in an edge: two faces at right angles, each with half of the friction it could have; dents make it 0.4 and 0.6
+  Model model = person_and_car();
+  Recording run;
+  run.interval = 0.01;
+  for (int i = 0; i < 4; ++i) run.snapshots.push_back(still(0.01 * i));
+  for (const Vec3& normal : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitZ())}) {
+    ContactRecord c = push(kHips, kCar, kOnVehicle, 100 * normal + (normal.x() > 0 ? 20 : 30) * Vec3::UnitY());
+    c.normal = normal;
+    c.normal_impulse = 100;
+    c.tangential_impulse = normal.x() > 0 ? 20 : 30;
+    c.friction_limit = 2 * c.tangential_impulse;
+    run.snapshots[1].contacts.push_back(c);
+  }
+  const std::vector<Impact> all = impacts_of(model, run);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_NEAR(all[0].friction_used, 0.25, kAlmost);
+  EXPECT_NEAR(all[0].friction_limit, 0.5, kAlmost);
+}
+
+TEST(ImpactTable, APhaseLastsAQuarterOfASecondAtMost) {
+  Model model = person_and_car();
+  Recording run;
+  run.interval = 0.01;
+  for (int i = 0; i < 60; ++i) {
+    run.snapshots.push_back(still(0.01 * i));
+    if (i == 0) continue;
+    run.snapshots.back().contacts = {push(kHips, kCar, kOnVehicle, {100, 0, 0})};
+    run.snapshots.back().contacts[0].begun = 0.01 * (i - 1) + 1e-3;
+  }
+  const std::vector<Impact> all = impacts_of(model, run);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_LE(all[0].duration, 0.25);
+  EXPECT_GT(all[0].duration, 0.22);
 }
 
 TEST(ImpactTable, ARowHasTheCollisionFromBothSides) {
