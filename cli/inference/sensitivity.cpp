@@ -98,15 +98,15 @@ Eigen::MatrixXd design(const Basis& basis, const std::vector<Exponents>& terms) 
   return out;
 }
 
-struct Fit {
+struct LeastSquares {
   Eigen::VectorXd coefficients;
   double left_out = 0;  // mean square of the errors at runs left out
 };
 
-Fit fitted(const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
+LeastSquares fitted(const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
   // choices have fewer polynomials than degrees: columns of zeros, which the pivoting leaves out
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(X);
-  Fit out;
+  LeastSquares out;
   out.coefficients = qr.solve(y);
   const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(X.rows(), qr.rank());
   const Eigen::VectorXd residual = y - X * out.coefficients;
@@ -119,7 +119,7 @@ Fit fitted(const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
 }
 
 /// first, then total, then scatter.
-std::vector<double> shares_of(const Fit& fit, const std::vector<Exponents>& terms, std::size_t inputs) {
+std::vector<double> shares_of(const LeastSquares& fit, const std::vector<Exponents>& terms, std::size_t inputs) {
   std::vector<double> out(2 * inputs + 1, 0);
   double sum = fit.left_out;
   for (std::size_t t = 1; t < terms.size(); ++t) {
@@ -156,12 +156,12 @@ Sensitivity sensitivity(const std::vector<scenes::Uncertain>& inputs, const std:
   const Basis basis = basis_of(inputs, u);
   std::vector<Exponents> terms;
   Eigen::MatrixXd X;
-  Fit best;
+  LeastSquares best;
   for (int degree = 1; degree <= kHighestDegree; ++degree) {
     std::vector<Exponents> candidate = terms_of(static_cast<int>(inputs.size()), degree);
     if (degree > 1 && (candidate.size() > kMostTerms || 3 * candidate.size() > n)) break;
     Eigen::MatrixXd matrix = design(basis, candidate);
-    const Fit fit = fitted(matrix, y);
+    const LeastSquares fit = fitted(matrix, y);
     if (degree > 1 && fit.left_out >= best.left_out) continue;
     best = fit;
     terms = std::move(candidate);

@@ -17,13 +17,13 @@ constexpr double kHighestOrder = 6.0;  // above it two answers agree by chance
 constexpr double kOrderSpread = 0.15;  // times 1 + order, between neighbouring triples: orders within it count as one
 constexpr std::size_t kFewestLevels = 4;
 
-struct Fit {
+struct FittedOrder {
   double order = 0, limit = 0;
   double slope = 0;  // part of the finest level that still falls: C h^p there
 };
 
 /// Least squares on the logarithms: log|y_i - y_i+1| = const + p log h_i.
-Fit fit_order(const std::vector<Level>& levels, std::size_t first, std::size_t last) {
+FittedOrder fit_order(const std::vector<Level>& levels, std::size_t first, std::size_t last) {
   double x_mean = 0, y_mean = 0, xx = 0, xy = 0;
   const auto n = static_cast<double>(last - first);
   const auto x_of = [&](std::size_t i) { return std::log(levels[i].step); };
@@ -90,7 +90,7 @@ Convergence by_range(const std::vector<Level>& levels, double rounding) {
 
 Convergence by_order(const std::vector<Level>& levels, std::size_t first, std::size_t last, double rounding) {
   Convergence out;
-  const Fit fit = fit_order(levels, first, last);
+  const FittedOrder fit = fit_order(levels, first, last);
   out.trust = Trust::steady;
   out.order = fit.order;
   // levels finer than the window differ by rounding only: they are the limit

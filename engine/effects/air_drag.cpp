@@ -217,7 +217,7 @@ LeftOut push_on_waiting(const Model& model) {
   return out;
 }
 
-Finding look_at(const Model& model) {
+Finding look_for_air_drag(const Model& model) {
   const Vec3* density = input(model, "air.density");
   if (!density) return look_at_usual(model);
   if (density->x() == 0) return {false, "air.density is 0", ""};
@@ -243,7 +243,7 @@ Air air_of(const Model& model) {
     air.drag_area = drag_areas(model, drag * Vec3::Ones(), input(model, "air.vehicle_drag"));
     return air;
   }
-  if (!look_at(model).called_for) return air;  // switched on by hand
+  if (!look_for_air_drag(model).called_for) return air;  // switched on by hand
   air.density = kDensity;
   air.drag_area = drag_areas(model, kDrag);
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
@@ -271,7 +271,7 @@ class AirDrag final : public Effect {
       "vehicles and persons, and none round free bodies; `crashreel plan` tells what that leaves "
       "out.",
       kKeys};
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_air_drag(model); }
   static bool gives(const Model& model) {
     const Vec3* wind = input(model, "air.wind");
     return wind && !wind->isZero(0);

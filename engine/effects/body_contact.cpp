@@ -6,7 +6,7 @@
 namespace engine {
 namespace {
 
-Finding look_at(const Model& model) {
+Finding look_for_body_contact(const Model& model) {
   const std::size_t count = count_pairs_between_bodies(model);
   if (count > 0)
     return {true, counted(count, "pair") + " of segments or free bodies that are not one person's: " + round_bodies(model),
@@ -23,7 +23,7 @@ Finding look_at(const Model& model) {
 class BodyContact final : public Effect {
  public:
   static constexpr const char* kName = "body_contact";
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_body_contact(model); }
   static double not_before(const Reach& reach) { return reach.groups_are_simple ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 

@@ -19,7 +19,7 @@ std::string with_law(const Model& model, int body_a, int body_b) {
   return a.name + " with " + b.name + " (default_auto: " + who + " not ask for kudlich_slibar)";
 }
 
-Finding look_at(const Model& model) {
+Finding look_for_bodywork_contact(const Model& model) {
   std::vector<std::string> moving, pairs;
   const int n = static_cast<int>(model.bodies.size());
   for (int a = 0; a < n; ++a) {
@@ -50,7 +50,7 @@ Finding look_at(const Model& model) {
 class BodyworkContact final : public Effect {
  public:
   static constexpr const char* kName = "bodywork_contact";
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_bodywork_contact(model); }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
   BodyworkContact(World& world, int self) : Effect(self), wheeled_(wheeled_pairs(world.model)) {

@@ -36,7 +36,7 @@ std::string acts_of(const Vehicle& vehicle) {
   return out;
 }
 
-Finding look_at(const Model& model) {
+Finding look_for_driver(const Model& model) {
   std::string acts;
   for (const Vehicle& vehicle : model.vehicles)
     if (const std::string act = acts_of(vehicle); !act.empty()) acts += (acts.empty() ? "" : "; ") + vehicle.name + " " + act;
@@ -130,7 +130,7 @@ struct DriverMemory {
 class Driver final : public EffectWith<DriverMemory> {
  public:
   static constexpr const char* kName = "driver";
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_driver(model); }
 
   Driver(const World&, int self) : EffectWith(self) {}
 

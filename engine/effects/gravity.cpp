@@ -8,7 +8,7 @@
 namespace engine {
 namespace {
 
-Finding look_at(const Model& model) {
+Finding look_for_gravity(const Model& model) {
   std::size_t moving = 0;
   double mass = 0;
   for (const Body& body : model.bodies) {
@@ -30,7 +30,7 @@ Finding look_at(const Model& model) {
 class Gravity final : public Effect {
  public:
   static constexpr const char* kName = "gravity";
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_gravity(model); }
 
   Gravity(const World&, int self) : Effect(self) {}
 

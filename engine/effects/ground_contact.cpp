@@ -8,7 +8,7 @@
 namespace engine {
 namespace {
 
-Finding look_at(const Model& model) {
+Finding look_for_ground_contact(const Model& model) {
   const std::string round = round_bodies(model);
   if (!model.ground.plane) return {false, "no ground plane", ""};
   if (round.empty()) return {false, "no person and no free body; vehicles meet the ground by tyres and bodywork_contact", ""};
@@ -25,7 +25,7 @@ Finding look_at(const Model& model) {
 class GroundContact final : public Effect {
  public:
   static constexpr const char* kName = "ground_contact";
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_ground_contact(model); }
   static double not_before(const Reach& reach) { return reach.all_rounds_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 

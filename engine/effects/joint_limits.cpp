@@ -11,7 +11,7 @@
 namespace engine {
 namespace {
 
-constexpr double kNear = 0.12;       // [rad] a limit this close gets a row ...
+constexpr double kNearLimit = 0.12;  // [rad] a limit this close gets a row ...
 constexpr double kNearSlide = 0.01;  // [m] the same of a slide
 constexpr double kPerRate = 2.0;     // ... or one that 2 steps at the present rate would reach
 
@@ -19,7 +19,7 @@ bool has_limit(const JointCoordinate& range) {
   return std::isfinite(range.lower) || std::isfinite(range.upper);
 }
 
-Finding look_at(const Model& model) {
+Finding look_for_joint_limits(const Model& model) {
   std::size_t angles = 0, slides = 0, joints = 0;
   for (const Joint& joint : model.joints) {
     const auto of_joint = static_cast<std::size_t>(std::count_if(joint.angles.begin(), joint.angles.end(), has_limit));
@@ -98,7 +98,7 @@ void add_limit(ContactSearch& search, const JointCoordinates& now, const End& en
 class JointLimits final : public Effect {
  public:
   static constexpr const char* kName = "joint_limits";
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_joint_limits(model); }
   static double not_before(const Reach& reach) { return reach.all_joints_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
@@ -118,7 +118,7 @@ class JointLimits final : public Effect {
         if (!now.free[i]) continue;
         const JointCoordinate& range = joint.coordinate(i);
         const double rate = now.gradient_W.col(i).dot(part_of(relative, i));
-        const double near = (i == kSlide ? kNearSlide : kNear) + kPerRate * search.within * std::abs(rate);
+        const double near = (i == kSlide ? kNearSlide : kNearLimit) + kPerRate * search.within * std::abs(rate);
         const double above = now.value[i] - range.lower, below = range.upper - now.value[i];
         if (above < near) add_limit(search, now, {j, i, false, above}, self_);
         if (below < near) add_limit(search, now, {j, i, true, below}, self_);

@@ -18,7 +18,7 @@ constexpr double kGrasp = 0.01;
 // of its own, and rounding divided by rounding would be its impulse
 constexpr double kGive = 5e-9;
 
-Finding look_at(const Model& model) {
+Finding look_for_joint_loops(const Model& model) {
   const std::vector<int> loops = build_topology(model, {}).loops;
   if (model.joints.empty()) return {false, "no joints", ""};
   if (loops.empty()) return {false, counted(model.joints.size(), "joint") + ": none closes a ring, none can break", ""};
@@ -65,7 +65,7 @@ struct LoopLoads {
 class JointLoops final : public EffectWith<LoopLoads> {
  public:
   static constexpr const char* kName = "joint_loops";
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_joint_loops(model); }
 
   JointLoops(const World&, int self) : EffectWith(self) {}
 

@@ -24,7 +24,7 @@ bool resists(const Joint& joint) {
   return joint.passive != PassiveTorque::none || any_coordinate(joint, [](const JointCoordinate& a) { return resists(a); });
 }
 
-Finding look_at(const Model& model) {
+Finding look_for_joint_resistance(const Model& model) {
   std::size_t all = 0, springs = 0, dampers = 0, frictions = 0, passive = 0;
   for (const Joint& joint : model.joints) {
     all += resists(joint);
@@ -98,7 +98,7 @@ Vec3 relative_turning(const Joint& joint, const std::vector<Twist>& V) {
 class JointResistance final : public EffectWith<FrictionMemory> {
  public:
   static constexpr const char* kName = "joint_resistance";
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_joint_resistance(model); }
   static double not_before(const Reach& reach) { return reach.all_joints_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) {
     return std::any_of(model.joints.begin(), model.joints.end(), [](const Joint& joint) {

@@ -9,7 +9,7 @@
 namespace engine {
 namespace {
 
-Finding look_at(const Model& model) {
+Finding look_for_joints(const Model& model) {
   if (model.joints.empty()) return {false, "no joints", ""};
   std::array<std::size_t, static_cast<std::size_t>(JointKind::count)> count{};
   for (const Joint& joint : model.joints) ++count[static_cast<std::size_t>(joint.kind)];
@@ -25,7 +25,7 @@ Finding look_at(const Model& model) {
 class Joints final : public Effect {
  public:
   static constexpr const char* kName = "joints";
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_joints(model); }
 
   Joints(const World&, int self) : Effect(self) {}
 };

@@ -47,7 +47,7 @@ std::vector<ImpactPair> pairs_of(const Model& model) {
   return out;
 }
 
-Finding look_at(const Model& model) {
+Finding look_for_kudlich_slibar(const Model& model) {
   std::vector<std::string> pairs;
   for (const ImpactPair& pair : pairs_of(model))
     pairs.push_back(model.bodies[pair.a].name + " with " + model.bodies[pair.b].name + " (exchange " +
@@ -189,7 +189,7 @@ struct ImpactMemory {
 class KudlichSlibar final : public EffectWith<ImpactMemory> {
  public:
   static constexpr const char* kName = "kudlich_slibar";
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_kudlich_slibar(model); }
   static double not_before(const Reach& reach) { return reach.groups_are_simple ? reach.first_touch : 0; }
 
   KudlichSlibar(World& world, int self)

@@ -18,7 +18,7 @@ bool can_meet(const Body& round, const Body& mesh) {
 
 constexpr double kTyreStiffness = 2e5;  // [N/m] vertical, of a passenger car's tyre
 
-Finding look_at(const Model& model) {
+Finding look_for_mesh_contact(const Model& model) {
   std::size_t pairs = 0, riding = 0, meshes = 0, rounds = 0;
   std::vector<std::string> names;
   for (const Body& mesh : model.bodies) {
@@ -54,7 +54,7 @@ void add_to_runs(std::vector<MeshPairRun>& runs, int effect, int tree_a, int tre
 class MeshContact final : public Effect {
  public:
   static constexpr const char* kName = "mesh_contact";
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_mesh_contact(model); }
   static double not_before(const Reach& reach) { return reach.groups_are_simple ? reach.first_touch : 0; }
   static bool gives(const Model& model) {  // tyres yield under every law
     return model.settings.contact_law != ContactLaw::default_auto || (!model.persons.empty() && !tyre_pairs(model).empty());

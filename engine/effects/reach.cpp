@@ -14,13 +14,13 @@
 namespace engine {
 namespace {
 
-constexpr double kSpare = 0.05;     // [m] beyond every bound: contacts are looked for before they are needed
-constexpr double kFaster = 1.05;    // [-] than every bound: for what a step's error may give
-constexpr double kInGround = 1e-3;  // [m] deeper in it at the start a body is moved out
+constexpr double kReachSpare = 0.05;  // [m] beyond every bound: contacts are looked for before they are needed
+constexpr double kFaster = 1.05;      // [-] than every bound: for what a step's error may give
+constexpr double kInGround = 1e-3;    // [m] deeper in it at the start a body is moved out
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Bodies that joints hold together, or one body.
-struct Group {
+struct ReachGroup {
   std::string name;
   std::vector<int> bodies;
   Vec3 centre = Vec3::Zero();  // [m] of mass
@@ -86,7 +86,7 @@ bool something_drives(const Model& model) {
 }
 
 /// Has it, or may it get, energy that is not counted here?
-bool is_unbounded(const Model& model, const Group& group, const std::vector<const Joint*>& joints) {
+bool is_unbounded(const Model& model, const ReachGroup& group, const std::vector<const Joint*>& joints) {
   if (model.settings.contact_law == ContactLaw::compliant || model.ground.terrain) return true;
   if (something_drives(model)) return true;
   for (const Joint* joint : joints) {
@@ -103,7 +103,7 @@ bool is_unbounded(const Model& model, const Group& group, const std::vector<cons
 }
 
 /// [J] at the start: of its motion, of its suspensions pressed in all the way, and of its height over a level plane.
-double energy_of(const Model& model, const Group& group, bool level) {
+double energy_of(const Model& model, const ReachGroup& group, bool level) {
   double energy = 0;
   for (const int b : group.bodies) {
     const Body& body = model.bodies[b];
@@ -120,7 +120,7 @@ double energy_of(const Model& model, const Group& group, bool level) {
 }
 
 /// [m/s^2] greatest by its drives.
-double driven(const Model& model, const Group& group) {
+double driven(const Model& model, const ReachGroup& group) {
   double out = 0;
   for (const int b : group.bodies) {
     const Body& body = model.bodies[b];
@@ -134,7 +134,7 @@ double driven(const Model& model, const Group& group) {
   return out;
 }
 
-void bound_motion(const Model& model, Group& group) {
+void bound_motion(const Model& model, ReachGroup& group) {
   double arms = 0, reach = 0, spread = 0;
   std::vector<const Joint*> joints;
   for (const Joint& joint : model.joints)
@@ -167,12 +167,12 @@ std::string name_of(const Model& model, int body) {
   return of.person >= 0 ? model.persons[of.person].name : of.name;
 }
 
-std::vector<Group> groups_of(const Model& model) {
+std::vector<ReachGroup> reach_groups_of(const Model& model) {
   const std::vector<int> root = join(model);
-  std::vector<Group> out;
+  std::vector<ReachGroup> out;
   for (int r = 0; r < static_cast<int>(root.size()); ++r) {
     if (root[r] != r) continue;
-    Group group;
+    ReachGroup group;
     group.name = name_of(model, r);
     for (int b = 0; b < static_cast<int>(root.size()); ++b)
       if (root[b] == r) {
@@ -188,15 +188,15 @@ std::vector<Group> groups_of(const Model& model) {
 }
 
 /// [s] at which two groups can touch, at the earliest; infinity: not within the run.
-double touch_of(const Group& a, const Group& b, double duration) {
-  const double gap = (a.centre - b.centre).norm() - a.extent - b.extent - kSpare;
+double touch_of(const ReachGroup& a, const ReachGroup& b, double duration) {
+  const double gap = (a.centre - b.centre).norm() - a.extent - b.extent - kReachSpare;
   if (gap <= 0) return 0;
   const auto apart = [&](double t) { return a.way(t) + b.way(t) < gap; };
   if (apart(duration)) return kNever;
   return math::bisect({0, duration}, math::kToTheWidth, 1e-4 * duration, apart).low;
 }
 
-bool is_simple(const Model& model, const Group& group) {
+bool is_simple(const Model& model, const ReachGroup& group) {
   if (group.bodies.size() == 1) return true;
   const int person = model.bodies[group.bodies.front()].person;
   return person >= 0 && std::all_of(group.bodies.begin(), group.bodies.end(),
@@ -206,7 +206,7 @@ bool is_simple(const Model& model, const Group& group) {
 }  // namespace
 
 Reach reach_of(const Model& model) {
-  const std::vector<Group> groups = groups_of(model);
+  const std::vector<ReachGroup> groups = reach_groups_of(model);
   Reach reach;
   reach.first_touch = kNever;
   for (std::size_t a = 0; a < groups.size(); ++a)
@@ -217,7 +217,7 @@ Reach reach_of(const Model& model) {
       reach.first_touch = touch;
       reach.who = groups[a].name + " and " + groups[b].name;
     }
-  reach.groups_are_simple = std::all_of(groups.begin(), groups.end(), [&](const Group& g) { return is_simple(model, g); });
+  reach.groups_are_simple = std::all_of(groups.begin(), groups.end(), [&](const ReachGroup& g) { return is_simple(model, g); });
   reach.all_joints_wait = std::all_of(model.joints.begin(), model.joints.end(),
                                       [&](const Joint& joint) { return waits(model, model.bodies[joint.child]); });
   reach.all_rounds_wait = std::all_of(model.bodies.begin(), model.bodies.end(),

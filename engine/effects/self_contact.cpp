@@ -6,7 +6,7 @@
 namespace engine {
 namespace {
 
-Finding look_at(const Model& model) {
+Finding look_for_self_contact(const Model& model) {
   if (model.persons.empty()) return {false, "no person", ""};
   const std::size_t count = pairs_within_persons(model).size();
   std::size_t all = 0, joined = 0;
@@ -29,7 +29,7 @@ Finding look_at(const Model& model) {
 class SelfContact final : public Effect {
  public:
   static constexpr const char* kName = "self_contact";
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_self_contact(model); }
   static double not_before(const Reach& reach) { return reach.all_joints_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 

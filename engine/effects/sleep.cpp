@@ -16,7 +16,7 @@ constexpr double kMoved = 2e-5;    // [m] by any point of a tree in a window: st
 constexpr double kNear = 0.01;     // [m] between bounding spheres
 constexpr double kApproach = 0.1;  // [s] of flight ahead of which the sleeping wake
 
-Finding look_at(const Model& model) {
+Finding look_for_sleep(const Model& model) {
   if (!model.settings.sleep) return {false, "simulation.sleep is false", ""};
   return {true, "what moves less than 0.02 mm in a second, with all that is near it, keeps its place",
           "at most 0.02 mm of creep a second; contact forces of what sleeps are not recorded"};
@@ -113,7 +113,7 @@ struct SleepMemory {
 class Sleep final : public EffectWith<SleepMemory> {
  public:
   static constexpr const char* kName = "sleep";
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_sleep(model); }
 
   Sleep(const World& world, int self) : EffectWith(self), still_(world.topology.trees.size(), 0) {}
 

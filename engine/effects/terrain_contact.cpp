@@ -9,7 +9,7 @@ bool has_surface(const Body& body) {
   return !body.fixed && std::holds_alternative<HyperEllipsoid>(body.shape);
 }
 
-Finding look_at(const Model& model) {
+Finding look_for_terrain_contact(const Model& model) {
   const std::string round = round_bodies(model);
   if (!model.ground.terrain) return {false, "no terrain mesh", ""};
   if (round.empty()) return {false, "no person and no free body; vehicles meet the terrain by tyres and bodywork_contact", ""};
@@ -22,7 +22,7 @@ Finding look_at(const Model& model) {
 class TerrainContact final : public Effect {
  public:
   static constexpr const char* kName = "terrain_contact";
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_terrain_contact(model); }
   static double not_before(const Reach& reach) { return reach.all_rounds_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 

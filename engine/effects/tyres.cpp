@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kStopStiffness = 10;  // [-] times the spring's, beyond the travel
 
-Finding look_at(const Model& model) {
+Finding look_for_tyres(const Model& model) {
   std::size_t count = 0;
   double low = std::numeric_limits<double>::infinity(), high = 0;
   std::vector<std::string> names;
@@ -167,7 +167,7 @@ struct TyresMemory {
 class Tyres final : public EffectWith<TyresMemory> {
  public:
   static constexpr const char* kName = "tyres";
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_tyres(model); }
 
   Tyres(World& world, int self) : EffectWith(self) {
     ContactPairs& pairs = world.pairs;

@@ -12,7 +12,7 @@
 namespace engine {
 namespace {
 
-Finding look_at(const Model& model) {
+Finding look_for_zero_condition(const Model& model) {
   std::vector<std::string> waiting;
   for (const Person& person : model.persons)
     if (person.zero_condition) waiting.push_back(person.name);
@@ -72,7 +72,7 @@ void watch(const Outlook& outlook, const PairKind& kind, const ContactPair& pair
 class ZeroCondition final : public Effect {
  public:
   static constexpr const char* kName = "zero_condition";
-  static Finding look(const Model& model) { return look_at(model); }
+  static Finding look(const Model& model) { return look_for_zero_condition(model); }
 
   ZeroCondition(const World& world, int self)
       : Effect(self), wheeled_(wheeled_pairs(world.model)), first_touch_(reach_of(world.model).first_touch) {

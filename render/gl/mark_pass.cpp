@@ -12,7 +12,7 @@ namespace render::gl {
 namespace {
 
 constexpr int kRubber = 41;  // of 4 x 255: 0.012 on the tone curve
-constexpr std::size_t kRoom = 7, kRecord = 8;
+constexpr std::size_t kMarkRoom = 7, kMarkRecord = 8;
 
 }  // namespace
 
@@ -45,8 +45,8 @@ void MarkPass::begin(const DrawList& list, const FrameSetup& frame, int width, i
   }
   if (strips_.empty()) return;
   const std::size_t count = places[0].size();
-  for (std::vector<float>& one : places) one.resize(count + kRoom);
-  std::vector<float> records(kRecord * (count + kRoom));
+  for (std::vector<float>& one : places) one.resize(count + kMarkRoom);
+  std::vector<float> records(kMarkRecord * (count + kMarkRoom));
   shade::Projection p{};
   const Matrix4 clip = to_gl(frame.world_to_clip);
   std::copy(clip.begin(), clip.end(), p.model_to_clip);
@@ -59,9 +59,9 @@ void MarkPass::begin(const DrawList& list, const FrameSetup& frame, int width, i
   upload(marks_buffer_, marks);
   width_ = width;
   height_ = height;
-  reach_ = around(records.data(), count, kRecord, width, height);
+  reach_ = around(records.data(), count, kMarkRecord, width, height);
   for (std::size_t i = 0; i < count; ++i)
-    if (records[kRecord * i + 3] != 1) reach_ = {0, 0, width, height};  // behind the eye or far aside
+    if (records[kMarkRecord * i + 3] != 1) reach_ = {0, 0, width, height};  // behind the eye or far aside
 }
 
 /// Part of what lies under them: one is nothing, and each mark takes its share of what the others let through.

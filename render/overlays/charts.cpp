@@ -52,7 +52,7 @@ ChartItem empty_chart(const Frame& frame, const std::string& title, std::size_t 
   return chart;
 }
 
-void add(const Frame& frame, DrawList& list) {
+void add_charts(const Frame& frame, DrawList& list) {
   const Overlays& o = frame.stage.overlays;
   if (o.speed_chart && !frame.stage.speeds.empty()) {
     ChartItem chart = empty_chart(frame, "speed, km/h", list.charts.size());
@@ -74,7 +74,7 @@ void add(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kCharts{"charts", [](const Frame& f) { return f.stage.overlays.speed_chart || f.stage.overlays.energy_chart; }, add,
-                      true};
+const Overlay kCharts{"charts", [](const Frame& f) { return f.stage.overlays.speed_chart || f.stage.overlays.energy_chart; },
+                      add_charts, true};
 
 }  // namespace render

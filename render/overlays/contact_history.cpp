@@ -9,9 +9,9 @@
 namespace render {
 namespace {
 
-constexpr double kLeast = 0.2;     // [N s] below it a touch leaves no mark
-constexpr double kCell = 0.025;    // [m] one mark a cell of this size on each body: the strongest
-constexpr double kTowards = 0.05;  // [m] marks stand off the surface towards the eye, or they would sink into its curve
+constexpr double kLeastImpulse = 0.2;  // [N s] below it a touch leaves no mark
+constexpr double kCell = 0.025;        // [m] one mark a cell of this size on each body: the strongest
+constexpr double kTowards = 0.05;      // [m] marks stand off the surface towards the eye, or they would sink into its curve
 
 struct Mark {
   Vec3 point_B = Vec3::Zero();  // body axes
@@ -29,13 +29,13 @@ void touch(std::map<Cell, Mark>& marks, const engine::Snapshot& s, int body, con
   if (impulse > mark.impulse) mark = {p, s.time, impulse};
 }
 
-void add(const Frame& frame, DrawList& list) {
+void add_contact_history(const Frame& frame, DrawList& list) {
   std::map<Cell, Mark> marks;
   double last = 0, strongest = 0;
   for (const engine::Snapshot& s : frame.recording.snapshots)
     for (const engine::ContactRecord& c : s.contacts) {
       const double impulse = c.impulse.norm();
-      if (!c.shapes.on_vehicle() || c.body_b < 0 || impulse < kLeast) continue;
+      if (!c.shapes.on_vehicle() || c.body_b < 0 || impulse < kLeastImpulse) continue;
       last = s.time;  // the scale is that of the whole run: a colour means the same in every frame
       strongest = std::max(strongest, impulse);
       if (s.time > frame.now.time) continue;
@@ -57,6 +57,7 @@ void add(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kContactHistory{"contact_history", [](const Frame& f) { return f.stage.overlays.contact_history; }, add};
+const Overlay kContactHistory{"contact_history", [](const Frame& f) { return f.stage.overlays.contact_history; },
+                              add_contact_history};
 
 }  // namespace render

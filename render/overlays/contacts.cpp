@@ -10,13 +10,13 @@
 namespace render {
 namespace {
 
-constexpr double kLeast = 50;           // [N] below it nothing is drawn: a resting contact of a hand
+constexpr double kLeastForce = 50;      // [N] below it nothing is drawn: a resting contact of a hand
 constexpr double kLinearTo = 1.2;       // [m] longer arrows grow with the logarithm only, so that they stay in the picture
 constexpr double kNormalLength = 0.10;  // [m]
 constexpr double kHold = 0.08;          // [s] the largest contact keeps its label this long, to be read
 
 bool of_interest(const engine::ContactRecord& c) {
-  return c.normal_force > kLeast && !c.exchange;  // impulses of vehicles have an overlay of their own
+  return c.normal_force > kLeastForce && !c.exchange;  // impulses of vehicles have an overlay of their own
 }
 
 void add_contacts(const Frame& frame, DrawList& list) {

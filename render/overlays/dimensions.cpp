@@ -8,10 +8,10 @@
 namespace render {
 namespace {
 
-constexpr double kLeast = 0.02;  // [m] a shorter one is not drawn
-constexpr double kMark = 0.12;   // [m] half of an end mark
-constexpr double kAbove = 0.02;  // [m] over the ground
-const Float4 kColour{1, 1, 1, 1};
+constexpr double kLeastLength = 0.02;  // [m] a shorter one is not drawn
+constexpr double kMark = 0.12;         // [m] half of an end mark
+constexpr double kAbove = 0.02;        // [m] over the ground
+const Float4 kDimensionColour{1, 1, 1, 1};
 
 void add_one(const Frame& frame, const Dimension& d, DrawList& list) {
   Vec3 a = d.from, b = d.to;
@@ -23,14 +23,14 @@ void add_one(const Frame& frame, const Dimension& d, DrawList& list) {
     a.z() = b.z() = frame.stage.road.height + kAbove;
   }
   const double length = (b - a).norm();
-  if (length < kLeast) return;
+  if (length < kLeastLength) return;
   const Vec3 along = (b - a) / length;
   // an upright dimension gets level end marks, a level one marks on the ground
   const Vec3 side = std::abs(along.z()) > 0.9 ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitZ().cross(along).normalized());
   auto line = [&](const Vec3& p, const Vec3& q) {
     LineItem item;
     item.points = {to_float(p), to_float(q)};
-    item.colour = kColour;
+    item.colour = kDimensionColour;
     item.width = 2.4f;
     // where something stands before it, it is seen through, pale
     item.hidden_behind = true;
@@ -44,19 +44,19 @@ void add_one(const Frame& frame, const Dimension& d, DrawList& list) {
   LabelItem label;
   label.lines = {(d.label.empty() ? "" : d.label + " ") + fmt::format("{:.2f} m", length)};
   label.sizes = {20};
-  label.colours = {kColour};
+  label.colours = {kDimensionColour};
   label.at_world_point = true;
   label.world = to_float(0.5 * (a + b));
   label.pivot = {0.5f, 1.3f};
   list.labels.push_back(label);
 }
 
-void add(const Frame& frame, DrawList& list) {
+void add_dimensions(const Frame& frame, DrawList& list) {
   for (const Dimension& d : frame.stage.overlays.dimensions) add_one(frame, d, list);
 }
 
 }  // namespace
 
-const Overlay kDimensions{"dimensions", [](const Frame& f) { return !f.stage.overlays.dimensions.empty(); }, add};
+const Overlay kDimensions{"dimensions", [](const Frame& f) { return !f.stage.overlays.dimensions.empty(); }, add_dimensions};
 
 }  // namespace render

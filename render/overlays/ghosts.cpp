@@ -42,7 +42,7 @@ void add_shape(DrawList& list, const engine::HyperEllipsoid& shape, const Pose& 
   list.ellipsoids.push_back({shape, to_gl(rigid(X)), pale(material), false, static_cast<std::uint32_t>(list.ellipsoids.size())});
 }
 
-void add(const Frame& frame, DrawList& list) {
+void add_ghosts(const Frame& frame, DrawList& list) {
   for (const PersonActor& person : frame.stage.persons) {
     if (person.segments.empty()) continue;
     const std::vector<const engine::Snapshot*> when = instants(frame, person.segments.front().body);
@@ -64,7 +64,8 @@ void add(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kGhosts{
-    "ghosts", [](const Frame& f) { return f.stage.overlays.ghost_interval > 0 || f.stage.overlays.ghost_distance > 0; }, add};
+const Overlay kGhosts{"ghosts",
+                      [](const Frame& f) { return f.stage.overlays.ghost_interval > 0 || f.stage.overlays.ghost_distance > 0; },
+                      add_ghosts};
 
 }  // namespace render

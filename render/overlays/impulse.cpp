@@ -43,7 +43,7 @@ LabelItem label_of(const engine::ContactRecord& c) {
   return label;
 }
 
-void add(const Frame& frame, DrawList& list) {
+void add_impulse(const Frame& frame, DrawList& list) {
   double largest = 0;  // [N s]
   for (const auto& s : frame.recording.snapshots)
     for (const auto& c : s.contacts)
@@ -66,6 +66,6 @@ void add(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kImpulse{"impulse", shown, add};
+const Overlay kImpulse{"impulse", shown, add_impulse};
 
 }  // namespace render

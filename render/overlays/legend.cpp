@@ -39,7 +39,7 @@ void add_history(const Frame& frame, LabelItem& label) {
          colour_of_share(share));
 }
 
-void add(const Frame& frame, DrawList& list) {
+void add_legend(const Frame& frame, DrawList& list) {
   const Overlays& o = frame.stage.overlays;
   LabelItem label;
   label.anchor = {0.984f, 0.028f};
@@ -55,6 +55,6 @@ void add(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kLegend{"legend", [](const Frame& f) { return f.stage.overlays.legend; }, add, true};
+const Overlay kLegend{"legend", [](const Frame& f) { return f.stage.overlays.legend; }, add_legend, true};
 
 }  // namespace render

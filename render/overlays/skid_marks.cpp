@@ -9,7 +9,7 @@ namespace render {
 namespace {
 
 constexpr double kHalfWidth = 0.09;  // [m] of the mark
-constexpr double kLift = 0.01;       // [m] over a terrain, whose triangles bend between the points
+constexpr double kMarkLift = 0.01;   // [m] over a terrain, whose triangles bend between the points
 constexpr double kLongest = 0.1;     // [m] between points on a terrain
 
 /// One strip as it grows: each point is laid on the ground, and so are the two edges beside it.
@@ -48,7 +48,7 @@ class Mark {
     const Vec3 side = kHalfWidth * on_ground(road_, at).normal.cross(along).normalized();
     const auto edge = [&](const Vec3& p) {
       const Spot spot = on_ground(road_, p);
-      return to_float(road_.terrain ? Vec3(spot.point + kLift * spot.normal) : p);
+      return to_float(road_.terrain ? Vec3(spot.point + kMarkLift * spot.normal) : p);
     };
     strip_.left[i] = edge(at + side);
     strip_.right[i] = edge(at - side);
@@ -60,7 +60,7 @@ class Mark {
   bool open_ = false;
 };
 
-void add(const Frame& frame, DrawList& list) {
+void add_skid_marks(const Frame& frame, DrawList& list) {
   for (std::size_t w = 0; w < frame.now.wheels.size(); ++w) {
     Mark mark(frame.stage.road);
     for (const engine::Snapshot& s : frame.recording.snapshots) {
@@ -77,6 +77,6 @@ void add(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kSkidMarks{"skid_marks", [](const Frame& f) { return !f.now.wheels.empty(); }, add};
+const Overlay kSkidMarks{"skid_marks", [](const Frame& f) { return !f.now.wheels.empty(); }, add_skid_marks};
 
 }  // namespace render

@@ -15,7 +15,7 @@ bool wanted(const Frame& frame, const std::string& body) {
   return std::find(named.begin(), named.end(), body) != named.end();
 }
 
-void add(const Frame& frame, DrawList& list) {
+void add_traces(const Frame& frame, DrawList& list) {
   for (std::size_t b = 0; b < frame.recording.body_names.size(); ++b) {
     if (!wanted(frame, frame.recording.body_names[b])) continue;
     LineItem line;
@@ -37,6 +37,6 @@ void add(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kTraces{"traces", [](const Frame& f) { return f.stage.overlays.traces; }, add};
+const Overlay kTraces{"traces", [](const Frame& f) { return f.stage.overlays.traces; }, add_traces};
 
 }  // namespace render

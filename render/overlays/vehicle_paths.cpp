@@ -6,8 +6,8 @@
 namespace render {
 namespace {
 
-constexpr double kSpacing = 0.1;  // [m] between points
-constexpr double kLift = 0.02;    // [m] over the ground, so that it is seen
+constexpr double kPathSpacing = 0.1;  // [m] between points
+constexpr double kPathLift = 0.02;    // [m] over the ground, so that it is seen
 
 /// The centre of mass of a vehicle over the mean height of its wheels' contacts.
 Vec3 foot_of(const engine::Snapshot& s, int vehicle, int body) {
@@ -20,7 +20,7 @@ Vec3 foot_of(const engine::Snapshot& s, int vehicle, int body) {
   return p;
 }
 
-void add(const Frame& frame, DrawList& list) {
+void add_vehicle_paths(const Frame& frame, DrawList& list) {
   for (std::size_t v = 0; v < frame.stage.vehicles.size(); ++v) {
     const int vehicle = static_cast<int>(v), body = frame.stage.vehicles[v];
     LineItem line;
@@ -31,17 +31,17 @@ void add(const Frame& frame, DrawList& list) {
     for (const engine::Snapshot& s : frame.recording.snapshots) {
       if (s.time > frame.now.time) break;
       const Vec3 at = foot_of(s, vehicle, body);
-      if ((at - last).norm() < kSpacing) continue;
+      if ((at - last).norm() < kPathSpacing) continue;
       last = at;
-      lay_on_ground(frame.stage.road, at, kLift, line);
+      lay_on_ground(frame.stage.road, at, kPathLift, line);
     }
-    lay_on_ground(frame.stage.road, foot_of(frame.now, vehicle, body), kLift, line);
+    lay_on_ground(frame.stage.road, foot_of(frame.now, vehicle, body), kPathLift, line);
     if (line.points.size() > 1) list.lines.push_back(std::move(line));
   }
 }
 
 }  // namespace
 
-const Overlay kVehiclePaths{"vehicle_paths", [](const Frame& f) { return f.stage.overlays.vehicle_paths; }, add};
+const Overlay kVehiclePaths{"vehicle_paths", [](const Frame& f) { return f.stage.overlays.vehicle_paths; }, add_vehicle_paths};
 
 }  // namespace render

@@ -7,20 +7,20 @@
 namespace render {
 namespace {
 
-constexpr double kLeast = 0.3;  // [m/s] slower is a point
-const Float4 kColour{0.45f, 0.85f, 1.0f, 1};
+constexpr double kLeastSpeed = 0.3;  // [m/s] slower is a point
+const Float4 kVelocityColour{0.45f, 0.85f, 1.0f, 1};
 
-void add(const Frame& frame, DrawList& list) {
+void add_velocities(const Frame& frame, DrawList& list) {
   for (const auto& [body, name] : frame.stage.speeds) {
     const engine::BodyState& b = frame.now.bodies[static_cast<std::size_t>(body)];
     const double speed = b.V_WB.v.norm();
-    if (speed < kLeast) continue;
+    if (speed < kLeastSpeed) continue;
     const Vec3 tip = b.X_WB.p + b.V_WB.v / frame.stage.overlays.velocity_scale;
-    list.arrows.push_back({to_float(b.X_WB.p), to_float(tip), kColour, 5});
+    list.arrows.push_back({to_float(b.X_WB.p), to_float(tip), kVelocityColour, 5});
     LabelItem label;
     label.lines = {fmt::format("{} {:.1f} km/h", name, 3.6 * speed)};
     label.sizes = {18};
-    label.colours = {kColour};
+    label.colours = {kVelocityColour};
     label.at_world_point = true;
     label.world = to_float(tip);
     label.pivot = {-0.05f, 0.5f};
@@ -30,6 +30,6 @@ void add(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kVelocities{"velocities", [](const Frame& f) { return f.stage.overlays.velocities; }, add};
+const Overlay kVelocities{"velocities", [](const Frame& f) { return f.stage.overlays.velocities; }, add_velocities};
 
 }  // namespace render

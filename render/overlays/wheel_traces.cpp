@@ -6,10 +6,10 @@
 namespace render {
 namespace {
 
-constexpr double kSpacing = 0.1;  // [m] between points
-constexpr double kLift = 0.015;   // [m] over the ground, so that it is seen
+constexpr double kWheelTraceSpacing = 0.1;  // [m] between points
+constexpr double kWheelTraceLift = 0.015;   // [m] over the ground, so that it is seen
 
-void add(const Frame& frame, DrawList& list) {
+void add_wheel_traces(const Frame& frame, DrawList& list) {
   for (std::size_t w = 0; w < frame.now.wheels.size(); ++w) {
     LineItem line;
     line.colour = {0.98f, 0.98f, 0.92f, 0.9f};
@@ -29,9 +29,9 @@ void add(const Frame& frame, DrawList& list) {
         close();
         continue;
       }
-      if ((wheel.contact - last).norm() < kSpacing) continue;
+      if ((wheel.contact - last).norm() < kWheelTraceSpacing) continue;
       last = wheel.contact;
-      lay_on_ground(frame.stage.road, wheel.contact, kLift, line);
+      lay_on_ground(frame.stage.road, wheel.contact, kWheelTraceLift, line);
     }
     close();
   }
@@ -39,6 +39,6 @@ void add(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kWheelTraces{"wheel_traces", [](const Frame& f) { return f.stage.overlays.wheel_traces; }, add};
+const Overlay kWheelTraces{"wheel_traces", [](const Frame& f) { return f.stage.overlays.wheel_traces; }, add_wheel_traces};
 
 }  // namespace render

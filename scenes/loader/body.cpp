@@ -11,7 +11,7 @@
 namespace scenes {
 namespace {
 
-const Key kKeys[] = {
+const Key kBodyKeys[] = {
     bound<&engine::Body::name>({"name", Type::text, Dimension::none, kRequired, "Name in every output."}),
     bound<&engine::Body::mass>({"mass", Type::number, Dimension::mass, "", "Mass; needed unless the body is fixed.", kPositive}),
     {"axes", Type::vector3, Dimension::length, "", "Semi-axes a, b, c of a hyper-ellipsoid, eq. (60).", kExtent},
@@ -75,7 +75,7 @@ void read_inertia(Reader& r, engine::Body& body) {
 
 }  // namespace
 
-const Section kBodySection{"body", "[[body]]", "A free rigid body: a hyper-ellipsoid, a mesh, or a shapeless mass.", kKeys};
+const Section kBodySection{"body", "[[body]]", "A free rigid body: a hyper-ellipsoid, a mesh, or a shapeless mass.", kBodyKeys};
 
 int Builder::body_index(const std::string& name) const {
   const auto& bodies = scene.model.bodies;

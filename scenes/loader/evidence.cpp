@@ -9,7 +9,7 @@
 namespace scenes {
 namespace {
 
-const Key kKeys[] = {
+const Key kEvidenceKeys[] = {
     {"name", Type::text, Dimension::none, kRequired, "What it is called in tables and pages."},
     {"metric", Type::text, Dimension::none, "",
      "What it is compared with: a measure of summary.json with or without its unit (`throw_distance`, `wrap_around_distance`, "
@@ -133,7 +133,7 @@ void read_one(Builder& builder, Reader& r) {
 const Section kEvidenceSection{"evidence", "[[evidence]]",
                                "Something seen: a rest place, a throw, a mark, a dent, a recorded speed, and how exactly. "
                                "`crashreel fit` asks which inputs explain it.",
-                               kKeys};
+                               kEvidenceKeys};
 
 void read_evidence(Builder& builder, std::vector<Reader> readers) {
   for (Reader& r : readers) read_one(builder, r);

@@ -11,7 +11,7 @@
 namespace scenes {
 namespace {
 
-const Key kSegmentKeys[] = {
+const Key kFigureSegmentKeys[] = {
     bound<&Segment::name>(
         {"name", Type::text, Dimension::none, kRequired, "Name of the part; with sides it becomes left_NAME and right_NAME."}),
     {"sides", Type::boolean, Dimension::none, "false", "Given for the left side; the right one is its mirror image."},
@@ -27,9 +27,9 @@ const Key kSegmentKeys[] = {
                                 "What it yields by against whatever it touches, in series with it.", kPositive}),
     {"cloth", Type::colour, Dimension::none, "'#808080'", "Colour."},
 };
-const Section kSegmentSection{"figure.segment", "[[segment]]", "In a person's library file: one part.", kSegmentKeys};
+const Section kSegmentSectionOfFigure{"figure.segment", "[[segment]]", "In a person's library file: one part.", kFigureSegmentKeys};
 
-const Key kAngleKeys[] = {
+const Key kFigureAngleKeys[] = {
     bound<&AnatomicalAngle::name>(
         {"name", Type::text, Dimension::none, kRequired, "The word used in poses: JOINT_NAME, like knee_flexion."}),
     {"about", Type::choice, Dimension::none, kRequired, "Axis of the standing person that a positive angle turns about.", kAny,
@@ -39,10 +39,10 @@ const Key kAngleKeys[] = {
         {"word", Type::text, Dimension::none, "''",
          "Another word for poses. Angles of several joints that have one in common take an even part of it each."}),
 };
-const Section kAngleSection{"figure.joint.angle", "[[joint.angle]]", "In a person's library file: one angle of a joint.",
-                            kAngleKeys};
+const Section kAngleSectionOfFigure{"figure.joint.angle", "[[joint.angle]]", "In a person's library file: one angle of a joint.",
+                                    kFigureAngleKeys};
 
-const Key kJointKeys[] = {
+const Key kFigureJointKeys[] = {
     {"name", Type::text, Dimension::none, kRequired, "Name of the joint; with sides left_NAME and right_NAME."},
     {"sides", Type::boolean, Dimension::none, "false", "Given for the left side; the right one is its mirror image."},
     {"parent", Type::text, Dimension::none, kRequired, "The part nearer to the root."},
@@ -55,7 +55,7 @@ const Key kJointKeys[] = {
      "About y: a revolute joint. About y and x: a universal joint. About y, x and z: a ragdoll joint.",
      kAny,
      {},
-     &kAngleSection},
+     &kAngleSectionOfFigure},
     bound<&FigureJoint::damping>(
         {"damping", Type::number, Dimension::angular_damping, "0", "Resistance per angular speed.", kNotNegative}),
     bound<&FigureJoint::friction_torque>(
@@ -73,7 +73,7 @@ const Key kJointKeys[] = {
         {"passive_share", Type::number, Dimension::none, "1", "Share of an adult's passive torque.", kNotNegative}),
 };
 const Section kJointSectionOfFigure{"figure.joint", "[[joint]] of a person's file", "In a person's library file: one joint.",
-                                    kJointKeys};
+                                    kFigureJointKeys};
 
 const Key kFigureKeys[] = {
     {"title", Type::text, Dimension::none, "''", "What it is."},
@@ -82,7 +82,7 @@ const Key kFigureKeys[] = {
     {"statures", Type::range, Dimension::length, "", "Statures it may be sized to. Left out: any."},
     {"masses", Type::range, Dimension::mass, "", "Masses it may be sized to. Left out: any."},
     {"root", Type::text, Dimension::none, kRequired, "The part all others hang on."},
-    {"segment", Type::tables, Dimension::none, kRequired, "Parts.", kAny, {}, &kSegmentSection},
+    {"segment", Type::tables, Dimension::none, kRequired, "Parts.", kAny, {}, &kSegmentSectionOfFigure},
     {"joint", Type::tables, Dimension::none, kRequired, "Joints.", kAny, {}, &kJointSectionOfFigure},
 };
 

@@ -15,7 +15,7 @@ const Key kPatchKeys[] = {
 const Section kPatchSection{"ground.patch", "[[ground.patch]]",
                             "A rectangle with a friction of its own; later ones lie over earlier ones.", kPatchKeys};
 
-const Key kKeys[] = {
+const Key kGroundKeys[] = {
     {"kind", Type::choice, Dimension::none, "'plane'", "An infinite plane z = height, or none (free fall, or terrain only).", kAny,
      "plane|none"},
     bound<&engine::Ground::height>({"height", Type::number, Dimension::length, "'0 m'", "Height of the plane."}),
@@ -32,7 +32,7 @@ const Key kKeys[] = {
 
 }  // namespace
 
-const Section kGroundSection{"ground", "[ground]", "What everything stands on.", kKeys};
+const Section kGroundSection{"ground", "[ground]", "What everything stands on.", kGroundKeys};
 
 void read_ground(Builder& builder, std::optional<Reader> reader) {
   Reader r = reader ? *reader : Reader(empty_table(), kGroundSection, "ground", builder.errors);

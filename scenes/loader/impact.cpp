@@ -4,7 +4,7 @@
 namespace scenes {
 namespace {
 
-const Key kKeys[] = {
+const Key kImpactKeys[] = {
     {"a", Type::text, Dimension::none, kRequired, "A vehicle or a body with a mesh."},
     {"b", Type::text, Dimension::none, kRequired, "The other."},
     bound<&engine::ImpactSettings::penetration_time>(
@@ -23,8 +23,9 @@ const Key kKeys[] = {
 
 }  // namespace
 
-const Section kImpactSection{
-    "impact", "[[impact]]", "Settles what is otherwise found in the impact of two bodies that both ask for Kudlich-Slibar.", kKeys};
+const Section kImpactSection{"impact", "[[impact]]",
+                             "Settles what is otherwise found in the impact of two bodies that both ask for Kudlich-Slibar.",
+                             kImpactKeys};
 
 void read_impact(Builder& builder, Reader r) {
   engine::ImpactSettings impact;

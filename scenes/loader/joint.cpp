@@ -42,7 +42,7 @@ const Section kSlideSection{
     "joint.slide", "[joint.slide]",
     "The slide of a prismatic or cylindrical joint: the way of the joint's centre along axis since the start.", kSlideKeys};
 
-const Key kKeys[] = {
+const Key kJointKeys[] = {
     {"name", Type::text, Dimension::none, "''", "Name in messages; left out: parent-child."},
     bound<&engine::Joint::kind>(
         {"kind", Type::choice, Dimension::none, "'spherical'",
@@ -109,7 +109,7 @@ int find_body(Builder& builder, Reader& r, std::string_view key) {
 }
 
 const Section kJointSection{"joint", "[[joint]]",
-                            "Ties a body to another or to the world. All angles are zero in the pose at the start.", kKeys};
+                            "Ties a body to another or to the world. All angles are zero in the pose at the start.", kJointKeys};
 
 engine::JointCoordinate read_angle(Reader& r, engine::JointCoordinate out) {
   if (r.has("range"))

@@ -12,11 +12,11 @@ namespace {
 using engine::Mat3;
 using engine::Vec3;
 
-struct Unit {
+struct LengthUnit {
   double metres;
   const char* name;
 };
-constexpr Unit kUnits[] = {{0.001, "millimetres"}, {0.01, "centimetres"}, {0.0254, "inches"}, {0.3048, "feet"}};
+constexpr LengthUnit kLengthUnits[] = {{0.001, "millimetres"}, {0.01, "centimetres"}, {0.0254, "inches"}, {0.3048, "feet"}};
 
 constexpr const char* kAxes[] = {"x", "y", "z", "-x", "-y", "-z"};
 
@@ -88,7 +88,7 @@ void infer_scale(Reader& r, const Vec3& units, MeshFrame& frame) {
     return size[2] * scale >= shortest && size[2] * scale <= longest && size[1] * scale >= 0.3 && size[1] * scale <= 4.5;
   };
   if (fits(1, 1.4, 25)) return;
-  for (const Unit& unit : kUnits) {
+  for (const LengthUnit& unit : kLengthUnits) {
     if (!fits(unit.metres, 2.5, 13)) continue;
     frame.scale = unit.metres;
     r.warn("mesh", fmt::format("measures {:.4g} by {:.4g} by {:.4g}: taken to be in {}; write mesh_scale = {} to settle it",

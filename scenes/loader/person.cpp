@@ -11,7 +11,7 @@ namespace scenes {
 
 namespace {
 
-const Key kSegmentKeys[] = {
+const Key kPersonSegmentKeys[] = {
     {"axes", Type::vector3, Dimension::length, "", "Semi-axes.", kExtent},
     {"exponent", Type::number, Dimension::none, "", "Exponent n.", between(2, 100), {}, nullptr, "a hyper-ellipsoid needs n >= 2"},
     {"mass", Type::number, Dimension::mass, "", "Mass; the other parts keep theirs.", kPositive},
@@ -19,13 +19,13 @@ const Key kSegmentKeys[] = {
     CRASHREEL_SURFACE_KEYS,
     {"colour", Type::colour, Dimension::none, "", "Colour in pictures."},
 };
-const Section kSegmentSection{"person.segment", "[person.segment.NAME]",
-                              "Changes to one part: head, neck, torso, hips, left_thigh ...", kSegmentKeys};
+const Section kSegmentSectionOfPerson{"person.segment", "[person.segment.NAME]",
+                                      "Changes to one part: head, neck, torso, hips, left_thigh ...", kPersonSegmentKeys};
 
 const Key kRangeKeys[] = {{"*", Type::range, Dimension::angle, "", "Range of motion of the angle of this name, like flexion."}};
 const Section kRangesSection{"person.joint.ranges", "[person.joint.NAME.ranges]", "Other ranges of motion.", kRangeKeys};
 
-const Key kJointKeys[] = {
+const Key kPersonJointKeys[] = {
     bound<&FigureJoint::damping>(
         {"damping", Type::number, Dimension::angular_damping, "", "Resistance per angular speed.", kNotNegative}),
     bound<&FigureJoint::friction_torque>(
@@ -42,9 +42,9 @@ const Key kJointKeys[] = {
     {"ranges", Type::table, Dimension::none, "", "Ranges of motion.", kAny, {}, &kRangesSection},
 };
 const Section kJointSectionOfPerson{"person.joint", "[person.joint.NAME]",
-                                    "Changes to one joint: trunk, neck, head, left_hip, left_knee ...", kJointKeys};
+                                    "Changes to one joint: trunk, neck, head, left_hip, left_knee ...", kPersonJointKeys};
 
-const Key kKeys[] = {
+const Key kPersonKeys[] = {
     {"name", Type::text, Dimension::none, kRequired, "Name; its parts are NAME/head, NAME/left_thigh ..."},
     {"figure", Type::text, Dimension::none, "'person-14'", "A person of the library or of the scene's folder."},
     {"sex", Type::choice, Dimension::none, "'male'", "Which regression gives the masses of the parts.", kAny, "male|female"},
@@ -90,7 +90,7 @@ const Key kKeys[] = {
     bound<&engine::Body::collision_model>({"collision", Type::choice, Dimension::none, "'default_auto'",
                                            "Collision model the person asks for.", kAny, "default_auto"}),
     CRASHREEL_SURFACE_KEYS,
-    {"segment", Type::map, Dimension::none, "", "Changes to single parts.", kAny, {}, &kSegmentSection},
+    {"segment", Type::map, Dimension::none, "", "Changes to single parts.", kAny, {}, &kSegmentSectionOfPerson},
     {"joint", Type::map, Dimension::none, "", "Changes to single joints.", kAny, {}, &kJointSectionOfPerson},
 };
 
@@ -172,7 +172,7 @@ void add_actor(Builder& builder, const std::string& name, int look, int first_bo
 }  // namespace
 
 const Section kPersonSection{"person", "[[person]]",
-                             "A person: parts joined by joints. Angles in words, sizes by stature and mass.", kKeys};
+                             "A person: parts joined by joints. Angles in words, sizes by stature and mass.", kPersonKeys};
 
 void read_person(Builder& builder, Reader r) {
   engine::Model& model = builder.scene.model;

@@ -17,7 +17,7 @@ const Section kEffectsSection{"simulation.effects", "[simulation.effects]", "Phy
 
 constexpr double kRightAngle = 1.5707963267948966;
 
-const Key kKeys[] = {
+const Key kSimulationKeys[] = {
     bound<&engine::Settings::duration>(
         {"duration", Type::number, Dimension::time, "'4 s'", "Simulated time.", Range{0, 600, true}}),
     {"profile", Type::choice, Dimension::none, "'standard'",
@@ -68,7 +68,7 @@ const Key kKeys[] = {
 
 }  // namespace
 
-const Section kSimulationSection{"simulation", "[simulation]", "How the motion is computed.", kKeys};
+const Section kSimulationSection{"simulation", "[simulation]", "How the motion is computed.", kSimulationKeys};
 
 namespace {
 

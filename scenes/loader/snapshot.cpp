@@ -44,7 +44,7 @@ const Key kExpectKeys[] = {
      "several objects have it: `\"throw_distance pedestrian\"`."},
 };
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
   return text;
@@ -57,8 +57,8 @@ void read_expectation(Builder& builder, Reader& r, const std::string& key) {
   std::size_t sign = text.find("+-"), sign_length = 2;
   if (sign == std::string::npos) sign = text.find("\u00b1");  // as long in UTF-8
   if (sign == std::string::npos) return r.fail(key, kRemedy);
-  const std::string_view value = trimmed(std::string_view(text).substr(0, sign));
-  const std::string_view tolerance = trimmed(std::string_view(text).substr(sign + sign_length));
+  const std::string_view value = without_blanks(std::string_view(text).substr(0, sign));
+  const std::string_view tolerance = without_blanks(std::string_view(text).substr(sign + sign_length));
   for (const MetricUnit& unit : kMetricUnits) {
     // a bare zero is of every dimension: only a text with a unit, or the last line of the table, decides
     const bool bare = tolerance.find_first_not_of("0123456789.eE+-") == std::string_view::npos;

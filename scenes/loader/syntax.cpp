@@ -61,10 +61,10 @@ std::optional<Assignment> assignment_of(std::string_view line) {
   return Assignment{trimmed(line.substr(0, equals)), trimmed(without_remark(line.substr(equals + 1)))};
 }
 
-bool is_digit(char c) {
+bool is_decimal_digit(char c) {
   return c >= '0' && c <= '9';
 }
-bool is_letter(char c) {
+bool starts_a_word(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || static_cast<unsigned char>(c) >= 0x80;
 }
 
@@ -89,7 +89,7 @@ std::optional<std::string> with_points(std::string_view value) {
   bool any = false;
   for (std::size_t i = 1; i + 1 < out.size(); ++i) {
     if (out[i] != ',') continue;
-    if (!is_digit(out[i - 1]) || !is_digit(out[i + 1]) || any) return std::nullopt;
+    if (!is_decimal_digit(out[i - 1]) || !is_decimal_digit(out[i + 1]) || any) return std::nullopt;
     out[i] = '.';
     any = true;
   }
@@ -98,14 +98,14 @@ std::optional<std::string> with_points(std::string_view value) {
 
 std::optional<std::string> forgotten_quotes(const Assignment& line) {
   const std::string_view value = line.value;
-  const bool number = !value.empty() && (is_digit(value[0]) ||
+  const bool number = !value.empty() && (is_decimal_digit(value[0]) ||
                                          (value.size() > 1 && std::string_view("+-.").find(value[0]) != std::string_view::npos &&
-                                          (is_digit(value[1]) || value[1] == '.')));
-  const bool word = !value.empty() && is_letter(value[0]);
+                                          (is_decimal_digit(value[1]) || value[1] == '.')));
+  const bool word = !value.empty() && starts_a_word(value[0]);
   if (!number && !word) return std::nullopt;
   if (number) {
     const std::optional<std::string> points = with_points(value);
-    const bool unit = std::any_of(value.begin(), value.end(), [](char c) { return is_letter(c) || c == '%'; });
+    const bool unit = std::any_of(value.begin(), value.end(), [](char c) { return starts_a_word(c) || c == '%'; });
     if (points && unit) return fmt::format("{} has a decimal comma and no quotes; write {} = \"{}\"", value, line.key, *points);
     if (points) return fmt::format("{} has a decimal comma; write {} = {}", value, line.key, *points);
     if (!unit && value.find(' ') == std::string_view::npos) return std::nullopt;
@@ -137,7 +137,7 @@ std::optional<std::string> open_header(std::string_view line) {
 
 std::optional<std::string> no_equals(std::string_view line) {
   const std::string_view plain = trimmed(without_remark(line));
-  if (plain.empty() || !is_letter(plain[0]) || plain.find('=') != std::string_view::npos) return std::nullopt;
+  if (plain.empty() || !starts_a_word(plain[0]) || plain.find('=') != std::string_view::npos) return std::nullopt;
   const std::size_t end = plain.find_first_of(" \t:");
   if (end == std::string_view::npos) return fmt::format("{0} has no value; write {0} = ...", plain);
   const std::size_t value = plain.find_first_not_of(" \t:", end);

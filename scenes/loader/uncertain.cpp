@@ -21,7 +21,7 @@ const Key kCorrelationKeys[] = {
 const Section kCorrelationSection{"uncertain.correlation", "[uncertain.correlation]",
                                   "What is not known together: taller people are heavier.", kCorrelationKeys};
 
-const Key kKeys[] = {
+const Key kUncertainKeys[] = {
     {"key", Type::text, Dimension::none, kRequired,
      "What is uncertain: a path as in --set, `\"vehicle.sedan.speed\"`, or a variable, `\"variables.speed\"`."},
     {"uniform", Type::any, Dimension::none, "", "All values between two are as likely: `\"38 52 km/h\"`."},
@@ -253,7 +253,7 @@ const Section kUncertainSection{"uncertain", "[[uncertain]]",
                                 "A value of the scene that is known only so far: a key, and one of uniform, normal, triangular, "
                                 "log_normal, choice, table. `crashreel sample` and `fit` draw it; every other command takes what "
                                 "the scene says.",
-                                kKeys};
+                                kUncertainKeys};
 
 KeyUnit unit_of_key(const Value& root, const std::string& path) {
   const KeyOfPath found = key_of_path(root, path);

@@ -7,7 +7,7 @@
 namespace scenes {
 namespace {
 
-const Key kKeys[] = {
+const Key kVariablesKeys[] = {
     {"*", Type::any, Dimension::none, "",
      "A quantity (`\"40 km/h\"`, `0.7`) or an expression over others (`\"-0.432 s * speed\"`): + - * / ^, parentheses, sqrt abs "
      "min max sin cos tan. `g` is 9.81 m/s^2 here. Every number of the scene may be such an expression."},
@@ -122,7 +122,7 @@ struct Resolver {
 }  // namespace
 
 const Section kVariablesSection{"variables", "[variables]", "Names for quantities that several values of the scene follow from.",
-                                kKeys};
+                                kVariablesKeys};
 
 void resolve_variables(Value& root, Errors& errors) {
   const Value* found = root.find("variables");

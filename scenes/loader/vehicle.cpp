@@ -14,7 +14,7 @@
 namespace scenes {
 namespace {
 
-const Key kKeys[] = {
+const Key kVehicleKeys[] = {
     {"name", Type::text, Dimension::none, "''", "Name in every output. (Required in a scene; a library file has none.)"},
     {"model", Type::text, Dimension::none, "''",
      "A vehicle of the library or the scene's folder, whose keys are used where the scene gives none. Empty: all is given here."},
@@ -194,7 +194,7 @@ void couple(Builder& builder, Reader& r, int tower, const engine::Vec3& coupling
 
 }  // namespace
 
-const Section kVehicleSection{"vehicle", "[[vehicle]]", "A vehicle: a rigid body on wheels.", kKeys};
+const Section kVehicleSection{"vehicle", "[[vehicle]]", "A vehicle: a rigid body on wheels.", kVehicleKeys};
 
 void read_vehicle(Builder& builder, Reader scene) {
   engine::Model& model = builder.scene.model;

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kGravity = 9.81;  // [m/s^2]
 
-using Row = std::map<std::string, std::string>;
+using CsvRow = std::map<std::string, std::string>;
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> out;
@@ -32,16 +32,16 @@ std::vector<std::string> split(const std::string& line) {
   return out;
 }
 
-std::vector<Row> rows_of(const std::string& csv) {
+std::vector<CsvRow> rows_of(const std::string& csv) {
   std::istringstream lines(csv);
   std::string line;
   std::getline(lines, line);
   const std::vector<std::string> columns = split(line);
-  std::vector<Row> rows;
+  std::vector<CsvRow> rows;
   while (std::getline(lines, line)) {
     const std::vector<std::string> fields = split(line);
     EXPECT_EQ(fields.size(), columns.size()) << line;
-    Row row;
+    CsvRow row;
     for (std::size_t i = 0; i < fields.size() && i < columns.size(); ++i) row[columns[i]] = fields[i];
     rows.push_back(row);
   }
@@ -56,9 +56,9 @@ double number(const std::string& text) {
   return value;
 }
 
-double sum(const std::vector<Row>& rows, const std::string& column) {
+double sum(const std::vector<CsvRow>& rows, const std::string& column) {
   double total = 0;
-  for (const Row& row : rows) total += number(row.at(column));
+  for (const CsvRow& row : rows) total += number(row.at(column));
   return total;
 }
 
@@ -91,7 +91,7 @@ TEST(Simulate, ImpactsAreTheSameInTableAndSummary) {
   const Result result = run(folder, {"simulate", scene, "-q", "-o", "out", "--set", "simulation.duration=1 s"});
   ASSERT_EQ(result.code, 0) << result.err;
   const Json summary = Json::parse(contents(folder / "out/summary.json"));
-  const std::vector<Row> rows = rows_of(contents(folder / "out/impacts.csv"));
+  const std::vector<CsvRow> rows = rows_of(contents(folder / "out/impacts.csv"));
   ASSERT_FALSE(rows.empty());
   ASSERT_EQ(rows.size(), summary.at("impacts").size());
   const Json& first = summary.at("impacts").at(0);
@@ -129,7 +129,7 @@ TEST(Simulate, ContactRowsHaveTheirTangentialVector) {
   const Folder folder;
   const Result result = run(folder, {"simulate", gallery("puck_slide.toml"), "-o", "out"});
   ASSERT_EQ(result.code, 0) << result.err;
-  for (const Row& row : rows_of(contents(folder / "out/contacts.csv"))) {
+  for (const CsvRow& row : rows_of(contents(folder / "out/contacts.csv"))) {
     const double x = number(row.at("tangential_x_Ns")), y = number(row.at("tangential_y_Ns")),
                  z = number(row.at("tangential_z_Ns"));
     // a sum of vectors is no longer than the sum of their lengths; on a level road it is level
@@ -174,8 +174,8 @@ TEST(Simulate, TellsSpeedDistanceAndAccelerationOfABrakingCar) {
       "[simulation]\nduration = \"1.5 s\"\n[air]\ndensity = 0\n[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\nspeed = \"20 m/s\"\n"
       "[[vehicle.driver]]\nfrom = \"0.5 s\"\nbuild_up = \"0 s\"\nlevel = \"5 m/s^2\"\n");
   ASSERT_EQ(run(folder, {"simulate", "car.toml", "-o", "out", "--quiet"}).code, 0);
-  const std::vector<Row> rows = rows_of(contents(folder / "out/trajectory.csv"));
-  const Row& last = rows.back();
+  const std::vector<CsvRow> rows = rows_of(contents(folder / "out/trajectory.csv"));
+  const CsvRow& last = rows.back();
   // pitching moves the centre of mass by some millimetres and swings it by some per cent of the deceleration
   EXPECT_NEAR(number(last.at("speed_mps")), 20 - 5, 0.02);
   EXPECT_NEAR(number(last.at("distance_m")), 20 * 1.5 - 0.5 * 5, 0.02);
@@ -187,7 +187,7 @@ TEST(Simulate, TrajectoryHoldsEveryInstantFromTheSceneToItsEnd) {
   const Folder folder;
   folder.write("ball.toml", kBall);
   ASSERT_EQ(run(folder, {"simulate", "ball.toml", "-o", "out"}).code, 0);
-  const std::vector<Row> rows = rows_of(contents(folder / "out/trajectory.csv"));
+  const std::vector<CsvRow> rows = rows_of(contents(folder / "out/trajectory.csv"));
   // 0.4 s, one instant every 5 ms, both ends
   ASSERT_EQ(rows.size(), 81U);
   EXPECT_EQ(rows.front().at("body"), "ball");
@@ -269,7 +269,7 @@ TEST(Simulate, ImpulseColumnsAddUpToTheMomentumThatWasExchanged) {
   const Result result =
       run(folder, {"simulate", gallery("puck_slide.toml"), "-o", "out", "--set", "simulation.stop_at_rest=false"});
   ASSERT_EQ(result.code, 0) << result.err;
-  const std::vector<Row> contacts = rows_of(contents(folder / "out/contacts.csv"));
+  const std::vector<CsvRow> contacts = rows_of(contents(folder / "out/contacts.csv"));
   const double duration = number(rows_of(contents(folder / "out/trajectory.csv")).back().at("time_s"));
   constexpr double kMass = 10;        // [kg] of the scene
   constexpr double kSpeed = 13.4112;  // [m/s] of the scene
@@ -280,11 +280,11 @@ TEST(Simulate, ImpulseColumnsAddUpToTheMomentumThatWasExchanged) {
   EXPECT_NEAR(sum(contacts, "normal_impulse_Ns"), kMass * kGravity * duration, 2 * kMass * kGravity * kStep);
   // While it slides, friction takes the whole momentum. At rest the points of the face hold against each other, which moves
   // nothing; the row in which the puck stops counts as rest, so what friction does in one interval may be missing.
-  std::vector<Row> sliding;
+  std::vector<CsvRow> sliding;
   std::copy_if(contacts.begin(), contacts.end(), std::back_inserter(sliding),
-               [](const Row& row) { return row.at("state") == "slide"; });
+               [](const CsvRow& row) { return row.at("state") == "slide"; });
   EXPECT_NEAR(sum(sliding, "tangential_impulse_Ns"), kMass * kSpeed, kFriction * kMass * kGravity * kInterval);
-  for (const Row& row : contacts) {
+  for (const CsvRow& row : contacts) {
     EXPECT_EQ(row.at("kind"), "ground");
     EXPECT_EQ(row.at("body_a"), "puck");
     EXPECT_EQ(row.at("body_b"), "ground");
@@ -381,7 +381,7 @@ TEST(Plan, AnEffectForcedOffIsAWarningInTheResults) {
     EXPECT_FALSE(line.at("effect") == "gravity" && line.at("active")) << line;
   }
   // nothing pulls: the ball flies straight on
-  const std::vector<Row> rows = rows_of(contents(folder / "out/trajectory.csv"));
+  const std::vector<CsvRow> rows = rows_of(contents(folder / "out/trajectory.csv"));
   EXPECT_EQ(number(rows.back().at("z_m")), 0.3);
 }
 

@@ -23,7 +23,7 @@ using namespace engine;
 namespace {
 
 /// [s] of a scene: the persons are struck within 0.1 s and on their way down at its middle.
-constexpr double kWindow = 0.6;
+constexpr double kStateWindow = 0.6;
 
 Model load(const std::string& scene, std::vector<std::string> overrides = {}) {
   return scenes::load(std::filesystem::path(CRASHREEL_SOURCE_DIR) / scene, overrides).model;
@@ -92,7 +92,7 @@ class StateOfScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(StateOfScene, StoppedCopiedAndGoneOnWithIsTheSameToTheLastBit) {
   Model model = load(GetParam());
-  model.settings.duration = std::min(kWindow, model.settings.duration);
+  model.settings.duration = std::min(kStateWindow, model.settings.duration);
   expect_the_same_when_stopped_halfway(std::move(model));
 }
 

@@ -9,7 +9,7 @@
 
 namespace {
 
-const std::string kCases = std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/";
+const std::string kCasesFolder = std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/";
 
 double mechanical(const engine::Snapshot& s) {
   return s.energies.kinetic + s.energies.potential;
@@ -31,7 +31,7 @@ TEST(Rollover, BooksSpringsInTheStepThatPressesThem) {
 }
 
 TEST(Rollover, OfASedanTrippedAtSixtyRunsToRestWithoutGainingEnergy) {
-  const scenes::Scene scene = scenes::load(kCases + "rollover.toml");
+  const scenes::Scene scene = scenes::load(kCasesFolder + "rollover.toml");
   ASSERT_EQ(scene.model.settings.step, 1e-3);
   const engine::Recording run = engine::simulate(scene.model);
   ASSERT_FALSE(run.failure);
@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Attitudes, Dropped, testing::Values(90.0, 150.0, 180.0,
 
 TEST_P(Dropped, ComesToRestOnItsBodywork) {
   const scenes::Scene scene =
-      scenes::load(kCases + "rollover.toml",
+      scenes::load(kCasesFolder + "rollover.toml",
                    {"vehicle.sedan.velocity=\"1 0 0 m/s\"", "vehicle.sedan.position=\"0 -9 m\"", "vehicle.sedan.lift=\"1.9 m\"",
                     "vehicle.sedan.attitude=\"" + std::to_string(GetParam()) + " 3 0 deg\"", "simulation.duration=\"12 s\""});
   const engine::Recording run = engine::simulate(scene.model);
@@ -98,7 +98,7 @@ TEST(Rollover, DownABankOfTrianglesComesToRestOnThem) {
 }
 
 TEST(CarAgainstCar, ByDefaultAutoKeepsMomentumAndDoesNotPassThrough) {
-  scenes::Scene scene = scenes::load(kCases + "intersection_ks.toml", {"vehicle.red.collision=\"default_auto\""});
+  scenes::Scene scene = scenes::load(kCasesFolder + "intersection_ks.toml", {"vehicle.red.collision=\"default_auto\""});
   scene.model.settings.duration = 1.5;
   const engine::Recording run = engine::simulate(scene.model);
   ASSERT_FALSE(run.failure);

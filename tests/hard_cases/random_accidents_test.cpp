@@ -18,11 +18,11 @@ namespace {
 constexpr int kGroups = 8;
 constexpr int kInGroup = 6;
 
-struct Kind {
+struct VehicleKind {
   const char* model;
   double half_length;  // [m] to its farthest corner, rounded up
 };
-constexpr Kind kVehicles[] = {{"sedan", 2.7}, {"small_car", 2.3}, {"suv", 2.6}, {"van", 3.1}, {"bus", 6.4}, {"truck", 5.2}};
+constexpr VehicleKind kVehicles[] = {{"sedan", 2.7}, {"small_car", 2.3}, {"suv", 2.6}, {"van", 3.1}, {"bus", 6.4}, {"truck", 5.2}};
 constexpr const char* kFigures[] = {"person-14", "person-16", "child-3", "child-6", "child-10"};
 constexpr const char* kUpright[] = {"standing", "walking_left", "walking_right", "leaning", "prayer", "cat", "sitting"};
 constexpr const char* kLow[] = {"lying_prone", "lying_supine", "sitting_upright", "cat"};
@@ -72,7 +72,7 @@ std::string accident(unsigned seed, const char* law) {
     return text;
   }
   if (kind < 0.55) {
-    const Kind& other = dice.one_of(kVehicles);
+    const VehicleKind& other = dice.one_of(kVehicles);
     const std::string place = fmt::format("position = \"{:.3f} {:.3f} m\"\nheading = \"{:.0f} deg\"\n",
                                           1.2 + other.half_length + dice.between(0, 2), dice.between(-1, 1), dice.between(0, 360));
     text += vehicle(dice, "other", other.model, place, 0, dice.chance(0.5) ? 0 : 60);

@@ -22,12 +22,12 @@ constexpr Size kLarge{960, 540};  // 518,400 pixels
 constexpr Size kSmall{320, 180};  // the default of snapshots
 
 /// A moment of a scene, ready to be drawn right or with a fault in it.
-struct Shown {
+struct PlantedPicture {
   scenes::Scene scene;
   engine::Recording run;
   render::Moment moment;
 
-  Shown(const char* file, double time, const char* camera)
+  PlantedPicture(const char* file, double time, const char* camera)
       : scene(scenes::load(kSource / "scenes" / file, {"simulation.duration=0.15 s"})),
         run(engine::simulate(scene.model)),
         moment{time, camera, 1} {
@@ -39,8 +39,8 @@ struct Shown {
 };
 
 /// The flagship at the moment the car meets the leg: contact markers, arrows, caption, a person, a car.
-const Shown& contact() {
-  static const Shown shown("cases/sedan_pedestrian_40kmh.toml", 0.12, "follow");
+const PlantedPicture& contact() {
+  static const PlantedPicture shown("cases/sedan_pedestrian_40kmh.toml", 0.12, "follow");
   return shown;
 }
 
@@ -59,7 +59,7 @@ void expect_seen(const render::DrawList& right, const render::DrawList& wrong, S
   EXPECT_FALSE(render::within(found, {})) << size.width << "x" << size.height << ": " << figures;
 }
 
-void expect_seen_in(const Shown& shown, Size size, const std::function<void(render::DrawList&)>& plant) {
+void expect_seen_in(const PlantedPicture& shown, Size size, const std::function<void(render::DrawList&)>& plant) {
   const render::DrawList right = shown.list(size);
   render::DrawList wrong = right;
   plant(wrong);
@@ -67,7 +67,7 @@ void expect_seen_in(const Shown& shown, Size size, const std::function<void(rend
 }
 
 /// Turns the bodies of a person whose names hold one of `parts` about a joint, as a wrong joint angle would.
-engine::Recording with_limb_turned(const Shown& shown, const std::vector<std::string>& parts, const std::string& first,
+engine::Recording with_limb_turned(const PlantedPicture& shown, const std::vector<std::string>& parts, const std::string& first,
                                    double angle) {
   engine::Recording out = shown.run;
   for (engine::Snapshot& snapshot : out.snapshots) {
@@ -88,7 +88,7 @@ engine::Recording with_limb_turned(const Shown& shown, const std::vector<std::st
 }
 
 TEST(PlantedFault, AThinLineMovedByAPixel) {
-  const Shown& shown = contact();
+  const PlantedPicture& shown = contact();
   for (const Size size : {kLarge, kSmall}) {
     render::DrawList right = shown.list(size);
     // across the road, as thin as lines are drawn; two pixels of a picture of 1080 lines
@@ -141,10 +141,10 @@ TEST(PlantedFault, AWrongDigitInTheSpeeds) {
 }
 
 TEST(PlantedFault, ALimbTurnedByADegree) {
-  Shown shown("gallery/pose_standing.toml", 0, "side");
+  PlantedPicture shown("gallery/pose_standing.toml", 0, "side");
   for (const Size size : {kLarge, kSmall}) {
     const render::DrawList right = shown.list(size);
-    Shown turned = shown;
+    PlantedPicture turned = shown;
     turned.run = with_limb_turned(shown, {"left_upper_arm", "left_forearm", "left_hand"}, "left_upper_arm", 0.0174533);
     expect_seen(right, turned.list(size), size);
     turned.run = with_limb_turned(shown, {"right_forearm", "right_hand"}, "right_forearm", 0.0174533);
@@ -193,7 +193,7 @@ TEST(Harmless, WhatAnotherProcessorDoesIsPassed) {
 }
 
 TEST(Harmless, TheSameMomentDrawnAgainIsTheSameToTheBit) {
-  const Shown& shown = contact();
+  const PlantedPicture& shown = contact();
   EXPECT_EQ(render::difference_of(draw(shown.list(kLarge), kLarge), draw(shown.list(kLarge), kLarge)).differing, 0);
 }
 

@@ -28,8 +28,8 @@ TEST(Sample, SharesOfTheVarianceAreThoseOfTheFormula) {
   const Folder folder;
   const Result result = sample(folder, "out", {"-n", "256"});
   ASSERT_EQ(result.code, 0) << result.err;
-  const auto json = nlohmann::json::parse(contents(folder / "out/sample.json"));
-  const auto& travel = json["outputs"]["travel_m"];
+  const auto answer = nlohmann::json::parse(contents(folder / "out/sample.json"));
+  const auto& travel = answer["outputs"]["travel_m"];
   // d = v^2 / (2 mu g), v uniform 26..34 mph, mu normal 0.6, 0.04 and independent: E d = E v^2 E 1/mu / (2 g), and so on. With
   // r = 0.04/0.6, E 1/mu = (1 + r^2 + 3 r^4)/0.6 and E 1/mu^2 = (1 + 3 r^2 + 15 r^4)/0.36 to 1e-4
   const double mph = 0.44704, a = 26 * mph, b = 34 * mph, r = 0.04 / 0.6;
