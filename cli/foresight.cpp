@@ -8,6 +8,7 @@
 
 #include "cli/disk_room.h"
 #include "cli/film_plan.h"
+#include "engine/geometry/hyper_ellipsoid.h"
 #include "engine/simulate.h"
 #include "render/cameras.h"
 #include "render/frames.h"
@@ -21,6 +22,8 @@ using Sentences = std::vector<std::string>;
 constexpr double kFastestVehicle = 250 / 3.6;  // [m/s] beyond it a unit is wrong more often than the accident is real
 constexpr double kFastestPerson = 45 / 3.6;    // [m/s] the fastest sprint; riders are not held to it
 constexpr double kHardestDriving = 10;         // [m/s^2] no tyre accelerates or brakes harder on the road
+constexpr double kRoughestGround = 1.5;        // [-] beyond it no tyre or cloth on a road
+constexpr double kHighestStart = 1;            // [m] of a person's lowest point
 constexpr int kFirstSteps = 3;
 
 /// What moves as one: a vehicle, a person, a free body.
@@ -102,6 +105,29 @@ Sentences unlikely_speeds(const engine::Model& model) {
     tell(vehicle.name, model.bodies[static_cast<std::size_t>(vehicle.body)].V_WB.v.norm(), kFastestVehicle);
   for (const engine::Person& person : model.persons)
     if (person.mount < 0) tell(person.name, model.bodies[static_cast<std::size_t>(person.hips)].V_WB.v.norm(), kFastestPerson);
+  return out;
+}
+
+Sentences unlikely_ground(const engine::Model& model) {
+  Sentences out;
+  const double friction = model.ground.surface.friction_ground.at(0);
+  if (friction > kRoughestGround) out.push_back(fmt::format("ground.friction is {:.3g}; dry asphalt has 0.7 to 0.8", friction));
+  if (model.ground.terrain || !model.ground.plane) return out;
+  const auto lowest = [&model](const engine::Person& person) {
+    double z = 1e300;
+    for (const int b : person.bodies) {
+      const engine::Body& body = model.bodies[static_cast<std::size_t>(b)];
+      if (const auto* shape = std::get_if<engine::HyperEllipsoid>(&body.shape))
+        z = std::min(z, (body.X_WB * engine::support_point(*shape, body.X_WB.q.conjugate() * Vec3(0, 0, -1))).z());
+    }
+    return z;
+  };
+  // `height` taken for the stature; who shall fall from that high reads it once
+  for (const engine::Person& person : model.persons) {
+    const double z = lowest(person);
+    if (person.mount < 0 && z > kHighestStart && z < 1e3)
+      out.push_back(fmt::format("{} starts {:.3g} m above the ground; the length of the body is `stature`", person.name, z));
+  }
   return out;
 }
 
@@ -231,9 +257,9 @@ bool nothing_touched(const engine::Model& model, const engine::Recording& record
 }
 
 std::vector<std::string> foresee(const scenes::Scene& scene, const std::string& output) {
-  Sentences out = first_steps(scene);
-  for (const Sentences& more : {inside_vehicles(scene.model), unlikely_speeds(scene.model), out_of_reach(scene.model),
-                                blind_cameras(scene), room_on_disk(scene, output)})
+  Sentences out = inside_vehicles(scene.model);  // first: why the first steps find what they find
+  for (const Sentences& more : {first_steps(scene), unlikely_speeds(scene.model), unlikely_ground(scene.model),
+                                out_of_reach(scene.model), blind_cameras(scene), room_on_disk(scene, output)})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }

@@ -92,7 +92,9 @@ std::string roff_common(const std::string& see_also) {
   return out +
          ".SH ENVIRONMENT\n.TP\n.B CRASHREEL_HOME\nThe folder that holds scenes/library and assets, in place of the installed "
          "one.\n"
-         ".TP\n.B NO_COLOR\nNo colours on the terminal.\n.SH SEE ALSO\n" +
+         ".TP\n.B NO_COLOR\nNo colours on the terminal.\n.SH FILES\n"
+         ".TP\n.I /usr/share/doc/crashreel/scenes/GUIDE.md\nThe guide: half an hour to a case of your own.\n"
+         ".TP\n.I /usr/share/crashreel/scenes\nScenes to copy and try, and the library.\n.SH SEE ALSO\n" +
          see_also + "\n";
 }
 

@@ -113,7 +113,10 @@ scenes::Scene load_scene(const SceneArguments& given, double memory_ceiling) {
     for (const std::string& warning : scene.warnings) fmt::print(stderr, "{}\n", warning);
   }
   scene.stage.provenance = fmt::format("crashreel {} | {}", CRASHREEL_VERSION, scene.stage.provenance);
-  if (!wish.set.empty()) scene.stage.title += told_overrides(wish.set);
+  if (!wish.set.empty()) {
+    scene.stage.title += told_overrides(wish.set);
+    for (render::Card& card : scene.stage.cards) card.lines.insert(card.lines.begin(), told_overrides(wish.set).substr(1));
+  }
   for (const auto& [name, force] : scene.model.settings.effects) {
     if (force == engine::Force::off) scene.stage.warnings.push_back(fmt::format("effect {} switched off by the author", name));
   }

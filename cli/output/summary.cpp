@@ -317,9 +317,14 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
     line(metric.object.empty() ? metric.key : metric.key + " " + metric.object,
          metric.text.empty() ? digits_of(metric, known) + scattered(metric, metrics) + unfinished(metric, absent) : metric.text);
   }
-  std::string missing;
-  for (const engine::AbsentMetric& a : absent)
-    if (missing.find(a.key) == std::string::npos) missing += (missing.empty() ? "" : ", ") + a.key;
+  // whose it is, where another has it
+  std::vector<std::string> missing_names;
+  for (const engine::AbsentMetric& a : absent) {
+    const bool elsewhere = std::any_of(metrics.begin(), metrics.end(), [&](const auto& m) { return m.key == a.key; });
+    const std::string name = elsewhere && !a.object.empty() ? a.key + " " + a.object : a.key;
+    if (std::find(missing_names.begin(), missing_names.end(), name) == missing_names.end()) missing_names.push_back(name);
+  }
+  const std::string missing = fmt::format("{}", fmt::join(missing_names, ", "));
   if (!missing.empty()) line("absent", missing + " (summary.json has the reasons)");
   line("energy", fmt::format("{:.6g} J at first, {:.6g} J at last, unexplained {:.3g} J", initial, last.kinetic + last.potential,
                              last.residual));

@@ -64,9 +64,14 @@ std::string as_scene_lines(const std::vector<std::string>& overrides) {
 void check_target(const Target& target, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     if (fits(name, target.quantity)) return;
-  const std::string near = scenes::nearest(target.quantity, names);
+  std::string near = scenes::nearest(target.quantity, names);
   std::set<std::string> keys;  // without whose they are
   for (const std::string& name : names) keys.insert(name.substr(0, name.find(' ')));
+  // a part of a name, such as "throw"
+  std::vector<std::string> longer;
+  for (const std::string& key : keys)
+    if (!target.quantity.empty() && key.starts_with(target.quantity + "_")) longer.push_back(key);
+  if (!longer.empty()) near = fmt::format("{}", fmt::join(longer, " or "));
   throw UsageError(fmt::format("--target: the scene has no measure {}{} it has {}", target.quantity,
                                near.empty() ? ";" : fmt::format("; did you mean {}?", near), fmt::join(keys, ", ")));
 }

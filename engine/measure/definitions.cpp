@@ -36,7 +36,7 @@ constexpr Definition kDefinitions[] = {
      "it.",
      kUnstruck, kPhase},
     {"carried_m", "m", "carried",
-     "Distance of the phase carried: from there until the vehicle last pushes the person before it lands.",
+     "Distance of the phase carried: from the end of the phase contact until the vehicle last pushes the person before it lands.",
      "the person never goes as fast as the vehicle while that pushes", kPhase},
     {"airborne_m", "m", "airborne",
      "Distance of the phase flight: from the last push of a vehicle to landing, if for 50 ms or more neither touched.",

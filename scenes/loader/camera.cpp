@@ -38,8 +38,16 @@ const Key kCameraKeys[] = {
         {"follow", Type::text, Dimension::none, "''", "The subject: a body, a vehicle or a person. Empty: the world."}),
     bound<&render::Camera::vertical_fov>(
         {"fov", Type::number, Dimension::angle, "'40 deg'", "Vertical angle of view.", between(0.02, 2.6)}),
-    {"lens", Type::number, Dimension::length, "",
-     "Focal length in place of fov, for a picture 24 mm high (35 mm still format): \"50 mm\".", between(0.006, 1)},
+    {"lens",
+     Type::number,
+     Dimension::length,
+     "",
+     "Focal length in place of fov, for a picture 24 mm high (35 mm still format): \"50 mm\".",
+     between(0.006, 1),
+     {},
+     nullptr,
+     {},
+     between(0.006, 0.25)},
     bound<&render::Camera::orbit_radius>({"radius", Type::number, Dimension::length, "'8 m'", "Orbit: distance.", kPositive}),
     bound<&render::Camera::orbit_height>({"height", Type::number, Dimension::length, "'2.5 m'", "Orbit: above the subject."}),
     bound<&render::Camera::orbit_start>(

@@ -31,6 +31,19 @@ std::string units_meant(double number, const Key& key) {
   return unit_examples(number, key.dimension, range.lower, range.upper);
 }
 
+/// After a key no other is near to: the section it is, where it stands elsewhere; else the keys of this one, where they fit a line.
+std::string remedy_of_unknown(const std::string& key, const Section& section) {
+  for (const Section* other : all_sections())
+    if (!key.empty() && std::string_view(other->name).ends_with("." + key)) return fmt::format("; did you mean {}?", other->header);
+  constexpr std::size_t kAtMost = 12;
+  if (section.name.empty() || section.keys.size() > kAtMost || section.find("*"))
+    return fmt::format("; the keys {} are in scenes/README.md",
+                       section.name.empty() ? "at the top of the file" : fmt::format("of {}", section.header));
+  std::vector<std::string_view> names;
+  for (const Key& known : section.keys) names.push_back(known.name);
+  return fmt::format("; {} has {}", section.header, fmt::join(names, ", "));
+}
+
 std::string range_message(const Key& key) {
   return fmt::format("must {}{}{}", key.range.lower_open || std::isinf(key.range.upper) ? "be " : "lie in ", describe_range(key),
                      key.remedy.empty() ? "" : "; " + std::string(key.remedy));
@@ -52,8 +65,7 @@ Reader::Reader(const Value& table, const Section& section, std::string path, Err
     const std::string guess = nearest(entry.key, known);
     errors.add(entry.place,
                fmt::format("{} is not a known key{}", this->path(entry.key),
-                           guess.empty() ? fmt::format("; {} is described in scenes/README.md", section.header)
-                                         : fmt::format("; did you mean \"{}\"?", guess)),
+                           guess.empty() ? remedy_of_unknown(entry.key, section) : fmt::format("; did you mean \"{}\"?", guess)),
                "unknown_key");
   }
   for (const Key& key : section.keys) {

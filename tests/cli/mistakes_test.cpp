@@ -171,7 +171,22 @@ TEST(Mistakes, OptionsThatMeanAValueOfTheScene) {
       "crashreel render: unknown option --speed; values of the scene are changed by --set, like --set vehicle.sedan.speed=\"50 "
       "km/h\"\n");
   EXPECT_EQ(run(folder, {"check", "ball.toml", "--set", "body.bal.mass=1 kg"}).err,
-            "crashreel: --set body.bal.mass=1 kg: there is no body named or numbered \"bal\"\n");
+            "crashreel: --set body.bal.mass=1 kg: there is no body named or numbered \"bal\"; the scene has ball\n");
+}
+
+TEST(Mistakes, AKeyInTheWrongPlaceIsToldItsPlace) {
+  const Folder folder;
+  const std::string car = "[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\n";
+  const auto told = [&folder](const std::string& scene) {
+    folder.write("a.toml", scene);
+    return run(folder, {"check", "a.toml"}).err;
+  };
+  EXPECT_THAT(told(car + "[[driver]]\nfrom = \"1 s\"\n"), HasSubstr("driver is not a known key; did you mean [[vehicle.driver]]?"));
+  EXPECT_THAT(told(car + "[[vehicle.driver]]\nfrom = \"1 s\"\ndeceleration = \"4 m/s^2\"\n"),
+              HasSubstr("deceleration is not a known key; [[vehicle.driver]] has "));
+  EXPECT_THAT(told("banana = 1\n" + car),
+              HasSubstr("banana is not a known key; the keys at the top of the file are in scenes/README.md"));
+  EXPECT_THAT(told(car + "[[camera]]\nname = \"c\"\nlens = \"28\"\n"), HasSubstr("needs a unit: write \"28 mm\"\n"));
 }
 
 TEST(Mistakes, AMeshThatIsMissingIsToldBesideWhatElseIs) {
@@ -210,6 +225,8 @@ TEST(Mistakes, InputsAndTargetsAreCheckedBeforeTheFirstRun) {
   const Result target = run(folder, {"study", "ball.toml", "-o", "out", "--target", "travl_m=1cm"});
   EXPECT_EQ(target.code, 2);
   EXPECT_THAT(target.err, StartsWith("crashreel: --target: the scene has no measure travl_m; did you mean travel_m?"));
+  const Result part = run(folder, {"study", "ball.toml", "-o", "out", "--target", "energy=1m"});
+  EXPECT_THAT(part.err, StartsWith("crashreel: --target: the scene has no measure energy; did you mean energy_residual_J?"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out/runs")) << "nothing was run";
 }
 
@@ -242,6 +259,10 @@ TEST(Check, ForeseesWhatARunWouldTellTooLate) {
   EXPECT_THAT(told(car + "speed = \"400 km/h\"\n" + kPerson + "position = \"4 3 m\"\n"),
               HasSubstr("car starts at 400 km/h, faster than 250 km/h; is the unit right?"));
   EXPECT_THAT(told(car + kPerson + "position = \"200 0 m\"\n"), HasSubstr("p can touch nothing: at the start it is 19"));
+  EXPECT_EQ(told(car + kPerson + "height = \"1.7 m\"\nposition = \"4 3 m\"\n"),
+            "a.toml: p starts 1.7 m above the ground; the length of the body is `stature`\n");
+  EXPECT_EQ(told(car + kPerson + "position = \"4 3 m\"\n[ground]\nfriction = 5\n"),
+            "a.toml: ground.friction is 5; dry asphalt has 0.7 to 0.8\n");
   EXPECT_THAT(told(car + "[[camera]]\nname = \"back\"\nposition = \"-9 0 2 m\"\ntarget = \"-20 0 2 m\"\n"),
               HasSubstr("camera back looks away: no vehicle, person or body comes into its picture"));
   EXPECT_THAT(told(car + "[[vehicle]]\nname = \"other\"\nmodel = \"sedan\"\nposition = \"3 0.5 m\"\n"), HasSubstr("overlap"));

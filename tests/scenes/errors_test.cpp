@@ -166,7 +166,7 @@ TEST(Overrides, AreNamedInErrors) {
   EXPECT_THAT(folder().errors(kBall, {"body.ball.mass=0"}),
               ElementsAre("--set body.ball.mass=0: body.ball.mass is 0: must be greater than 0 kg"));
   EXPECT_THAT(folder().errors(kBall, {"body.bell.mass=1 kg"}),
-              ElementsAre("--set body.bell.mass=1 kg: there is no body named or numbered \"bell\""));
+              ElementsAre("--set body.bell.mass=1 kg: there is no body named or numbered \"bell\"; the scene has ball"));
   EXPECT_THAT(folder().errors(kBall, {"nonsense"}),
               ElementsAre("--set nonsense: must be path.to.key=value; write --set simulation.step='0.5 ms'"));
 }
