@@ -32,10 +32,10 @@ constexpr double kDeepestPoint = 0.15;  // [m] a point farther behind a surface 
 constexpr double kClear = 0.05;         // [m] from a coupled vehicle: nearer at the start, and they never meet there
 
 /// Points that stand for a body's mesh and, of a vehicle, for its wheels, of which `first_wheel` is the number of the first.
-std::vector<SurfacePoint> points_of(const Model& model, const Body& body, int first_wheel) {
+std::vector<SurfacePoint> points_of(const Model& model, const Body& body, int first_wheel, PointsOf of) {
   std::vector<SurfacePoint> out;
   const auto& shape = std::get<MeshShape>(body.shape);
-  for (const Vec3& p : representative_points(*shape.mesh, kSpacing)) out.push_back({shape.X_BM * p});
+  for (const Vec3& p : representative_points(*shape.mesh, kSpacing, of)) out.push_back({shape.X_BM * p});
   if (body.vehicle < 0) return out;
   for (const Wheel& wheel : model.vehicles[body.vehicle].wheels) {
     for (int i = 0; i < kRimPoints; ++i) out.push_back({rim_point(wheel, i), first_wheel});
@@ -45,11 +45,17 @@ std::vector<SurfacePoint> points_of(const Model& model, const Body& body, int fi
 }
 
 void reserve_scratch(const Model& model, ContactPairs& pairs) {
-  std::size_t triangles = model.ground.terrain ? model.ground.terrain->triangles().size() : 0, points = 0;
+  std::size_t triangles = model.ground.terrain ? model.ground.terrain->triangles().size() : 0;
   for (const Body& body : model.bodies)
     if (is_mesh(body)) triangles = std::max(triangles, std::get<MeshShape>(body.shape).mesh->triangles().size());
-  for (const auto& of_body : pairs.points) points = std::max(points, of_body.size());
   pairs.point_scratch.reserve(triangles);
+}
+
+void reserve_contacts(ContactPairs& pairs) {
+  std::size_t points = 0;
+  for (const auto& of_body : pairs.points) points = std::max(points, of_body.size());
+  for (const auto& of_pair : pairs.bodywork_points)
+    for (const auto& of_body : of_pair) points = std::max(points, of_body.size());
   pairs.point_contacts.reserve(points);
 }
 
@@ -100,9 +106,12 @@ void list_mesh_pairs(const Model& model, ContactPairs& pairs) {
     first_wheel.push_back(wheels);
     wheels += static_cast<int>(vehicle.wheels.size());
   }
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (is_mesh(bodies[b]))
-      pairs.points[b] = points_of(model, bodies[b], bodies[b].vehicle < 0 ? 0 : first_wheel[bodies[b].vehicle]);
+  const auto points = [&](int b, PointsOf of) {
+    const int vehicle = bodies[b].vehicle;
+    return points_of(model, bodies[b], vehicle < 0 ? 0 : first_wheel[vehicle], of);
+  };
+  for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
+    if (is_mesh(bodies[b])) pairs.points[b] = points(b, PointsOf::vertices);
   for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b)
       if (meshes_meet(model, a, b)) pairs.bodywork.push_back({a, b});
@@ -111,7 +120,8 @@ void list_mesh_pairs(const Model& model, ContactPairs& pairs) {
     if (coupled(model, pair.a, pair.b))
       pairs.bodywork_points.push_back({clear_points(model, pair.a, pair.b, pairs), clear_points(model, pair.b, pair.a, pairs)});
     else
-      pairs.bodywork_points.push_back({pairs.points[pair.a], pairs.points[pair.b]});
+      pairs.bodywork_points.push_back({points(pair.a, PointsOf::vertices_and_edges), points(pair.b, PointsOf::vertices_and_edges)});
+  reserve_contacts(pairs);
 }
 
 Aabb box_of(const World& world, const Motion& state, int body) {

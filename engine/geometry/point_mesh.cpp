@@ -50,7 +50,7 @@ std::optional<NearestSurface> nearest_surface(const TriangleMesh& mesh, const Ve
   return best;
 }
 
-std::vector<Vec3> representative_points(const TriangleMesh& mesh, double spacing) {
+std::vector<Vec3> representative_points(const TriangleMesh& mesh, double spacing, PointsOf of) {
   const Vec3 centre = 0.5 * (mesh.bounds().lower + mesh.bounds().upper);
   std::map<std::array<int, 3>, Vec3> cubes;
   const auto offer = [&](const Vec3& p) {
@@ -59,12 +59,13 @@ std::vector<Vec3> representative_points(const TriangleMesh& mesh, double spacing
     if (!fresh && (p - centre).squaredNorm() > (at->second - centre).squaredNorm()) at->second = p;
   };
   for (const Vec3& v : mesh.vertices()) offer(v);
-  for (const auto& triangle : mesh.triangles())
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3 &from = mesh.vertices()[triangle[i]], &to = mesh.vertices()[triangle[(i + 1) % 3]];
-      const double parts = std::ceil((to - from).norm() / spacing);
-      for (double k = 1; k < parts; ++k) offer(from + k / parts * (to - from));
-    }
+  if (of == PointsOf::vertices_and_edges)
+    for (const auto& triangle : mesh.triangles())
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 &from = mesh.vertices()[triangle[i]], &to = mesh.vertices()[triangle[(i + 1) % 3]];
+        const double parts = std::ceil((to - from).norm() / spacing);
+        for (double k = 1; k < parts; ++k) offer(from + k / parts * (to - from));
+      }
   std::vector<Vec3> out;
   for (const auto& entry : cubes) out.push_back(entry.second);
   return out;

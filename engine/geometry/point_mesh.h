@@ -22,8 +22,11 @@ std::optional<NearestSurface> nearest_surface(const TriangleMesh&, const Vec3& p
 /// Point of the triangle a, b, c nearest to p.
 Vec3 nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Vertices of a mesh and points of its long edges, thinned to the one farthest out in each cube of side `spacing` [m].
-std::vector<Vec3> representative_points(const TriangleMesh&, double spacing);
+/// Vertices are enough for a plane to lie on; another mesh may come between them.
+enum class PointsOf { vertices, vertices_and_edges };
+
+/// Vertices of a mesh, and points of its long edges, thinned to the one farthest out in each cube of side `spacing` [m].
+std::vector<Vec3> representative_points(const TriangleMesh&, double spacing, PointsOf);
 
 /// Of many contacts of one pair: the deepest and those farthest from what is chosen already, at most `most`. In place.
 void keep_spread(std::vector<SurfaceContact>&, std::size_t most);
