@@ -118,7 +118,7 @@ Sentences unlikely_ground(const engine::Model& model) {
     for (const int b : person.bodies) {
       const engine::Body& body = model.bodies[static_cast<std::size_t>(b)];
       if (const auto* shape = std::get_if<engine::HyperEllipsoid>(&body.shape))
-        z = std::min(z, (body.X_WB * engine::support_point(*shape, body.X_WB.q.conjugate() * Vec3(0, 0, -1))).z());
+        z = std::min(z, body.X_WB.p.z() - engine::aabb_half_widths(*shape, body.X_WB.q).z());
     }
     return z;
   };

@@ -118,10 +118,11 @@ std::optional<Approach> of_vehicles(const Model& model, const Recording& recordi
   for (const Vehicle& v : model.vehicles)
     if (const auto* shape = std::get_if<MeshShape>(&model.bodies[v.body].shape)) outlines.emplace_back(v.body, outline(*shape));
   std::optional<Approach> best;
-  for (std::size_t i = 0; i < outlines.size(); ++i)
+  for (std::size_t i = 0; i < outlines.size(); ++i) {
+    const int a = outlines[i].first;
+    const std::vector<int> train = joined_for_good(model, {a});
     for (std::size_t k = i + 1; k < outlines.size(); ++k) {
-      const int a = outlines[i].first, b = outlines[k].first;
-      const std::vector<int> train = joined_for_good(model, {a});
+      const int b = outlines[k].first;
       if (std::find(train.begin(), train.end(), b) != train.end()) continue;
       for (const Snapshot& s : recording.snapshots) {
         const auto at_a = placed(outlines[i].second, s.bodies[a].X_WB), at_b = placed(outlines[k].second, s.bodies[b].X_WB);
@@ -129,6 +130,7 @@ std::optional<Approach> of_vehicles(const Model& model, const Recording& recordi
         if (!best || d < best->distance) best = Approach{d, s.time, a, b};
       }
     }
+  }
   return best;
 }
 

@@ -121,8 +121,7 @@ constexpr Definition kDefinitions[] = {
      "phase. Two under the same force share it in inverse proportion to stiffness where the scene tells the stiffnesses apart, "
      "else to mass; what is fixed has none. impacts.csv names the rule.",
      "no collision with another vehicle or object; or one of a two-wheeler with a car whose stiffnesses nobody told apart: the "
-     "rule "
-     "of masses is that of cars",
+     "rule of masses is that of cars",
      "the energy contains what friction between the two took", true},
     {"rest_x_m", "m", "rest x", "Place of the vehicle's centre of mass at rest, world x.", kMoving, "to the recorded interval",
      true},

@@ -120,9 +120,8 @@ bool StepControl::find_crossing(const StepContext& s) {
     if (same != before.end() && same->gap <= kPlaced) continue;
     deepest = c.gap;
     striking_ = c.key;
-    cut_ = true;
   }
-  return cut_;
+  return deepest < -kPlaced;
 }
 
 /// A cut step ends where the surfaces would touch if they closed as fast as at its start. One that ends short of the touch or
@@ -137,6 +136,7 @@ Verdict StepControl::place_impact(const StepContext& s) {
   const double closing = -row_velocity(*strikes, s.end.V_WB)[0];
   const double better = s.length + strikes->gap / closing;
   if (!(closing > 0 && better > 0 && better < uncut_)) return {};
+  cut_ = true;
   ++placings_;
   placed_ = better;
   return {Verdict::Kind::place, better};

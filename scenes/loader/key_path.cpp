@@ -14,10 +14,7 @@ std::string unknown(const Section& section, const std::string& part) {
 }
 
 std::string no_element(const Value* list, const std::string& kind, const std::string& part) {
-  std::vector<std::string> names;
-  if (list)
-    for (const Value& item : list->items)
-      if (const Value* name = item.find("name"); name && name->kind == Value::Kind::text) names.push_back(name->text);
+  const std::vector<std::string> names = list ? names_in(*list) : std::vector<std::string>{};
   return fmt::format("names no {0} of the scene: none is called or numbered \"{1}\"{2}", kind, part,
                      names.empty() ? "" : fmt::format("; it has {}", fmt::join(names, ", ")));
 }

@@ -225,11 +225,16 @@ std::vector<std::string> split_path(const std::string& path) {
   return parts;
 }
 
-/// "; the scene has ball, box": what the elements of a list are called.
-std::string names_in(const Value& list) {
+std::vector<std::string> names_in(const Value& list) {
   std::vector<std::string> names;
   for (const Value& item : list.items)
     if (const Value* name = item.find("name"); name && name->kind == Value::Kind::text) names.push_back(name->text);
+  return names;
+}
+
+/// "; the scene has ball, box".
+std::string told_names(const Value& list) {
+  std::vector<std::string> names = names_in(list);
   constexpr std::size_t kAtMost = 8;
   const bool more = names.size() > kAtMost;
   if (more) names.resize(kAtMost);
@@ -249,7 +254,7 @@ void apply_override(Value& root, const std::string& assignment) {
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
     if (at->kind == Value::Kind::array) {
       Value* found = element_of(*at, parts[i]);
-      if (!found) refuse(fmt::format("there is no {} named or numbered \"{}\"{}", parts[i - 1], parts[i], names_in(*at)));
+      if (!found) refuse(fmt::format("there is no {} named or numbered \"{}\"{}", parts[i - 1], parts[i], told_names(*at)));
       at = found;
       continue;
     }

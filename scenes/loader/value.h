@@ -63,6 +63,9 @@ std::string singular(const std::string& word);
 /// The element of a list of tables by its `name` or its number; nullptr when there is none.
 Value* element_of(Value& list, const std::string& name_or_number);
 
+/// What the elements of a list are called.
+std::vector<std::string> names_in(const Value& list);
+
 /// `over` on top of `under`: tables key by key, everything else replaced. For a scene's changes to a library file.
 Value overlaid(const Value& under, const Value& over);
 

@@ -11,7 +11,6 @@ using testing::HasSubstr;
 
 namespace {
 
-const std::string kPerson = "[[person]]\nname = \"p\"\n";
 const std::string kCar = "[simulation]\nduration = \"1 s\"\n[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\n";
 const std::string kMeshBall = "[[body]]\nname = \"ball\"\nmass = \"2 kg\"\ninertia = \"1 1 1 kg m^2\"\n";
 const std::string kPoints =
@@ -27,10 +26,7 @@ TEST_P(SectionsAndFiles, AreToldWithLineMarkAndRemedy) {
   folder.write("scan.ply", kPoints);
   folder.write("text.obj", "x\n");
   folder.write("photo.jpg", "\xff\xd8\xff\xe0 and more of it");
-  folder.write("a.toml", GetParam().scene);
-  const Result result = run(folder, {"check", "a.toml"});
-  EXPECT_EQ(result.code, 2);
-  EXPECT_EQ(result.err, GetParam().told);
+  expect_told(folder, GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(

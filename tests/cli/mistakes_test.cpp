@@ -14,18 +14,13 @@ using Json = nlohmann::json;
 
 namespace {
 
-const std::string kPerson = "[[person]]\nname = \"p\"\n";
-
 class SlipIsTold : public testing::TestWithParam<Slip> {};
 
 }  // namespace
 
 TEST_P(SlipIsTold, WithItsLineAndTheRemedy) {
   const Folder folder;
-  folder.write("a.toml", GetParam().scene);
-  const Result result = run(folder, {"check", "a.toml"});
-  EXPECT_EQ(result.code, 2);
-  EXPECT_EQ(result.err, GetParam().told);
+  expect_told(folder, GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(
