@@ -14,16 +14,13 @@
 #include "cli/exit.h"
 #include "cli/process.h"
 #include "cli/progress.h"
+#include "engine/address_sanitizer.h"
 #include "engine/simulate.h"
 
 namespace cli {
 namespace {
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr double kEnoughToLoad = 1e14;  // [byte] its shadow of all memory counts
-#else
-constexpr double kEnoughToLoad = 200e6;  // [byte] for any scene of the library
-#endif
+constexpr double kEnoughToLoad = engine::kAddressSanitizer ? 1e14 : 200e6;  // [byte] for any scene of the library
 
 namespace fs = std::filesystem;
 

@@ -57,7 +57,7 @@ class ByteWriter {
   }
   template <HasFields T>
   void put(const T& value) {
-    std::apply([this](const auto&... field) { (put(field), ...); }, T::fields(value));
+    std::apply([this](const auto&... field) { (this->put(field), ...); }, T::fields(value));
   }
 
   Bytes bytes;
@@ -97,7 +97,7 @@ class ByteReader {
   }
   template <HasFields T>
   void get(T& value) {
-    std::apply([this](auto&... field) { (get(field), ...); }, T::fields(value));
+    std::apply([this](auto&... field) { (this->get(field), ...); }, T::fields(value));
   }
 
   /// Of a list: no more than there are bytes left, so that what is damaged asks for no memory.

@@ -22,6 +22,7 @@
 #include <thread>
 #include <vector>
 
+#include "engine/address_sanitizer.h"
 #include "engine/measure/metrics.h"
 #include "engine/simulate.h"
 #include "render/cameras.h"
@@ -192,10 +193,10 @@ void tell(const odd::OddScene& odd) {
 
 /// Seeds first, first + jobs ... each to its outcome.
 [[noreturn]] void work(const Wish& wish, const odd::Generator& generator, Worker& me, std::uint64_t first) {
-#if !defined(__SANITIZE_ADDRESS__)  // which maps terabytes
-  const rlimit limit{kMemory, kMemory};
-  setrlimit(RLIMIT_AS, &limit);
-#endif
+  if (!engine::kAddressSanitizer) {
+    const rlimit limit{kMemory, kMemory};
+    setrlimit(RLIMIT_AS, &limit);
+  }
   for (std::uint64_t seed = first; seed < wish.seed + wish.scenes; seed += static_cast<std::uint64_t>(wish.jobs)) {
     me.seed = seed;
     me.started = seconds(CLOCK_PROCESS_CPUTIME_ID);
