@@ -46,9 +46,9 @@ double formulate_compliant_stop(Constraint& c, double h) {
   return followed ? 0.5 : 1;
 }
 
-/// A wheel's spring and damper are taken at the end of the step, at the place u_after leads to. Where they are stiffer over the
-/// step than the lightest thing they push, as a bicycle's on its stop or a calf under a van, the impulse must displace by as much:
-/// by half of it, what stops that thing (road, bonnet) would throw it back into the spring and charge it.
+/// A wheel's spring and damper are taken at the end of the step, at the place u_after leads to. Over the step they may be stiffer
+/// than the lightest thing they push: a bicycle's on its stop, a calf under a van. The impulse must then displace by as much. By
+/// half of it, what stops that thing (road, bonnet) would throw it back into the spring and charge it.
 double weight_of_wheel(const Constraint& c) {
   const bool followed = c.free_response < c.softness;
   return followed ? 0.5 : 1;
