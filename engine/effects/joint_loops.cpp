@@ -8,6 +8,7 @@
 #include "engine/effects/words.h"
 #include "engine/joints/rows.h"
 #include "engine/math/functions.h"
+#include "engine/solver/free_response.h"
 
 namespace engine {
 namespace {
@@ -34,20 +35,6 @@ Finding look_for_joint_loops(const Model& model) {
   if (loops.size() > breakable)
     reason += (reason.empty() ? "" : ", ") + counted(loops.size() - breakable, "joint closes", "joints close") + " a ring";
   return {true, reason, ""};
-}
-
-/// Response [1/kg] of a row if its bodies were free of joints.
-double free_response(const World& world, const State& state, const Constraint& c) {
-  double response = 0;
-  auto add = [&](int b, const Eigen::Matrix<double, 3, 6>& J) {
-    if (b < 0) return;
-    const Vec3 v = J.row(0).head<3>(), w = J.row(0).tail<3>();
-    const Body& body = world.model.bodies[b];
-    response += v.squaredNorm() / body.mass + w.dot(inertia_W(body, state.X_WB[b].q).inverse() * w);
-  };
-  add(c.body_a, c.J_a);
-  add(c.body_b, c.J_b);
-  return response;
 }
 
 }  // namespace
@@ -91,7 +78,7 @@ class JointLoops final : public EffectWith<LoopLoads> {
         c.J_b.setZero();
         c.J_a.row(0) = row_on_child(rows, k).transpose();
         c.J_b.row(0) = row_on_parent(rows, k).transpose();
-        c.softness = kGive * free_response(world, state, c);
+        c.softness = kGive * free_response(world.model, state.X_WB, c, 0);
         c.key = (static_cast<std::uint64_t>(self_) << 56) | (static_cast<std::uint64_t>(j) << 8) | static_cast<std::uint64_t>(k);
         c.effect = self_;
         step.constraints.push_back(c);

@@ -12,6 +12,7 @@
 #include "engine/effects/words.h"
 #include "engine/laws/tyre.h"
 #include "engine/math/functions.h"
+#include "engine/solver/free_response.h"
 
 namespace engine {
 namespace {
@@ -114,6 +115,7 @@ void add_wheel(StepContext& step, const WheelState& wheel, const Footing& footin
     v -= state.V_WB[footing.body].v + state.V_WB[footing.body].w.cross(r_b);
     under = world.model.bodies[footing.body].surface.friction_body.at(state.time);
   }
+  c.free_response = free_response(world.model, state.X_WB, c, 0);
   const double mu = std::min(spec.friction, under);
   const Grip grip = grip_of(spec, wheel, std::max(0.0, force), mu, t1.dot(v), c.frame.col(2).dot(v));
   c.friction = grip.friction;

@@ -38,7 +38,7 @@ struct Constraint {
   double thickness = std::numeric_limits<double>::infinity();  // [m] depth at which what yields has gone through
   double room = 0;                                             // [m] depth at which what yields bottoms out; 0: never
   double struck_mass = 0;        // [kg] that a contact with room stops by itself: of its bodies were they free, its share of it
-  double free_response = 0;      // [1/kg] contact or compliant stop: of its two bodies were they free of joints
+  double free_response = 0;      // [1/kg] contact, compliant stop or wheel: of its two bodies were they free of joints
   double whole_response = 0;     // [1/kg] contact: of all that hangs on its bodies, moving as one
   double rolling_bound = 0;      // [N s] wheel: most that brake can give along t1
   double rolling_drive = 0;      // [N s] wheel: what the engine gives along t1

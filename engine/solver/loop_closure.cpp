@@ -3,25 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/solver/free_response.h"
+
 namespace engine {
 namespace {
 
 constexpr double kProximal = 1e-9;  // [-] of the response of bodies free of joints
 constexpr int kIterations = 4;      // of the proximal term
-
-/// Response of each row if its bodies were free of joints.
-double free_response(const Model& model, const std::vector<Pose>& X_WB, const Constraint& c, int row) {
-  double response = 0;
-  const auto add = [&](int b, const auto& J) {
-    if (b < 0) return;
-    const Vec3 v = J.row(row).template head<3>(), w = J.row(row).template tail<3>();
-    response += v.squaredNorm() / model.bodies[b].mass;
-    if (!w.isZero(0)) response += w.dot(inertia_W(model.bodies[b], X_WB[b].q).inverse() * w);
-  };
-  add(c.body_a, c.J_a);
-  add(c.body_b, c.J_b);
-  return response;
-}
 
 }  // namespace
 

@@ -46,6 +46,14 @@ double formulate_compliant_stop(Constraint& c, double h) {
   return followed ? 0.5 : 1;
 }
 
+/// A wheel's spring and damper are taken at the end of the step, at the place u_after leads to. Over the step they may be stiffer
+/// than the lightest thing they push: a bicycle's on its stop, a calf under a van. The impulse must then displace by as much. By
+/// half of it, what stops that thing (road, bonnet) would throw it back into the spring and charge it.
+double weight_of_wheel(const Constraint& c) {
+  const bool followed = c.free_response < c.softness;
+  return followed ? 0.5 : 1;
+}
+
 /// How fast the resting law falls with the separating speed [N s/m].
 double resting_slope(const Constraint& c, double share, double smoothing) {
   const double tanh = math::tanh(c.u_before[0] / smoothing);
@@ -117,6 +125,7 @@ void formulate(StepContext& s) {
     islands.has_impact[k] = impact;
     for (const int i : island) {
       Constraint& c = s.constraints[i];
+      if (c.kind == ConstraintKind::wheel) s.buffers.weight[i] = weight_of_wheel(c);
       if (is_formulated(c)) continue;
       if (!is_compliant(c))
         s.buffers.weight[i] = formulate_rigid(c, h, impact);

@@ -119,6 +119,44 @@ TEST(Wheel, RollsOverALyingEllipsoidAndNotThroughIt) {
   EXPECT_LT(std::abs(run.snapshots.back().energies.residual), 1e-2 * 0.5 * 1200 * 16);
 }
 
+/// A cart of 2 kg on stiff springs that are pressed in flies up against a ceiling. Its springs, 11 kg over a step, would throw it
+/// metres a second: the ceiling takes that, and the cart stays beneath it. Thrown back down it would press in the springs out of
+/// nothing.
+TEST(Wheel, ThatPressesALightCartToACeilingHoldsItThere) {
+  constexpr double kPressed = 0.01, kGap = 0.005, kSpring = 660e3;
+  Model model = on_ground(0.1, 2e-3);
+  model.settings.record_interval = 2e-3;
+  const double start = 0.3 + 0.6 - kPressed;
+  Body cart = ball(0.1, 2, {0, 0, start});
+  cart.vehicle = 0;
+  cart.V_WB.v.z() = 5;
+  Body ceiling = ball(1, 1, {0, 0, start + 0.1 + kGap + 1});
+  ceiling.fixed = true;
+  model.bodies = {cart, ceiling};
+  Vehicle vehicle;
+  vehicle.body = 0;
+  for (const double x : {0.5, -0.5})
+    for (const double y : {0.5, -0.5}) {
+      Wheel wheel;
+      wheel.hub_B = {x, y, -0.6};
+      wheel.spring = kSpring;
+      wheel.damper = 0;
+      vehicle.wheels.push_back(wheel);
+    }
+  model.vehicles = {vehicle};
+  const Recording run = simulate(model);
+  for (const Snapshot& s : run.snapshots) {
+    const double way = s.bodies[0].X_WB.p.z() - start;
+    EXPECT_GT(way, s.time > 0 ? kGap - 1e-3 : -1e-9) << "at " << s.time;  // what a rigid contact of a step may leave
+    EXPECT_LT(way, kGap + 1e-3) << "at " << s.time;
+  }
+  // nothing is left of its flight, and of what the springs held only that of the way it came up by
+  const double left = kPressed - kGap;
+  EXPECT_NEAR(run.snapshots.back().energies.kinetic, 0, 1e-6);
+  EXPECT_NEAR(run.snapshots.back().wheels[0].load, kSpring * left, 0.2 * kSpring * left)
+      << "that way to a millimetre, its own weight 5 N";
+}
+
 TEST(Wheel, ThatPushesALogAheadKeepsTheMomentumOfBoth) {
   Model model = car_on_road(5, 0.9);
   Body log = solid({{0.1, 0.6, 0.1}, 2}, 40, {0, 0, 0.1});

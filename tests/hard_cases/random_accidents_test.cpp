@@ -141,11 +141,13 @@ TEST_P(RandomAccidents, SayThatTheyAreRight) {
       100 * unexplained, 1e3 * depth, 1e3 * crush, gap, angle, residual);
 }
 
-// One that goes beyond the bounds above: the tyre of a fallen bicycle gives energy it has not.
+// One that goes beyond the bounds above: a limb comes under a tyre from the side, at a slope of five to one. Seen a step's way
+// inside, it charges the wheel's spring with what nothing has given.
 TEST(RandomAccident, SaysWhereItFallsShort) {
-  constexpr unsigned kSeed = 214;
+  constexpr unsigned kSeed = 194;
+  constexpr const Law& kLaw = kLaws[1];
   const scenes::testing::SceneFolder folder;
-  const engine::Recording it = engine::simulate(folder.load(accident(kSeed, kLaws[0].name)).model);
+  const engine::Recording it = engine::simulate(folder.load(accident(kSeed, kLaw.name)).model);
   const auto& d = it.diagnostics;
   const auto told = [&](const char* words) {
     return std::any_of(d.warnings.begin(), d.warnings.end(),
@@ -154,7 +156,7 @@ TEST(RandomAccident, SaysWhereItFallsShort) {
   EXPECT_TRUE(told("has none to give")) << "it holds by now: take another that does not";
   EXPECT_EQ(told("deg beyond its range"), degrees(d.max_joint_angle_error) > 0.5);
   EXPECT_EQ(told("were solved to"), d.max_solver_residual > 1e-3);
-  EXPECT_TRUE(told("mm inside") || deepest(it, false) < 2e-3);  // snapshots do not see every step
+  EXPECT_TRUE(told("mm inside") || deepest(it, false) < kLaw.depth);  // snapshots do not see every step
 }
 
 }  // namespace
