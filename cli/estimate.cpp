@@ -62,7 +62,7 @@ Estimate of_results(const scenes::Scene& scene, const Probe& probe) {
   double kept = 0, rows = 0;
   for (const engine::Snapshot& s : r.snapshots) {
     kept += static_cast<double>(
-        sizeof s + s.bodies.capacity() * sizeof(engine::BodyState) + s.contacts.capacity() * sizeof(engine::ContactRecord) +
+        sizeof s + s.bodies.size() * sizeof(engine::BodyState) + s.contacts.capacity() * sizeof(engine::ContactRecord) +
         s.wheels.capacity() * sizeof(engine::WheelRecord) + s.energies.dissipated.capacity() * sizeof(double));
     rows += static_cast<double>(s.bodies.size() + s.contacts.size());
   }

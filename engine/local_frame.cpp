@@ -48,9 +48,15 @@ void LocalFrame::outwards(const Model& model, Recording& recording) const {
   double potential = 0;  // [J] what the shift is worth where gravity is not along z
   for (const Body& body : model.bodies)
     if (!body.fixed) potential -= body.mass * model.settings.gravity.dot(origin_);
+  const BodyStates::Still* moved = nullptr;
+  const auto move = [this](std::vector<BodyState>& states) {
+    for (BodyState& body : states) body.X_WB.p += origin_;
+  };
   for (Snapshot& s : recording.snapshots) {
     s.energies.potential += potential;
-    for (BodyState& body : s.bodies) body.X_WB.p += origin_;
+    move(s.bodies.others());
+    if (BodyStates::Still* still = s.bodies.still(); still && still != moved) move(still->states);
+    moved = s.bodies.still();
     for (ContactRecord& c : s.contacts) c.point += origin_;
     for (WheelRecord& wheel : s.wheels) {
       wheel.hub += origin_;

@@ -35,6 +35,12 @@ Constraint seen_from_below(const Constraint& wheel) {
   return c;
 }
 
+/// [J] of gravity at a body, seen from the origin; 0 of one that is fixed.
+double weight_of(const Model& model, const State& state, int b) {
+  const Body& body = model.bodies[b];
+  return body.fixed ? 0 : body.mass * model.settings.gravity.dot(state.X_WB[b].p);
+}
+
 /// Fastest body of a tree among those wanted, by what counts as still.
 template <class Wanted>
 double motion_of(const World& world, const State& state, std::size_t tree, const Wanted& wanted) {
@@ -196,19 +202,21 @@ void Recorder::sample(const World& world, const State& state, Recording& recordi
     const auto room = static_cast<std::size_t>(std::clamp(1.2 * settings.duration / settings.step, kLeast, kMost));
     for (int p = 0; p < static_cast<int>(world.model.persons.size()); ++p) {
       recording.heads.push_back({p, {}, {}});
-      recording.heads.back().time.reserve(room);
       recording.heads.back().acceleration.reserve(room);
     }
+    times_.reserve(room);
     recording.peak_acceleration.assign(world.model.bodies.size(), 0);
     for (const Body& body : world.model.bodies) velocity_.push_back(body.fixed ? Vec3(Vec3::Zero()) : body.V_WB.v);
   }
   const double step = state.time - sampled_;
   for (std::size_t p = 0; p < world.model.persons.size(); ++p) {
     const int head = world.model.persons[p].head;
-    if (head < 0) continue;
-    recording.heads[p].time.push_back(state.time - 0.5 * step);
-    recording.heads[p].acceleration.push_back((state.V_WB[head].v - velocity_[head]).norm() / step);
+    if (head < 0 || state.V_WB[head].v == velocity_[head]) continue;  // of who waits noughts are put in once it matters
+    std::vector<double>& acceleration = recording.heads[p].acceleration;
+    acceleration.resize(times_.size());
+    acceleration.push_back((state.V_WB[head].v - velocity_[head]).norm() / step);
   }
+  times_.push_back(state.time - 0.5 * step);
   const auto note_peak = [&](std::size_t b) {
     recording.peak_acceleration[b] = std::max(recording.peak_acceleration[b], (state.V_WB[b].v - velocity_[b]).norm() / step);
     velocity_[b] = state.V_WB[b].v;
@@ -238,6 +246,7 @@ void Recorder::watch_halt(const World& world, const State& state) {
 
 void Recorder::watch_rest(const World& world, const State& state, double since) {
   for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
+    if (!stirs_[t] && rest_since_[t] >= 0 && still_since_[t] >= 0 && motion_[t] == 0) continue;  // nothing new
     const double any = motion_of(world, state, t);
     if (!(any < 1))
       still_since_[t] = -1;
@@ -265,11 +274,41 @@ bool Recorder::all_at_rest(const World& world, const State& state) const {
   return !world.topology.trees.empty();
 }
 
+/// Somebody has begun or ceased to be still since the last snapshot.
+void Recorder::keep_still(const World& world, const State& state) {
+  const std::size_t bodies = state.X_WB.size();
+  still_ = std::make_shared<BodyStates::Still>();
+  still_->place.assign(bodies, -1);
+  for (std::size_t i = 0; i < world.still.others.size(); ++i) still_->place[world.still.others[i]] = static_cast<int>(i);
+  for (std::size_t b = 0; b < bodies; ++b)
+    if (int& place = still_->place[b]; place < 0) {
+      place = ~static_cast<int>(still_->states.size());
+      still_->states.push_back({state.X_WB[b], state.V_WB[b]});
+    }
+  stirs_.assign(world.topology.trees.size(), 0);
+  for (const int b : world.still.others)
+    if (const int tree = world.topology.tree_of_body[b]; tree >= 0) stirs_[tree] = 1;
+  weight_.resize(bodies);
+  for (std::size_t b = 0; b < bodies; ++b) weight_[b] = weight_of(world.model, state, static_cast<int>(b));
+  shared_ = world.still.changes;
+}
+
+/// The sum is over all bodies in order, to the last bit, though only those that are not still are weighed again.
+double Recorder::potential(const World& world, const State& state) {
+  for (const int b : world.still.others) weight_[b] = weight_of(world.model, state, b);
+  double energy = 0;
+  for (const double weight : weight_) energy -= weight;
+  return energy;
+}
+
 void Recorder::snapshot(const World& world, const State& state, Recording& recording) {
+  if (shared_ != world.still.changes) keep_still(world, state);
   Snapshot s;
   s.time = state.time;
-  s.bodies.reserve(state.X_WB.size());
-  for (std::size_t b = 0; b < state.X_WB.size(); ++b) s.bodies.push_back({state.X_WB[b], state.V_WB[b]});
+  std::vector<BodyState> others;
+  others.reserve(world.still.others.size());
+  for (const int b : world.still.others) others.push_back({state.X_WB[b], state.V_WB[b]});
+  s.bodies = {still_, std::move(others)};
   const double since = recording.snapshots.empty() ? 0 : s.time - recording.snapshots.back().time;
   for (Tally& t : tallies_) {
     // an exchange at an instant has no force of its own: its mean over the recorded interval is what an arrow can show
@@ -300,8 +339,8 @@ void Recorder::snapshot(const World& world, const State& state, Recording& recor
   }
   s.tyre_impulse = tyre_impulse_;
   std::fill(tyre_impulse_.begin(), tyre_impulse_.end(), Vec3::Zero());
-  s.energies.kinetic = kinetic_energy(world.model, state);
-  s.energies.potential = potential_energy(world.model, state) + state.energy.springs;
+  s.energies.kinetic = kinetic_energy(world, state);
+  s.energies.potential = potential(world, state) + state.energy.springs;
   s.energies.dissipated = state.energy.dissipated;
   s.energies.added = state.energy.added;
   s.energies.residual = s.energies.kinetic + s.energies.potential - state.energy.initial - state.energy.added;

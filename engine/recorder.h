@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "engine/energy_watch.h"
@@ -40,6 +41,8 @@ class Recorder {
   void tally_contact(const World&, const Constraint&, double time, double duration);
   void warn_of_shortfalls(const World&, std::vector<std::string>& warnings) const;
   void keep(const World&, const State&);
+  void keep_still(const World&, const State&);
+  double potential(const World&, const State&);
   void note_head(const Constraint&, double time);
   void watch_rest(const World&, const State&, double since);
   void watch_halt(const World&, const State&);
@@ -65,7 +68,13 @@ class Recorder {
   std::size_t exchanges_told_ = 0;
   std::vector<Vec3> velocity_;  // [m/s] per body, at the last sample
   double sampled_ = 0;          // [s] when that was
+  std::vector<double> times_;   // [s] of the samples of heads
   long kept_ = 0;               // StillBodies::changes then
+  // at the last snapshot:
+  long shared_ = -1;                          // StillBodies::changes
+  std::shared_ptr<BodyStates::Still> still_;  // who is still
+  std::vector<char> stirs_;                   // per tree: not all of its bodies are
+  std::vector<double> weight_;                // [J] per body: mass times gravity times place
   EnergyWatch energy_;
   double compression_ = 0;  // [m] deepest of a compliant contact
   Shortfall too_deep_;      // [m] of a compliant contact, beyond its thickness

@@ -76,6 +76,11 @@ void Recorder::finish(const World& world, const State& state, Recording& recordi
   recording.events.insert(recording.events.end(), events_.begin(), events_.end());
   std::stable_sort(recording.events.begin(), recording.events.end(),
                    [](const Event& a, const Event& b) { return a.time < b.time; });
+  for (HeadMotion& head : recording.heads) {
+    if (world.model.persons[head.person].head < 0) continue;
+    head.time = times_;
+    head.acceleration.resize(times_.size());
+  }
   recording.diagnostics = world.log.diagnostics;
   energy_.close(world, recording.diagnostics);
   recording.diagnostics.max_compression = compression_;

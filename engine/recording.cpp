@@ -49,6 +49,15 @@ const char* name_of(ContactState state) {
   return "";
 }
 
+std::vector<BodyState>& BodyStates::own() {
+  if (!still_) return others_;
+  std::vector<BodyState> all;
+  all.reserve(size());
+  for (const BodyState& state : *this) all.push_back(state);
+  still_ = nullptr;
+  return others_ = std::move(all);
+}
+
 Snapshot Recording::at(double time) const {
   if (time <= snapshots.front().time) return snapshots.front();
   if (time >= snapshots.back().time) return snapshots.back();
@@ -62,13 +71,14 @@ Snapshot Recording::at(double time) const {
   const double span = later->time - a.time;
   const double s = (time - a.time) / span;
   out.time = time;
-  for (std::size_t b = 0; b < out.bodies.size(); ++b) {
+  std::vector<BodyState>& between = out.bodies.own();
+  for (std::size_t b = 0; b < between.size(); ++b) {
     const BodyState& from = a.bodies[b];
     const BodyState& to = later->bodies[b];
-    out.bodies[b].X_WB.p = hermite(from.X_WB.p, from.V_WB.v, to.X_WB.p, to.V_WB.v, span, s);
-    out.bodies[b].X_WB.q = math::slerp(from.X_WB.q, to.X_WB.q, s);
-    out.bodies[b].V_WB.v = (1 - s) * from.V_WB.v + s * to.V_WB.v;
-    out.bodies[b].V_WB.w = (1 - s) * from.V_WB.w + s * to.V_WB.w;
+    between[b].X_WB.p = hermite(from.X_WB.p, from.V_WB.v, to.X_WB.p, to.V_WB.v, span, s);
+    between[b].X_WB.q = math::slerp(from.X_WB.q, to.X_WB.q, s);
+    between[b].V_WB.v = (1 - s) * from.V_WB.v + s * to.V_WB.v;
+    between[b].V_WB.w = (1 - s) * from.V_WB.w + s * to.V_WB.w;
   }
   for (std::size_t w = 0; w < out.wheels.size() && w < a.wheels.size(); ++w) {
     WheelRecord& r = out.wheels[w];

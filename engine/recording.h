@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/geometry/shape_pair.h"
@@ -20,6 +22,46 @@ const char* name_of(ContactState);
 struct BodyState {
   Pose X_WB;
   Twist V_WB;
+};
+
+/// All bodies at one instant. Those that are still hold alike over many: they are kept once, for all instants in a row.
+class BodyStates {
+ public:
+  struct Still {
+    std::vector<BodyState> states;
+    std::vector<int> place;  // per body: among those that are not still, or ~place in `states`
+  };
+
+  BodyStates() = default;
+  BodyStates(std::shared_ptr<Still> still, std::vector<BodyState> others) : still_(std::move(still)), others_(std::move(others)) {}
+
+  std::size_t size() const { return still_ ? still_->place.size() : others_.size(); }
+  const BodyState& operator[](std::size_t body) const {
+    if (!still_) return others_[body];
+    const int place = still_->place[body];
+    return place < 0 ? still_->states[static_cast<std::size_t>(~place)] : others_[static_cast<std::size_t>(place)];
+  }
+
+  struct Iterator {
+    const BodyStates* states;
+    std::size_t body;
+    const BodyState& operator*() const { return (*states)[body]; }
+    Iterator& operator++() { return ++body, *this; }
+    bool operator==(const Iterator&) const = default;
+  };
+  Iterator begin() const { return {this, 0}; }
+  Iterator end() const { return {this, size()}; }
+
+  /// All of them in order, this instant's own from now on.
+  std::vector<BodyState>& own();
+
+  /// What this instant alone has, and what it shares: to change each state of a recording once.
+  std::vector<BodyState>& others() { return others_; }
+  Still* still() { return still_.get(); }
+
+ private:
+  std::shared_ptr<Still> still_;
+  std::vector<BodyState> others_;
 };
 
 /// A contact at one recorded instant. Impulses are summed since the snapshot before, forces are their mean over that time's last
@@ -70,7 +112,7 @@ struct Energies {
 
 struct Snapshot {
   double time = 0;  // [s]
-  std::vector<BodyState> bodies;
+  BodyStates bodies;
   std::vector<ContactRecord> contacts;
   std::vector<WheelRecord> wheels;
   std::vector<Vec3> tyre_impulse;  // [N s] world, per vehicle: of all its tyres since the snapshot before

@@ -62,6 +62,8 @@ World::World(const Model& m, const Plan& p, const RunOptions& o)
   log.events.reserve(kRoom);
   for (std::size_t e = 0; e < p.active.size(); ++e) {
     effects.push_back(p.active[e]->make(*this, static_cast<int>(e)));
+    for (std::size_t hook = 0; hook < of_hook_.size(); ++hook)
+      if ((p.active[e]->hooks >> hook & 1) != 0) of_hook_[hook].push_back(e);
     log.acted.push_back({.told = (p.active[e]->hooks & kActs) != 0});
     gives.push_back(static_cast<char>(p.active[e]->gives && p.active[e]->gives(m)));
   }
@@ -153,14 +155,26 @@ void choose_trees(World& world, const State& state) {
   list_still(world, state);
 }
 
+namespace {
+
+double kinetic_energy_of(const Body& body, const Motion& state, std::size_t b) {
+  const Vec3 w_B = state.X_WB[b].q.conjugate() * state.V_WB[b].w;
+  return 0.5 * body.mass * state.V_WB[b].v.squaredNorm() + 0.5 * w_B.dot(body.inertia_B * w_B);
+}
+
+}  // namespace
+
 double kinetic_energy(const Model& model, const Motion& state) {
   double energy = 0;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const Body& body = model.bodies[b];
-    if (body.fixed) continue;
-    const Vec3 w_B = state.X_WB[b].q.conjugate() * state.V_WB[b].w;
-    energy += 0.5 * body.mass * state.V_WB[b].v.squaredNorm() + 0.5 * w_B.dot(body.inertia_B * w_B);
-  }
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (!model.bodies[b].fixed) energy += kinetic_energy_of(model.bodies[b], state, b);
+  return energy;
+}
+
+double kinetic_energy(const World& world, const Motion& state) {
+  double energy = 0;
+  for (const int b : world.still.others)
+    if (!world.model.bodies[b].fixed) energy += kinetic_energy_of(world.model.bodies[b], state, static_cast<std::size_t>(b));
   return energy;
 }
 
@@ -176,8 +190,7 @@ double mechanical_energy(const World& world, const Motion& state) {
   for (const int b : world.still.others) {
     const Body& body = world.model.bodies[b];
     if (body.fixed) continue;
-    const Vec3 w_B = state.X_WB[b].q.conjugate() * state.V_WB[b].w;
-    energy += 0.5 * body.mass * state.V_WB[b].v.squaredNorm() + 0.5 * w_B.dot(body.inertia_B * w_B);
+    energy += kinetic_energy_of(body, state, static_cast<std::size_t>(b));
     energy -= body.mass * world.model.settings.gravity.dot(state.X_WB[b].p);
   }
   return energy;

@@ -2,6 +2,8 @@
 // and its plan alone, so that a state may go on in another World. Its buffers are allocated once: a step allocates nothing.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <memory>
 #include <optional>
 #include <string>
@@ -70,6 +72,7 @@ struct RunLog {
 };
 
 class Effect;
+enum class Hook : unsigned;
 
 /// Who waits or sleeps without moving costs nothing: no loop of the step goes over them. Follows from the state, as `awake` does.
 struct StillBodies {
@@ -83,6 +86,11 @@ struct World {
   World(const Model&, const Plan&, const RunOptions&);
   ~World();
   World(const World&) = delete;
+
+  /// Effects of the plan that take part in a hook of the step, in order.
+  const std::vector<std::size_t>& taking_part(Hook hook) const {
+    return of_hook_[static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(hook)))];
+  }
 
   const Model& model;
   const Plan& plan;
@@ -103,6 +111,9 @@ struct World {
   std::vector<char> gives;                       // of each: may it give energy?
   Meter meter;
   RunLog log;
+
+ private:
+  std::array<std::vector<std::size_t>, 9> of_hook_;  // by the hook's bit
 };
 
 /// Told of what stands inside something else before anything has moved: two bodies (-1: the ground) and their gap [m].
@@ -131,6 +142,8 @@ void for_awake_bodies(const World& world, Act&& act) {
 /// Kinetic and gravitational energy [J] of all bodies that move.
 double kinetic_energy(const Model&, const Motion&);
 double potential_energy(const Model&, const Motion&);
+/// The same of all, without a look at what is still.
+double kinetic_energy(const World&, const Motion&);
 /// Both together, without a look at what is still.
 double mechanical_energy(const World&, const Motion&);
 

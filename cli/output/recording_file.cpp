@@ -79,6 +79,10 @@ struct Writer {
     out.put(static_cast<std::uint64_t>(values.size()));
     for (const T& value : values) (*this)(value);
   }
+  void operator()(const engine::BodyStates& bodies) {
+    out.put(static_cast<std::uint64_t>(bodies.size()));
+    for (const engine::BodyState& body : bodies) (*this)(body);
+  }
   template <Composed T>
   void operator()(const T& value) {
     std::apply([this](const auto&... field) { ((*this)(field), ...); }, fields(value));
@@ -103,6 +107,7 @@ struct Reader {
     // one by one: a damaged count asks for no memory
     for (std::size_t left = in.size(); left > 0 && in.good; --left) (*this)(values.emplace_back());
   }
+  void operator()(engine::BodyStates& bodies) { (*this)(bodies.own()); }
   template <Composed T>
   void operator()(T& value) {
     std::apply([this](auto&... field) { ((*this)(field), ...); }, fields(value));

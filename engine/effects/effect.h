@@ -132,8 +132,7 @@ struct Registered {
 /// Calls a hook of every effect of the plan that takes part in it, counted and timed.
 template <class Member, class... Arguments>
 void call(World& world, Hook hook, Member member, Arguments&&... arguments) {
-  for (std::size_t e = 0; e < world.effects.size(); ++e) {
-    if (!world.plan.active[e]->takes_part(hook)) continue;
+  for (const std::size_t e : world.taking_part(hook)) {
     const Meter::Span span(world.meter, e);
     ((*world.effects[e]).*member)(arguments...);
   }

@@ -31,12 +31,12 @@ StepContext::StepContext(World& w, State& s, StepBuffers& b, double h)
     : world(w), state(s), buffers(b), length(h), constraints(b.constraints), end(b.end) {
   constraints.clear();
   auto contact = state.contacts.list.begin();
-  for (std::size_t e = 0; e < world.effects.size(); ++e) {
-    while (contact != state.contacts.list.end() && contact->effect == static_cast<int>(e)) constraints.push_back(*contact++);
-    if (!world.plan.active[e]->takes_part(Hook::find)) continue;
+  for (const std::size_t e : world.taking_part(Hook::find)) {
+    while (contact != state.contacts.list.end() && contact->effect <= static_cast<int>(e)) constraints.push_back(*contact++);
     const Meter::Span span(world.meter, e);
     world.effects[e]->find(*this);
   }
+  constraints.insert(constraints.end(), contact, state.contacts.list.end());
   for (Constraint& c : constraints) c.u_before = row_velocity(c, state.V_WB);
 }
 

@@ -1,7 +1,7 @@
 // What the engine does in a second, and how well: `build/tests/benchmark_engine [part...] [--peer name=program]...`
-// Parts: scenes, whole, throughput, ensemble, persons, triangles, plan, dense. Times are medians on one core; ratios compare runs
-// of the same call. A peer is a program that takes `scene=NAME dt=SECONDS reps=N pert=MICROMETRES damp=NMS` and prints comma
-// separated values with steps/s in column six and where the figure ends in column twenty.
+// Parts: scenes, whole, throughput, ensemble, persons, triangles, plan, waiting, dense. Times are medians on one core; ratios
+// compare runs of the same call. A peer is a program that takes `scene=NAME dt=SECONDS reps=N pert=MICROMETRES damp=NMS` and prints
+// comma separated values with steps/s in column six and where the figure ends in column twenty.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -301,6 +301,54 @@ void plan() {
   std::printf("The case costs %.0f times the ball; waiting costs %.4f of being struck\n\n", whole / one, idle / full);
 }
 
+/// A car that drives, and persons who stand 900 m ahead of it, so far [m] beside each other.
+Model waiting_scene(int persons, double apart, const char* interval) {
+  std::string text = fmt::format("[simulation]\nduration = \"20 s\"\nrecord_interval = \"{}\"\n", interval);
+  text += "[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\nspeed = \"50 km/h\"\n";
+  for (int p = 0; p < persons; ++p) text += fmt::format("[[person]]\nname = \"p{}\"\nposition = \"900 {} m\"\n", p, p * apart);
+  return scenes::load(scenes::SceneFile{scenes::home_folder() / "waiting.toml", text, {}}).model;
+}
+
+/// What a step takes [us], without the run's start: the quicker quarter of its hundreds, as others' work only ever adds.
+double cost_of_step(const Model& model) {
+  std::vector<double> times;
+  double last = 0;
+  engine::RunOptions options;
+  options.progress = [&](double) {
+    const double time = now();
+    if (last > 0) times.push_back(1e6 * (time - last) / 100);
+    last = time;
+    return true;
+  };
+  engine::simulate(model, options);
+  const auto quarter = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 4);
+  std::nth_element(times.begin(), quarter, times.end());
+  return *quarter;
+}
+
+/// What who waits adds to a step: medians of rounds in which none, one and ten follow each other.
+void waiting() {
+  struct Row {
+    const char* interval;
+    double apart;  // [m]: within arm's reach no proof leaves out that they touch
+  };
+  constexpr int kRounds = 25;
+  std::printf("A car by itself, and what persons who wait 900 m ahead add to its step\n");
+  for (const auto& [interval, apart] : {Row{"5 ms", 5}, Row{"5 ms", 1}, Row{"1 s", 5}}) {
+    std::vector<double> none, one, ten;  // [us] a step; one and ten: what they add
+    for (int round = 0; round < kRounds; ++round) {
+      none.push_back(cost_of_step(waiting_scene(0, apart, interval)));
+      one.push_back(cost_of_step(waiting_scene(1, apart, interval)) - none.back());
+      ten.push_back(cost_of_step(waiting_scene(10, apart, interval)) - none.back());
+    }
+    const double alone = median(none), by_one = median(one), by_ten = median(ten);
+    std::printf("recorded every %s, %g m apart: %.3f us; one adds %.3f us (times %.3f), ten add %.3f us (times %.3f)\n", interval,
+                apart, alone, by_one, 1 + by_one / alone, by_ten, 1 + by_ten / alone);
+    std::fflush(stdout);
+  }
+  std::printf("\n");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -324,5 +372,6 @@ int main(int argc, char** argv) {
   if (wanted("persons")) persons();
   if (wanted("triangles")) triangles();
   if (wanted("plan")) plan();
+  if (wanted("waiting")) waiting();
   if (wanted("dense")) dense_algebra_beside_eigen();
 }

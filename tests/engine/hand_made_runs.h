@@ -64,8 +64,8 @@ inline Model person_and_car() {
 inline Snapshot still(double time) {
   Snapshot s;
   s.time = time;
-  s.bodies.resize(3);
-  s.bodies[kCar].X_WB.p = {0, 0, 0.5};
+  s.bodies.own().resize(3);
+  s.bodies.own()[kCar].X_WB.p = {0, 0, 0.5};
   return s;
 }
 
@@ -93,11 +93,11 @@ inline Recording head_on_bonnet() {
   run.interval = 0.1;
   for (int i = 0; i < 4; ++i) {
     Snapshot s = still(0.1 * i);
-    s.bodies[kCar].X_WB.p.x() = 1.2 * i;
-    s.bodies[kCar].V_WB.v = {12, 0, 0};
-    s.bodies[kHead].X_WB.p = {2.9, 0.4, 1.1};
-    s.bodies[kHead].V_WB.v = i < 2 ? Vec3(3, 0, -5) : Vec3(12, 0, 1);
-    s.bodies[kHead].V_WB.w = {0, 40, 0};  // the centre of the head counts, not its surface
+    s.bodies.own()[kCar].X_WB.p.x() = 1.2 * i;
+    s.bodies.own()[kCar].V_WB.v = {12, 0, 0};
+    s.bodies.own()[kHead].X_WB.p = {2.9, 0.4, 1.1};
+    s.bodies.own()[kHead].V_WB.v = i < 2 ? Vec3(3, 0, -5) : Vec3(12, 0, 1);
+    s.bodies.own()[kHead].V_WB.w = {0, 40, 0};  // the centre of the head counts, not its surface
     run.snapshots.push_back(s);
   }
   run.events = {{run.snapshots[2].time, "head_impact", kHead, kCar, {2.9, 0.4, 1.0}, std::hypot(9, 5), {0, 0, 1}, {-9, 0, -5}}};

@@ -26,11 +26,11 @@ Recording struck_along_y() {
   const double y[] = {0, 0, 3, 7, 12, 14, 16}, speed[] = {0, 0, 6, 6, 5, 2, 0};
   for (int i = 0; i < 7; ++i) {
     Snapshot s = still(i);
-    s.bodies[kCar].X_WB.q = heading;
-    s.bodies[kCar].V_WB.v = {0, 5, 0};
-    s.bodies[kHead].X_WB.p = {1.0 * i, y[i], 1};
-    s.bodies[kHips].X_WB.p = {0, y[i], 1};
-    for (const int b : {kHead, kHips}) s.bodies[b].V_WB.v = {0, speed[i], 0};
+    s.bodies.own()[kCar].X_WB.q = heading;
+    s.bodies.own()[kCar].V_WB.v = {0, 5, 0};
+    s.bodies.own()[kHead].X_WB.p = {1.0 * i, y[i], 1};
+    s.bodies.own()[kHips].X_WB.p = {0, y[i], 1};
+    for (const int b : {kHead, kHips}) s.bodies.own()[b].V_WB.v = {0, speed[i], 0};
     run.snapshots.push_back(s);
   }
   for (const int i : {1, 2, 3}) run.snapshots[i].contacts.push_back(push(kHips, kCar, kOnVehicle, {0, 10, 0}));
@@ -145,8 +145,8 @@ TEST(ThrowMetrics, RiderAndMountHaveEachTheirOwnRestAndThrow) {
   model.persons[0].mount = 3;
   Recording run = struck_along_y();
   for (std::size_t i = 0; i < run.snapshots.size(); ++i) {
-    run.snapshots[i].bodies.emplace_back();
-    run.snapshots[i].bodies[3].X_WB.p = {0, std::min(4.0, 1.0 * static_cast<double>(i)), 0.5};
+    run.snapshots[i].bodies.own().emplace_back();
+    run.snapshots[i].bodies.own()[3].X_WB.p = {0, std::min(4.0, 1.0 * static_cast<double>(i)), 0.5};
   }
   ContactRecord hit = push(kCar, 3, kVehicles, {0, -5, 0});
   hit.begun = 0.5;  // the mount is struck before the rider
@@ -178,10 +178,10 @@ TEST(BodyMetrics, ReboundIsTheTopOfTheFlightBetweenTwoTouches) {
   for (int i = 0; i < 7; ++i) {
     Snapshot s;
     s.time = 0.1 * i;
-    s.bodies.resize(1);
+    s.bodies.own().resize(1);
     const double t = s.time - 0.1;
-    s.bodies[0].X_WB.p = {3.0 * i, 4.0 * i, radius + (i ? 2 * t - 0.5 * 9.81 * t * t : 0.3)};
-    s.bodies[0].V_WB.v = {30, 40, i ? 2 - 9.81 * t : -3};
+    s.bodies.own()[0].X_WB.p = {3.0 * i, 4.0 * i, radius + (i ? 2 * t - 0.5 * 9.81 * t * t : 0.3)};
+    s.bodies.own()[0].V_WB.v = {30, 40, i ? 2 - 9.81 * t : -3};
     run.snapshots.push_back(s);
   }
   for (const int i : {1, 6}) run.snapshots[i].contacts.push_back(push(0, -1, kOnGround, {0, 0, 5}));
@@ -203,9 +203,9 @@ TEST(NearestApproach, ARunWithoutATouchSaysHowNearItWas) {
   run.interval = 0.1;
   for (int i = 0; i < 11; ++i) {
     Snapshot s = still(0.1 * i);
-    s.bodies[kCar].X_WB.p = {1.0 * i, 0, 0.5};
-    s.bodies[kHead].X_WB.p = {7, 1.4, 0.6};
-    s.bodies[kHips].X_WB.p = {7, 3, 0.6};
+    s.bodies.own()[kCar].X_WB.p = {1.0 * i, 0, 0.5};
+    s.bodies.own()[kHead].X_WB.p = {7, 1.4, 0.6};
+    s.bodies.own()[kHips].X_WB.p = {7, 3, 0.6};
     run.snapshots.push_back(s);
   }
   const auto near = nearest_approach(model, run);
@@ -227,7 +227,7 @@ TEST(AbsentMetrics, WhoStandsIsNotSaidToMove) {
     return std::string();
   };
   EXPECT_EQ(reason(), "nothing touched it: it stands as it stood");
-  run.snapshots[1].bodies[kHips].V_WB.v = {1, 0, 0};
+  run.snapshots[1].bodies.own()[kHips].V_WB.v = {1, 0, 0};
   EXPECT_EQ(reason(), "still moving when the run ends");
 }
 
@@ -244,8 +244,8 @@ TEST(NearestApproach, IsNotThatOfATrailerToWhatTowsIt) {
     model.vehicles.push_back(model.vehicles[0]);
     model.vehicles.back().body = kCar + k;
     for (Snapshot& s : run.snapshots) {
-      s.bodies.push_back(s.bodies[kCar]);
-      s.bodies.back().X_WB.p.x() = k < 3 ? -5.0 * k : 50;
+      s.bodies.own().push_back(s.bodies[kCar]);
+      s.bodies.own().back().X_WB.p.x() = k < 3 ? -5.0 * k : 50;
     }
   }
   for (const int towed : {kCar + 1, kCar + 2}) {

@@ -149,9 +149,9 @@ TEST(PassiveTorque, ClosesTheLedgerOfAWholeLegInBothSchemes) {
 
 TEST(PassiveTorque, SchemesAgree) {
   for (const int knees : {1, 2}) {
-    const Vec3 exact = simulate(leg(Scheme::rk4, 1e-4, knees)).snapshots.back().bodies.back().X_WB.p;
-    EXPECT_LT((simulate(leg(Scheme::rk4, 1e-3, knees)).snapshots.back().bodies.back().X_WB.p - exact).norm(), 1e-5);
-    EXPECT_LT((simulate(leg(Scheme::stepping, 1e-3, knees)).snapshots.back().bodies.back().X_WB.p - exact).norm(), 0.01);
+    const Vec3 exact = simulate(leg(Scheme::rk4, 1e-4, knees)).snapshots.back().bodies.own().back().X_WB.p;
+    EXPECT_LT((simulate(leg(Scheme::rk4, 1e-3, knees)).snapshots.back().bodies.own().back().X_WB.p - exact).norm(), 1e-5);
+    EXPECT_LT((simulate(leg(Scheme::stepping, 1e-3, knees)).snapshots.back().bodies.own().back().X_WB.p - exact).norm(), 0.01);
   }
 }
 

@@ -19,14 +19,14 @@ TEST(VehicleMetrics, DeltaVIsTheChangeOfVelocityOfTheCollisionAndNotOfTheRun) {
   const Vec3 after(-3, -3, 0);
   for (int i = 0; i < 60; ++i) {
     Snapshot& s = run.snapshots[i];
-    if (i < 5) s.bodies[kCar].X_WB.q = Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitZ()));
-    s.bodies[kCar].V_WB.v = i < 5 ? Vec3(0, 20, 0) : Vec3(Vec3(0, 20, 0) + after);
+    if (i < 5) s.bodies.own()[kCar].X_WB.q = Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitZ()));
+    s.bodies.own()[kCar].V_WB.v = i < 5 ? Vec3(0, 20, 0) : Vec3(Vec3(0, 20, 0) + after);
     s.tyre_impulse = {Vec3::Zero()};
   }
   // it brakes with 100 N s meanwhile, which is no collision
   run.snapshots[5].tyre_impulse = {Vec3(0, -100, 0)};
   for (Snapshot& s : run.snapshots)
-    if (s.time > 0.045) s.bodies[kCar].V_WB.v.y() -= 0.1;
+    if (s.time > 0.045) s.bodies.own()[kCar].V_WB.v.y() -= 0.1;
   run.snapshots[5].contacts = {push(kHips, kCar, kOnVehicle, {3000, 3000, 0}), push(kCar, -1, kOnGround, {0, 0, 1e6})};
   // and drags on for half a second, pressed and held: that adds nothing
   for (int i = 6; i < 60; ++i) run.snapshots[i].contacts = {push(kHips, kCar, kOnVehicle, {2, 0, 0})};
@@ -54,8 +54,8 @@ TEST(VehicleMetrics, RestIsPlaceHeadingAndLengthOfThePath) {
   run.interval = 1;
   for (int i = 0; i < 3; ++i) {
     run.snapshots.push_back(still(i));
-    run.snapshots.back().bodies[kCar].X_WB = {Vec3(3.0 * i, 4.0 * i, 0.5),
-                                              Quat(Eigen::AngleAxisd(-std::numbers::pi / 2 * i, Vec3::UnitZ()))};
+    run.snapshots.back().bodies.own()[kCar].X_WB = {Vec3(3.0 * i, 4.0 * i, 0.5),
+                                                    Quat(Eigen::AngleAxisd(-std::numbers::pi / 2 * i, Vec3::UnitZ()))};
   }
   run.events = {{1, "rest", kCar, -1, Vec3::Zero(), 0}};
   std::vector<Metric> out;
@@ -80,7 +80,7 @@ std::vector<Impact> car_against_block(double mass, double energy, double stiffne
   run.interval = 0.01;
   for (int i = 0; i < 20; ++i) {
     run.snapshots.push_back(still(0.01 * i));
-    run.snapshots.back().bodies[kCar].V_WB.v = {i < 5 ? 10.0 : 4.0, 0, 0};
+    run.snapshots.back().bodies.own()[kCar].V_WB.v = {i < 5 ? 10.0 : 4.0, 0, 0};
   }
   ContactRecord c = push(kCar, kHips, kVehicles, {-6000, 0, 0});
   c.normal = {-1, 0, 0};

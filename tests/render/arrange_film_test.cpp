@@ -23,10 +23,10 @@ engine::Recording run() {
   for (int i = 0; i <= 10; ++i) {
     engine::Snapshot s;
     s.time = 0.1 * i;
-    s.bodies.resize(3);
-    s.bodies[0].X_WB.p = Vec3(2 * s.time, 0, 1);
-    s.bodies[0].X_WB.q = engine::Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitZ()));
-    s.bodies[0].V_WB.v = Vec3(2, 0, 0);
+    s.bodies.own().resize(3);
+    s.bodies.own()[0].X_WB.p = Vec3(2 * s.time, 0, 1);
+    s.bodies.own()[0].X_WB.q = engine::Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitZ()));
+    s.bodies.own()[0].V_WB.v = Vec3(2, 0, 0);
     if (i == 5) {
       engine::ContactRecord c;
       c.shapes = {engine::ShapeKind::round, engine::ShapeKind::mesh};
@@ -82,7 +82,7 @@ TEST(Camera, APersonsEyeIsCarriedByTheHead) {
   eye.follow = "ann";
   eye.position = Vec3(0.1, 0, 0);
   engine::Recording r = run();
-  for (auto& s : r.snapshots) s.bodies[2].X_WB.p = Vec3(0, 0, 1.6);
+  for (auto& s : r.snapshots) s.bodies.own()[2].X_WB.p = Vec3(0, 0, 1.6);
   EXPECT_NEAR(view_of(eye, r, 0.3, 1).eye[2], 1.6, kFloat);
 }
 

@@ -28,9 +28,9 @@ class Film : public testing::Test {
     for (int i = 0; i <= 10; ++i) {
       engine::Snapshot s;
       s.time = 0.1 * i;
-      s.bodies.resize(1);
-      s.bodies[0].X_WB.p = engine::Vec3(s.time, 0, 1);
-      s.bodies[0].V_WB.v = engine::Vec3(1, 0, 0);
+      s.bodies.own().resize(1);
+      s.bodies.own()[0].X_WB.p = engine::Vec3(s.time, 0, 1);
+      s.bodies.own()[0].V_WB.v = engine::Vec3(1, 0, 0);
       recording.snapshots.push_back(s);
     }
     render::EllipsoidActor ball;

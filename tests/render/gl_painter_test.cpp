@@ -10,8 +10,8 @@ engine::Recording still() {
   engine::Recording r;
   r.body_names = {"ball"};
   r.snapshots.resize(1);
-  r.snapshots[0].bodies.resize(1);
-  r.snapshots[0].bodies[0].X_WB.p = Vec3(0, 0, 1);
+  r.snapshots[0].bodies.own().resize(1);
+  r.snapshots[0].bodies.own()[0].X_WB.p = Vec3(0, 0, 1);
   return r;
 }
 

@@ -35,9 +35,9 @@ engine::Recording crossing(double slip) {
   for (int i = 0; i <= 100; ++i) {
     engine::Snapshot s;
     s.time = 0.01 * i;
-    s.bodies.resize(1);
+    s.bodies.own().resize(1);
     const double y = -6 + 0.15 * i;
-    s.bodies[0].X_WB.p = Vec3(0.3 * y, y, height_at(y) + 0.5);
+    s.bodies.own()[0].X_WB.p = Vec3(0.3 * y, y, height_at(y) + 0.5);
     for (const double side : {-0.8, 0.8}) {
       engine::WheelRecord wheel;
       wheel.contact = Vec3(0.3 * y + side, y, height_at(y));
