@@ -41,7 +41,7 @@ TEST(TautChainBeyondMeasure, StopsWithItsLinkAndTheRemedy) {
     EXPECT_FALSE(run.failure.has_value()) << remedy;
     EXPECT_NEAR(energy(run.snapshots.back()), energy(run.snapshots.front()), 1e-9 * energy(run.snapshots.front())) << remedy;
     const auto& bodies = run.snapshots.back().bodies;
-    EXPECT_NEAR((bodies.back().X_WB.p - bodies.front().X_WB.p).norm(), 1.9, 1e-9) << remedy;
+    EXPECT_NEAR((bodies[bodies.size() - 1].X_WB.p - bodies[0].X_WB.p).norm(), 1.9, 1e-9) << remedy;
   }
 }
 

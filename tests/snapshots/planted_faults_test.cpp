@@ -74,7 +74,7 @@ engine::Recording with_limb_turned(const PlantedPicture& shown, const std::vecto
     engine::Vec3 centre = engine::Vec3::Zero();
     const auto of = [&](const std::string& part, auto act) {
       for (std::size_t b = 0; b < out.body_names.size(); ++b)
-        if (out.body_names[b].find(part) != std::string::npos) act(snapshot.bodies[b].X_WB);
+        if (out.body_names[b].find(part) != std::string::npos) act(snapshot.bodies.own()[b].X_WB);
     };
     of(first, [&](engine::Pose& X) { centre = X * engine::Vec3(0, 0, 0.15); });
     const engine::Quat turn(Eigen::AngleAxisd(angle, engine::Vec3::UnitY()));
