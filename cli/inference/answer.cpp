@@ -14,7 +14,7 @@
 namespace cli::inference {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 bool is_meeting(const engine::Event& event) {
   return event.kind == "first_contact" || event.kind == "impact";
