@@ -3,17 +3,16 @@
 
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "cli/exit.h"
+#include "cli/output/json.h"
 #include "cli/output/summary.h"
 #include "cli/scene_run.h"
 
 namespace cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Rows = std::vector<std::vector<std::string>>;
 
 struct PlanWish {

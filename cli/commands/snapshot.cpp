@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "cli/command.h"
 #include "cli/exit.h"
+#include "cli/output/json.h"
 #include "cli/output/lock.h"
 #include "cli/output/whole_file.h"
 #include "cli/parse.h"
@@ -24,8 +24,6 @@ namespace cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kReport = "report.json";
 
 struct SnapshotWish {

@@ -3,18 +3,16 @@
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "cli/inference/ensemble.h"
 #include "cli/inference/observe.h"
+#include "cli/output/json.h"
 #include "cli/study/quantities.h"
 #include "engine/plan.h"
 #include "engine/simulate.h"
 
 namespace cli::inference {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 bool is_meeting(const engine::Event& event) {
   return event.kind == "first_contact" || event.kind == "impact";

@@ -3,20 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "cli/inference/fit.h"
 #include "cli/inference/sample.h"
+#include "cli/output/json.h"
 #include "cli/study/quantities.h"
 
 namespace cli::inference {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number_json(double x) {
-  return std::isfinite(x) ? Json(x) : Json(nullptr);
-}
 
 /// Nothing in place of numbers that may not be given.
 Json interval_json(const Interval& i, bool given) {

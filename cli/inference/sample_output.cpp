@@ -3,22 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "cli/inference/sample.h"
+#include "cli/output/json.h"
 #include "cli/study/quantities.h"
 
 namespace cli::inference {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace charts = render::charts;
 
 constexpr double kTold = 1e-5;  // in the unit of a measure: what varies less is the arithmetic's
-
-Json number_json(double x) {
-  return std::isfinite(x) ? Json(x) : Json(nullptr);
-}
 
 Json share_json(const Share& s) {
   return {{"value", s.value}, {"low", s.low}, {"high", s.high}};

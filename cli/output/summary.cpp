@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "cli/output/csv.h"
+#include "cli/output/json.h"
 #include "engine/geometry/panels.h"
 #include "engine/measure/definitions.h"
 #include "engine/measure/impacts.h"
@@ -14,8 +14,6 @@
 
 namespace cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 const char* name_of(engine::Scheme scheme) {
   switch (scheme) {
@@ -110,10 +108,6 @@ Json absent_json(const std::vector<engine::AbsentMetric>& absent, const std::vec
       out[a.key][a.object] = a.reason;
   }
   return out;
-}
-
-Json number_json(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 Json impacts_json(const std::vector<engine::Impact>& impacts) {

@@ -9,6 +9,7 @@
 
 #include "cli/exit.h"
 #include "cli/film_plan.h"
+#include "cli/output/json.h"
 #include "cli/process.h"
 #include "cli/progress.h"
 #include "cli/snapshot/baselines.h"
@@ -22,8 +23,6 @@ namespace cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 /// Everything about one scene. What it cannot do stands in its errors.
 Json check_scene(const fs::path& file, const CheckJob& job) {
   const double start = clock_seconds();

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "cli/output/json.h"
 #include "cli/snapshot/page.h"
 #include "cli/snapshot/report.h"
 #include "cli/snapshot/xml.h"
@@ -14,8 +15,6 @@ namespace cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 std::string base64(const std::string& bytes) {
   constexpr const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;

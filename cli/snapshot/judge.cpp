@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cli/output/difference.h"
+#include "cli/output/json.h"
 #include "cli/output/whole_file.h"
 #include "render/error.h"
 #include "render/image/compare.h"
@@ -14,8 +15,6 @@ namespace cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 render::Limits limits_of(const scenes::Scene& scene) {
   render::Limits limits;
   for (const auto& [name, value] : scene.snapshot.limits) set_limit(limits, name, value);

@@ -4,12 +4,11 @@
 
 #include <map>
 
+#include "cli/output/json.h"
 #include "cli/snapshot/xml.h"
 
 namespace cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 bool fine(const Json& item) {
   return item["verdict"] == "same" || item["verdict"] == "updated";

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cli/exit.h"
+#include "cli/output/json.h"
 #include "cli/output/lock.h"
 #include "cli/output/whole_file.h"
 #include "cli/snapshot/baselines.h"
@@ -17,8 +18,6 @@ namespace cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 /// Somebody at the terminal, asked about one thing at a time until there is an end to it.
 class Asker {
  public:

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "cli/output/json.h"
 #include "cli/study/words.h"
 #include "engine/plan.h"
 
 namespace cli::study {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace charts = render::charts;
 
 double value_of(const SettingResult& result, const std::string& quantity) {

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "cli/output/json.h"
 #include "cli/study/words.h"
 
 namespace cli::study {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string quoted(const std::string& text) {
   return text.find(',') == std::string::npos ? text : "\"" + text + "\"";
@@ -20,10 +18,6 @@ std::string quoted(const std::string& text) {
 /// Empty where there is none: a number in words would break a script.
 std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{}", value) : "";
-}
-
-Json number_json(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 double step_of(const SeriesResult& series, const SettingResult& result) {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "cli/film_plan.h"
+#include "cli/output/json.h"
 #include "cli/progress.h"
 #include "cli/study/statistics.h"
 #include "cli/study/trial.h"
@@ -17,7 +17,6 @@
 namespace cli::study {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace charts = render::charts;
 using render::Effort;
 

@@ -17,15 +17,9 @@ struct Setting {
 };
 std::ostream& operator<<(std::ostream&, const Setting&);
 
-/// 2, 1 and 0.5 ms with either scheme; under the sanitizers, which look for other things and take their time, 2 ms.
-#ifdef __SANITIZE_ADDRESS__
-inline constexpr bool kSanitized = true;
-inline constexpr Setting kSettings[] = {{"2 ms", "stepping"}, {"2 ms", "rk4"}};
-#else
-inline constexpr bool kSanitized = false;
+/// 2, 1 and 0.5 ms with either scheme.
 inline constexpr Setting kSettings[] = {{"2 ms", "stepping"}, {"1 ms", "stepping"}, {"0.5 ms", "stepping"},
                                         {"2 ms", "rk4"},      {"1 ms", "rk4"},      {"0.5 ms", "rk4"}};
-#endif
 
 struct Outcome {
   engine::Model model;

@@ -16,7 +16,7 @@ namespace hard_cases {
 namespace {
 
 constexpr int kGroups = 8;
-constexpr int kInGroup = 6;
+constexpr int kInGroup = 4;
 
 struct VehicleKind {
   const char* model;
