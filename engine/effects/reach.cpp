@@ -29,6 +29,9 @@ struct ReachGroup {
   double speed = 0;            // [m/s] of the centre at most, and
   double gain = 0;             // [m/s^2] by which that bound grows
   bool fixed = false;
+  bool steady = false;  // goes on at `velocity` as it stands until something touches it
+  Vec3 velocity = Vec3::Zero();
+  std::vector<Aabb> boxes;  // of its bodies at the start, where it is steady
 
   double way(double t) const { return kFaster * (speed * t + 0.5 * gain * t * t); }
 };
@@ -68,11 +71,12 @@ double reach_of(const Model& model, const Body& body) {
   return reach;
 }
 
-double lowest_of(const Body& body) {
-  if (const auto* shape = std::get_if<HyperEllipsoid>(&body.shape))
-    return body.X_WB.p.z() - aabb_half_widths(*shape, body.X_WB.q).z();
-  if (const auto* shape = std::get_if<MeshShape>(&body.shape)) return world_bounds(*shape->mesh, body.X_WB * shape->X_BM).lower.z();
-  return body.X_WB.p.z();
+/// Without wheels.
+Aabb box_of(const Body& body) {
+  if (const auto* shape = std::get_if<MeshShape>(&body.shape)) return world_bounds(*shape->mesh, body.X_WB * shape->X_BM);
+  Vec3 half = Vec3::Zero();
+  if (const auto* shape = std::get_if<HyperEllipsoid>(&body.shape)) half = aabb_half_widths(*shape, body.X_WB.q);
+  return {body.X_WB.p - half, body.X_WB.p + half};
 }
 
 /// Does an effect give energy to all there is, as the wind does? Contacts and joints are asked by themselves.
@@ -98,7 +102,7 @@ bool is_unbounded(const Model& model, const ReachGroup& group, const std::vector
   }
   return std::any_of(group.bodies.begin(), group.bodies.end(), [&](int b) {
     const Body& body = model.bodies[b];
-    return body.person >= 0 || (model.ground.plane && lowest_of(body) < model.ground.height - kInGround);
+    return body.person >= 0 || (model.ground.plane && box_of(body).lower.z() < model.ground.height - kInGround);
   });
 }
 
@@ -151,6 +155,15 @@ void bound_motion(const Model& model, ReachGroup& group) {
     all_fixed = all_fixed && body.fixed;
   }
   group.fixed = all_fixed;
+  const Vec3 velocity = all_fixed ? Vec3(Vec3::Zero()) : model.bodies[group.bodies.front()].V_WB.v;
+  group.steady = (all_wait || all_fixed) && std::all_of(group.bodies.begin(), group.bodies.end(), [&](int b) {
+                   const Body& body = model.bodies[b];
+                   return body.vehicle < 0 && (all_fixed || (body.V_WB.v == velocity && body.V_WB.w.isZero(0)));
+                 });
+  if (group.steady) {
+    group.velocity = velocity;
+    for (const int b : group.bodies) group.boxes.push_back(box_of(model.bodies[b]));
+  }
   group.extent = all_wait || all_fixed ? spread : arms + reach;
   if (all_fixed) return;
   if (all_wait) {
@@ -187,11 +200,22 @@ std::vector<ReachGroup> reach_groups_of(const Model& model) {
   return out;
 }
 
-/// [s] at which two groups can touch, at the earliest; infinity: not within the run.
+/// [m] between the boxes of two groups that stand.
+double gap_of(const std::vector<Aabb>& a, const std::vector<Aabb>& b) {
+  double least = kNever;
+  for (const Aabb& p : a)
+    for (const Aabb& q : b) least = std::min(least, (p.lower - q.upper).cwiseMax(q.lower - p.upper).cwiseMax(0.0).norm());
+  return least;
+}
+
+/// [s] at which two groups can touch, at the earliest; infinity: not within the run. Two that wait close up only as they walk, and
+/// keep their shapes: should one be touched by a third, that touch came first.
 double touch_of(const ReachGroup& a, const ReachGroup& b, double duration) {
-  const double gap = (a.centre - b.centre).norm() - a.extent - b.extent - kReachSpare;
+  const bool steady = a.steady && b.steady;
+  const double gap = (steady ? gap_of(a.boxes, b.boxes) : (a.centre - b.centre).norm() - a.extent - b.extent) - kReachSpare;
   if (gap <= 0) return 0;
-  const auto apart = [&](double t) { return a.way(t) + b.way(t) < gap; };
+  const double closing = kFaster * (a.velocity - b.velocity).norm();
+  const auto apart = [&](double t) { return (steady ? closing * t : a.way(t) + b.way(t)) < gap; };
   if (apart(duration)) return kNever;
   return math::bisect({0, duration}, math::kToTheWidth, 1e-4 * duration, apart).low;
 }

@@ -11,7 +11,8 @@ namespace engine {
 /// The earliest touch of two groups of bodies, each held together by its joints. Before it none gets energy from another, so that
 /// the speed v of a group of mass M obeys v <= sqrt(2 E/M) + t F/M: E what it has at the start in motion, suspension springs and
 /// height over a level plane, F the greatest drive; on other ground gravity adds to F/M. What has springs in its joints, gives way,
-/// can break, stands in the ground or in the wind may move at once as far as it likes; who waits in the zero condition walks on.
+/// can break, stands in the ground or in the wind may move at once as far as it likes; who waits in the zero condition walks on,
+/// and two who wait touch each other no sooner than the boxes of their bodies do.
 struct Reach {
   double first_touch = 0;  // [s] no earlier; infinity: not within the run
   std::string who;         // that touch, "car and pedestrian"; empty: there are no two

@@ -119,6 +119,56 @@ TEST(Reach, NeverComesAfterTheTouchOfARandomScene) {
   EXPECT_GT(touched, 10);
 }
 
+/// Two who wait, their trunks and arms 0.2 m apart, and a ball that rolls up to them.
+Model waiting_pair(const Vec3& walk, double duration) {
+  Model model = in_space({ball({20, 0, 0}, {-5, 0, 0})}, duration);
+  for (int p = 0; p < 2; ++p) {
+    Person person;
+    person.name = p == 0 ? "left" : "right";
+    for (int k = 0; k < 2; ++k) {  // the trunk, and an arm that hangs
+      Body body = ball({0, (p == 0 ? 1 : -1) * (0.2 + 0.5 * (1 - k)), -0.5 * k}, (p == 0 ? -1 : 1) * walk);
+      body.person = p;
+      person.bodies.push_back(static_cast<int>(model.bodies.size()));
+      model.bodies.push_back(body);
+    }
+    Joint shoulder;
+    shoulder.kind = JointKind::spherical;
+    shoulder.parent = person.bodies[0];
+    shoulder.child = person.bodies[1];
+    shoulder.X_PF.p = {0, 0, -0.25};
+    shoulder.X_CF.p = shoulder.X_PF.p + model.bodies[shoulder.parent].X_WB.p - model.bodies[shoulder.child].X_WB.p;
+    model.joints.push_back(shoulder);
+    model.persons.push_back(person);
+  }
+  return model;
+}
+
+TEST(Reach, TwoWhoWaitSideBySideAreTouchedFirstByWhatComes) {
+  // 20 m, less half a metre of bodies, at 5 m/s: no sooner than in 3.7 s, though the two stand a hand's breadth apart
+  const Model model = waiting_pair({0, 0, 0}, 5);
+  const Reach reach = reach_of(model);
+  EXPECT_GT(reach.first_touch, 3.5);
+  EXPECT_LT(reach.first_touch, 4);
+  EXPECT_EQ(hash(simulate(with_all_forced_on(model))), hash(simulate(model)));
+  EXPECT_FALSE(is_on(waiting_pair({0, 0, 0}, 3), "body_contact"));
+}
+
+TEST(Reach, TwoWhoWalkUpToEachOtherTouchBeforeWhatComes) {
+  // 0.2 m less the spare, at 0.1 m/s
+  const Reach reach = reach_of(waiting_pair({0, 0.05, 0}, 5));
+  EXPECT_GT(reach.first_touch, 1.4);
+  EXPECT_LT(reach.first_touch, 2);
+  const Model model = waiting_pair({0, 0.05, 0}, 3);
+  EXPECT_TRUE(is_on(model, "body_contact"));
+  EXPECT_EQ(hash(simulate(with_all_forced_on(model))), hash(simulate(model)));
+}
+
+TEST(Reach, TwoWhoWaitWithinTheSpareMayTouchAtOnce) {
+  Model model = waiting_pair({0, 0, 0}, 5);
+  for (const int b : model.persons[1].bodies) model.bodies[b].X_WB.p.y() += 0.16;
+  EXPECT_EQ(reach_of(model).first_touch, 0);
+}
+
 TEST(Reach, ARunTellsWhenAnEffectActed) {
   // dropped from 1 m with e = 0.5: the first touch after sqrt(2 h/g) = 0.452 s
   Model model = in_space({ball({0, 0, 1.1}, {0, 0, 0})}, 0.5);
