@@ -1,7 +1,6 @@
 // One run of an ensemble, and its line in the journal.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <limits>
 
 #include "cli/inference/ensemble.h"
@@ -20,7 +19,7 @@ bool is_meeting(const engine::Event& event) {
 
 Json numbers_json(const std::vector<double>& numbers) {
   Json out = Json::array();
-  for (const double x : numbers) out.push_back(std::isfinite(x) ? Json(x) : Json(nullptr));
+  for (const double x : numbers) out.push_back(number_json(x));
   return out;
 }
 
@@ -59,7 +58,7 @@ Answer answer(const scenes::Scene& scene, const std::vector<std::string>& overri
 
 std::string as_line(const std::string& name, const Answer& a) {
   Json json = {{"run", name}, {"status", a.status}, {"touched", a.touched}, {"out", Json::object()}, {"predicted", Json::array()}};
-  for (const auto& [key, value] : a.outputs) json["out"][key] = std::isfinite(value) ? Json(value) : Json(nullptr);
+  for (const auto& [key, value] : a.outputs) json["out"][key] = number_json(value);
   if (!a.rests.empty()) json["rests"] = a.rests;
   for (const auto& p : a.predicted) json["predicted"].push_back(p ? numbers_json(*p) : Json(nullptr));
   return json.dump() + "\n";

@@ -2,25 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "cli/exit.h"
+#include "cli/output/json.h"
 #include "scenes/loader/value.h"
 
 namespace cli {
 
-nlohmann::ordered_json difference_json(const render::Difference& found) {
-  nlohmann::ordered_json out = nlohmann::ordered_json::object();
-  for (const render::Measure& measure : render::measures()) {
-    const double value = found.*measure.value;
-    out[measure.name] = std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr;
-  }
+Json difference_json(const render::Difference& found) {
+  Json out = Json::object();
+  for (const render::Measure& measure : render::measures()) out[measure.name] = number_json(found.*measure.value);
   return out;
 }
 
-nlohmann::ordered_json limits_json(const render::Limits& limits) {
-  nlohmann::ordered_json out = nlohmann::ordered_json::object();
+Json limits_json(const render::Limits& limits) {
+  Json out = Json::object();
   for (const render::Measure& measure : render::measures())
     if (measure.limit) out[measure.name] = limits.*measure.limit;
   return out;
