@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-
 #include "cli/exit.h"
 #include "cli/output/json.h"
 #include "scenes/loader/value.h"
