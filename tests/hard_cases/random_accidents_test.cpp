@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <random>
 
+#include "tests/hard_cases/accident.h"
 #include "tests/hard_cases/hard_case.h"
 #include "tests/scenes/scene_file.h"
 
@@ -17,71 +17,6 @@ namespace {
 
 constexpr int kGroups = 8;
 constexpr int kInGroup = 4;
-
-struct VehicleKind {
-  const char* model;
-  double half_length;  // [m] to its farthest corner, rounded up
-};
-constexpr VehicleKind kVehicles[] = {{"sedan", 2.7}, {"small_car", 2.3}, {"suv", 2.6}, {"van", 3.1}, {"bus", 6.4}, {"truck", 5.2}};
-constexpr const char* kFigures[] = {"person-14", "person-16", "child-3", "child-6", "child-10"};
-constexpr const char* kUpright[] = {"standing", "walking_left", "walking_right", "leaning", "prayer", "cat", "sitting"};
-constexpr const char* kLow[] = {"lying_prone", "lying_supine", "sitting_upright", "cat"};
-constexpr const char* kSteps[] = {"2 ms", "1 ms", "0.5 ms"};
-
-class Dice {
- public:
-  explicit Dice(unsigned seed) : random_(seed) {}
-  double between(double low, double high) { return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53; }
-  template <class T, std::size_t n>
-  const T& one_of(const T (&all)[n]) {
-    return all[static_cast<std::size_t>(between(0, static_cast<double>(n)))];
-  }
-  bool chance(double p) { return between(0, 1) < p; }
-
- private:
-  std::mt19937_64 random_;
-};
-
-std::string vehicle(Dice& dice, const std::string& name, const char* model, const std::string& place, double least, double most) {
-  std::string text = fmt::format("[[vehicle]]\nname = \"{}\"\nmodel = \"{}\"\n{}speed = \"{:.1f} km/h\"\n", name, model, place,
-                                 dice.between(least, most));
-  if (dice.chance(0.7)) text += "[vehicle.brake]\nfrom = \"0 s\"\nbuild_up = \"0.2 s\"\ndeceleration = \"0.7 g\"\n";
-  return text;
-}
-
-std::string person(Dice& dice, const std::string& name, const char* pose, double x) {
-  return fmt::format(
-      "[[person]]\nname = \"{}\"\nfigure = \"{}\"\npose = \"{}\"\nposition = \"{} {:.3f} m\"\nheading = \"{:.0f} deg\"\n", name,
-      dice.one_of(kFigures), pose, x, dice.between(-0.4, 0.4), dice.between(0, 360));
-}
-
-/// The text of an accident: x > 0 is where the first vehicle goes.
-std::string accident(unsigned seed, const char* law) {
-  Dice dice(seed);
-  std::string text =
-      fmt::format("[simulation]\nduration = \"1.5 s\"\ncontact_law = \"{}\"\nstep = \"{}\"\n", law, dice.one_of(kSteps));
-  text += vehicle(dice, "car", dice.one_of(kVehicles).model, fmt::format("front = \"-1.3 {:.3f} m\"\n", dice.between(-0.9, 0.9)), 5,
-                  100);
-  const double kind = dice.between(0, 1);
-  if (kind < 0.2) {
-    text += fmt::format(
-        "[[vehicle]]\nname = \"bicycle\"\nmodel = \"bicycle\"\nposition = \"0.6 {:.3f} m\"\nheading = \"{:.0f} deg\"\nspeed = "
-        "\"{:.1f} km/h\"\n"
-        "[[person]]\nname = \"rider\"\nfigure = \"person-14\"\npose = \"cyclist\"\nrides = \"bicycle\"\n",
-        dice.between(-0.5, 0.5), dice.between(0, 360), dice.between(0, 25));
-    return text;
-  }
-  if (kind < 0.55) {
-    const VehicleKind& other = dice.one_of(kVehicles);
-    const std::string place = fmt::format("position = \"{:.3f} {:.3f} m\"\nheading = \"{:.0f} deg\"\n",
-                                          1.2 + other.half_length + dice.between(0, 2), dice.between(-1, 1), dice.between(0, 360));
-    text += vehicle(dice, "other", other.model, place, 0, dice.chance(0.5) ? 0 : 60);
-  }
-  const bool low = dice.chance(0.25);
-  text += person(dice, "one", low ? dice.one_of(kLow) : dice.one_of(kUpright), 0);
-  if (kind > 0.8) text += person(dice, "two", dice.one_of(kUpright), 2.3);
-  return text;
-}
 
 /// How far [m] anything stands in anything at a snapshot: of one vehicle in another, whose sheets would crumple there, or of the
 /// rest.

@@ -1,0 +1,25 @@
+# Several sources of a target compiled as one: most of a source's time goes into headers and templates that its neighbours need too.
+# Sources far apart in the list go together, whose unnamed namespaces seldom share names. A name that clashes all the same wants to be
+# a better one; where that is not so, the source is compiled alone.
+set(compiled_alone "/tests/render/|/tests/scenes/|/sliding_joint_test.cpp")
+function(compile_together target)
+  get_target_property(sources ${target} SOURCES)
+  list(LENGTH sources count)
+  if(NOT CRASHREEL_TOGETHER OR count LESS 2)
+    return()
+  endif()
+  math(EXPR units "(${count} + 7) / 8")
+  set(i 0)
+  foreach(source IN LISTS sources)
+    math(EXPR unit "${i} % ${units}")
+    math(EXPR i "${i} + 1")
+    if(NOT source MATCHES "${compiled_alone}")
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${unit})
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # a source that is included looks like a header, whose classes had better hold nothing of an unnamed namespace
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  endif()
+endfunction()
