@@ -1,5 +1,6 @@
 // Runs small jobs of the program under injected faults and kills, and holds what they leave behind against an undisturbed run:
-//   fault_campaign PROGRAM SHIM --faults N --kills N [--seed N]
+//   fault_campaign PROGRAM SHIM --faults N --kills N [--seed N]  at random
+//   fault_campaign PROGRAM SHIM --in-turn CALL [--every N]       each (N-th) call of a kind of each job; again for another kind
 // Promises checked after every disturbance: the program ends by itself with an exit code it documents (faults); a file under a
 // final name is the file of an undisturbed run; exit code 0 means that none is missing; the same command with --resume then ends
 // with exactly the files of an undisturbed run. A third of the kills strike a second time, during that --resume.
@@ -8,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -47,9 +49,9 @@ constexpr int kPatience = 60;  // [s] a job takes about one
 struct Job {
   std::string name;
   std::vector<std::string> arguments;
-  long calls[5] = {};  // of the undisturbed run, most of any one process, in the order of kCalls
+  long calls[6] = {};  // of the undisturbed run, most of any one process, in the order of kCalls
 };
-const char* const kCalls[] = {"write", "open", "rename", "fsync", "malloc"};
+const char* const kCalls[] = {"write", "open", "rename", "fsync", "malloc", "fork"};
 
 using Files = std::map<std::string, std::string>;
 
@@ -143,7 +145,7 @@ class Campaign {
       if (run(program_, job, folder, {}, {}) != 0) return complain(job, "the undisturbed run fails");
       seconds_[job.name] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       wanted_[job.name] = files_in(folder);
-      for (std::size_t c = 0; c < 5; ++c) {
+      for (std::size_t c = 0; c < std::size(kCalls); ++c) {
         const fs::path counts = root_ / "counts";
         fs::remove(counts);
         run(program_, job, fresh(),
@@ -156,26 +158,28 @@ class Campaign {
   }
 
   void fault() {
-    Job& job = jobs_[random(jobs_.size())];
-    const std::size_t call = random(5);
+    const Job& job = jobs_[random(jobs_.size())];
+    const std::size_t call = random(std::size(kCalls));
     // every call of the few there are; the many allocations by sample
     const long at = 1 + static_cast<long>(random(static_cast<std::size_t>(std::max(1L, job.calls[call]))));
-    const bool on = random(2) == 1;
-    const fs::path folder = fresh();
-    const std::string what = std::string(kCalls[call]) + " " + std::to_string(at) + (on ? " and on" : "");
-    const int code = run(program_, job, folder,
-                         {"LD_PRELOAD=" + shim_, std::string("FAULT_CALL=") + kCalls[call], "FAULT_AT=" + std::to_string(at),
-                          std::string("FAULT_ON=") + (on ? "on" : "once")},
-                         {});
-    ++faults_;
-    ++ended_[code];
-    if (code != 0 && code != 3) complain(job, what + ": ended with " + std::to_string(code), folder);
-    look(job, folder, what, code);
-    finish(job, folder, what);
+    disturb(job, call, at, random(2) == 1);
+  }
+
+  /// Fails each call of a kind, or each `every`-th. Whether there is such a kind.
+  bool in_turn(const std::string& kind, long every) {
+    const auto* call = std::find(std::begin(kCalls), std::end(kCalls), kind);
+    if (call == std::end(kCalls)) return false;
+    const auto c = static_cast<std::size_t>(call - std::begin(kCalls));
+    for (const Job& job : jobs_) {
+      std::printf("%s: %ld times %s\n", job.name.c_str(), job.calls[c], kind.c_str());
+      std::fflush(stdout);
+      for (long at = 1; at <= job.calls[c]; at += every) disturb(job, c, at, false);
+    }
+    return true;
   }
 
   void strike() {
-    Job& job = jobs_[random(jobs_.size())];
+    const Job& job = jobs_[random(jobs_.size())];
     const fs::path folder = fresh();
     const double within = 1.1 * seconds_[job.name];
     const double first = chance() * within;
@@ -212,6 +216,20 @@ class Campaign {
     if (job.name == "film_frame_by_frame") return {};  // has it already
     // figures take a second and are made anew
     return {job.name == "figures" ? "--overwrite" : "--resume"};
+  }
+
+  void disturb(const Job& job, std::size_t call, long at, bool on) {
+    const fs::path folder = fresh();
+    const std::string what = std::string(kCalls[call]) + " " + std::to_string(at) + (on ? " and on" : "");
+    const int code = run(program_, job, folder,
+                         {"LD_PRELOAD=" + shim_, std::string("FAULT_CALL=") + kCalls[call], "FAULT_AT=" + std::to_string(at),
+                          std::string("FAULT_ON=") + (on ? "on" : "once")},
+                         {});
+    ++faults_;
+    ++ended_[code];
+    if (code != 0 && code != 3) complain(job, what + ": ended with " + std::to_string(code), folder);
+    look(job, folder, what, code);
+    finish(job, folder, what);
   }
 
   bool complain(const Job& job, const std::string& what, const fs::path& folder = {}) {
@@ -256,18 +274,24 @@ class Campaign {
 }  // namespace
 
 int main(int argc, char** argv) {
-  long faults = 0, kills = 0, seed = 1;
+  long faults = 0, kills = 0, seed = 1, every = 1;
+  std::vector<std::string> kinds;
   for (int i = 3; i + 1 < argc; i += 2) {
     const std::string name = argv[i];
-    (name == "--faults" ? faults : name == "--kills" ? kills : seed) = std::atol(argv[i + 1]);
+    if (name == "--in-turn")
+      kinds.push_back(argv[i + 1]);
+    else
+      (name == "--faults" ? faults : name == "--kills" ? kills : name == "--every" ? every : seed) = std::atol(argv[i + 1]);
   }
   if (argc < 3) {
-    std::fprintf(stderr, "fault_campaign PROGRAM SHIM --faults N --kills N [--seed N]\n");
+    std::fprintf(stderr, "fault_campaign PROGRAM SHIM --faults N --kills N [--seed N] | --in-turn CALL [--every N]\n");
     return 2;
   }
   // jobs run in folders of their own
   Campaign campaign(fs::absolute(argv[1]).string(), fs::absolute(argv[2]).string(), static_cast<unsigned>(seed));
   if (!campaign.prepare()) return 1;
+  for (const std::string& kind : kinds)
+    if (!campaign.in_turn(kind, std::max(1L, every))) return 2;
   for (long i = 0; i < faults; ++i) campaign.fault();
   for (long i = 0; i < kills; ++i) campaign.strike();
   return campaign.report();

@@ -1,5 +1,5 @@
 // Preloaded into the program by tests/faults/campaign: makes one call fail, or every call from one on.
-//   FAULT_CALL   write, open, rename, fsync or malloc
+//   FAULT_CALL   write, open, rename, fsync, fork or malloc
 //   FAULT_AT     the first call that fails, counted from 1 in each process
 //   FAULT_ON     once, or on: from then on
 //   FAULT_FILE   the calls counted, as bytes appended to this file; for a first run without FAULT_AT
@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/syscall.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -77,18 +78,19 @@ using Malloc = void* (*)(std::size_t);
 Malloc real_malloc = nullptr;
 thread_local bool looking_up = false;
 
-// counts of a run without faults: one line a process, at its end
+/// Counts of a run without faults: one line a process, at its end.
+void report_calls() {
+  const char* file = getenv("FAULT_FILE");
+  if (!file || counted_in != static_cast<pid_t>(syscall(SYS_getpid))) return;
+  char line[32];
+  const int size = snprintf(line, sizeof line, "%ld\n", calls.load());
+  const long to = syscall(SYS_openat, AT_FDCWD, file, O_WRONLY | O_CREAT | O_APPEND, 0666);
+  if (to < 0) return;
+  if (syscall(SYS_write, to, line, size) < 0) return;
+  syscall(SYS_close, to);
+}
 struct Report {
-  ~Report() {
-    const char* file = getenv("FAULT_FILE");
-    if (!file) return;
-    char line[32];
-    const int size = snprintf(line, sizeof line, "%ld\n", calls.load());
-    const long to = syscall(SYS_openat, AT_FDCWD, file, O_WRONLY | O_CREAT | O_APPEND, 0666);
-    if (to < 0) return;
-    if (syscall(SYS_write, to, line, size) < 0) return;
-    syscall(SYS_close, to);
-  }
+  ~Report() { report_calls(); }
 } report;
 
 }  // namespace
@@ -115,6 +117,15 @@ ssize_t write(int file, const void* data, size_t size) {
     return -1;
   }
   return real(file, data, size);
+}
+
+ssize_t writev(int file, const struct iovec* parts, int count) {
+  static const auto real = next<ssize_t (*)(int, const struct iovec*, int)>("writev");
+  if (file > 2 && fails("write")) {
+    errno = ENOSPC;
+    return -1;
+  }
+  return real(file, parts, count);
 }
 
 int open(const char* path, int flags, ...) {
@@ -184,6 +195,22 @@ int fsync(int file) {
     return -1;
   }
   return real(file);
+}
+
+// how what was forked ends: nothing at exit runs there
+void _exit(int code) {
+  report_calls();
+  syscall(SYS_exit_group, code);
+  __builtin_unreachable();
+}
+
+pid_t fork() {
+  static const auto real = next<pid_t (*)()>("fork");
+  if (fails("fork")) {
+    errno = EAGAIN;
+    return -1;
+  }
+  return real();
 }
 
 void* malloc(size_t size) {
