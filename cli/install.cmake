@@ -32,6 +32,23 @@ endforeach()
 add_custom_command(OUTPUT ${pages_folder}/changelog.gz COMMAND gzip -9nc ${CMAKE_SOURCE_DIR}/.github/CHANGELOG.md > ${pages_folder}/changelog.gz
                    DEPENDS ${CMAKE_SOURCE_DIR}/.github/CHANGELOG.md VERBATIM)
 list(APPEND printed ${pages_folder}/changelog.gz)
+# what it is made of: packages that are linked, and those that no link shows
+set(loaded libosmesa6)
+foreach(library libavformat libavcodec libavutil)
+  string(REGEX MATCH "^[0-9]+" major ${LIBAV_${library}_VERSION})
+  list(APPEND loaded ${library}${major})
+endforeach()
+find_program(DPKG_QUERY dpkg-query)
+if(DPKG_QUERY)
+  set(bill ${pages_folder}/crashreel.cdx.json)
+  add_custom_command(OUTPUT ${bill}
+                     COMMAND ${CMAKE_SOURCE_DIR}/cli/sbom ${PROJECT_VERSION} $<TARGET_FILE:crashreel> $<TARGET_FILE:crashreel-cage> --
+                             ${loaded} libeigen3-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libboost-dev > ${bill}.part
+                     COMMAND ${CMAKE_COMMAND} -E rename ${bill}.part ${bill}
+                     DEPENDS crashreel crashreel-cage ${CMAKE_SOURCE_DIR}/cli/sbom VERBATIM)
+  list(APPEND printed ${bill})
+  install(FILES ${bill} DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+endif()
 add_custom_target(pages ALL DEPENDS ${printed})
 
 install(TARGETS crashreel RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
@@ -76,11 +93,6 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # beside what the program is linked with: what it reads, and what it loads when needed
-set(loaded libosmesa6)
-foreach(library libavformat libavcodec libavutil)
-  string(REGEX MATCH "^[0-9]+" major ${LIBAV_${library}_VERSION})
-  list(APPEND loaded ${library}${major})
-endforeach()
 string(JOIN ", " CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS fonts-dejavu-core ${loaded})
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 include(CPack)

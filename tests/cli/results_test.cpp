@@ -394,6 +394,9 @@ TEST(Version, NamesWhatAReportNeedsToBeRepeatable) {
   EXPECT_THAT(version.at("libraries").get<std::string>(),
               testing::MatchesRegex("Eigen [0-9.]+, assimp [0-9.]+, libpng [0-9.]+, .*"));
   EXPECT_THAT(version.at("gl").get<std::string>(), HasSubstr("llvmpipe"));
+  if (!sanitized_program()) {
+    EXPECT_EQ(version.at("hardening"), "fortify 3, stack protector strong, PIE, full RELRO");
+  }
 }
 
 TEST(Library, ListsThePersonTheFlagshipUses) {
