@@ -162,6 +162,16 @@ std::string unknown_unit(std::string_view text, const std::string& unknown, Dime
   return fmt::format("\"{}\" is not a unit; {}", unknown, must_be(wanted));
 }
 
+/// "5 ft 9", "1m78": a number has no unit, and what is before it has one.
+std::string last_unit_missing(std::string_view before, std::string_view unit, double number, Dimension wanted) {
+  constexpr Alias kFollowers[] = {{"ft", "in"}, {"h", "min"}, {"min", "s"}, {"m", "cm"}, {"kg", "g"}};
+  for (const Alias& alias : kFollowers) {
+    const std::string meant = fmt::format("{} {} {}", before, number, alias.unit);
+    if (alias.word == unit && reads(meant, wanted)) return fmt::format("{} has no unit; write \"{}\"", number, meant);
+  }
+  return fmt::format("{} has no unit", number);
+}
+
 std::vector<std::string_view> split_units(std::string_view units) {
   std::vector<std::string_view> out;
   for (std::size_t at = 0; at < units.size(); at = std::min(units.find(", ", at), units.size() - 2) + 2)
@@ -175,14 +185,21 @@ Quantity quantity_of(std::string_view text, Dimension wanted, Remedies remedies)
   skip_spaces(t);
   int terms = 0;
   bool negative = false;
+  std::string_view before, last_unit;  // the terms read so far, and the last one's unit
   while (!t.empty()) {
     const auto number = take_number(t);
     if (!number) return {0, comma_remedy(text, wanted, Commas::decimal, remedies).value_or(must_be(wanted)), {}};
+    skip_spaces(t);
+    const std::string_view at_unit = t;
     const UnitValue unit = take_unit(t, wanted);
     if (!unit.unknown.empty()) return {0, unknown_unit(text, unit.unknown, wanted, remedies), {}};
     if (unit.powers == Powers{} && unit.factor == 1 && wanted != Dimension::none) {
+      if (terms > 0) return {0, last_unit_missing(before, last_unit, *number, wanted), {}};
       return {0, fmt::format("needs a unit: write {}", unit_examples(*number, wanted)), number};
     }
+    const auto ended = [](std::string_view read) { return read.substr(0, read.find_last_not_of(' ') + 1); };
+    last_unit = ended(at_unit.substr(0, at_unit.size() - t.size()));
+    before = ended(text.substr(0, text.size() - t.size()));
     if (!(unit.powers == line(wanted).powers)) return {0, must_be(wanted), {}};
     // "-5 ft 9 in" means -(5 ft 9 in)
     if (terms++ == 0) negative = std::signbit(*number);
@@ -232,6 +249,9 @@ std::string unit_examples(double number, Dimension d, double lower, double upper
       if (fits(unit)) others.push_back(fmt::format("\"{} {}\"", number, unit));
     if (!others.empty()) return fmt::format("{}", fmt::join(others, " or "));
   }
+  // a deceleration of 0.7 is one of 0.7 g: braking in m/s^2 is above this
+  if (d == Dimension::acceleration && std::abs(number) < 1.5)
+    return fmt::format("\"{} g\" or \"{:.3g} m/s^2\"", number, number * factor("g"));
   const double second = number * factor(line(d).usual) / factor(line(d).second);
   const std::string rounded =
       std::abs(second) >= 100 && std::abs(second) < 1e6 ? fmt::format("{:.0f}", second) : fmt::format("{:.3g}", second);

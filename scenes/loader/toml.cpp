@@ -261,6 +261,11 @@ void apply_override(Value& root, const std::string& assignment) {
     Value* child = at->find(parts[i]);
     // persons.pedestrian.speed reads naturally for what the file writes as [[person]]
     if (!child) child = at->find(singular(parts[i]));
+    // sedan.speed for vehicle.sedan.speed
+    if (i == 0 && !child)
+      for (Entry& list : root.entries)
+        if (list.value.kind == Value::Kind::array && element_of(list.value, parts[0]))
+          refuse(fmt::format("there is no section {}; did you mean {}.{}?", parts[0], list.key, assignment.substr(0, equals)));
     if (!child) {
       Value table;
       table.kind = Value::Kind::table;

@@ -74,6 +74,36 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"unit_without_slash", kPerson + "speed = \"40 kmh\"\n",
              "a.toml:3:9: person.p.speed is \"40 kmh\": \"kmh\" is not a unit; did you mean \"40 km/h\"?\n    3 | speed = \"40 "
              "kmh\"\n      |         ^\n"},
+        Slip{"a_unit_nobody_knows", kPerson + "speed = \"40 foo\"\n",
+             "a.toml:3:9: person.p.speed is \"40 foo\": \"foo\" is not a unit; must be a speed; write it like \"1 km/h\"; units: "
+             "km/h, m/s, mph, ft/s\n    3 | speed = \"40 foo\"\n      |         ^\n"},
+        Slip{"feet_and_inches", kPerson + "stature = \"5ft9\"\n",
+             "a.toml:3:11: person.p.stature is \"5ft9\": 9 has no unit; write \"5ft 9 in\"\n    3 | stature = \"5ft9\"\n      | "
+             "          ^\n"},
+        Slip{
+            "metres_and_centimetres", kPerson + "stature = \"1 m 78\"\n",
+            "a.toml:3:11: person.p.stature is \"1 m 78\": 78 has no unit; write \"1 m 78 cm\"\n    3 | stature = \"1 m 78\"\n      "
+            "|           ^\n"},
+        Slip{
+            "minutes_and_seconds", kPerson + "[simulation]\nduration = \"1 min 3\"\n",
+            "a.toml:4:12: simulation.duration is \"1 min 3\": 3 has no unit; write \"1 min 3 s\"\n    4 | duration = \"1 min 3\"\n "
+            "     |            ^\n"},
+        Slip{"a_number_after_what_nothing_follows", kPerson + "speed = \"4 km/h 2\"\n",
+             "a.toml:3:9: person.p.speed is \"4 km/h 2\": 2 has no unit\n    3 | speed = \"4 km/h 2\"\n      |         ^\n"},
+        Slip{"a_deceleration_in_g",
+             "[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\n[vehicle.brake]\nfrom = \"0 s\"\ndeceleration = 0.7\n",
+             "a.toml:6:16: vehicle.car.brake.deceleration = 0.7 needs a unit: write \"0.7 g\" or \"6.87 m/s^2\"\n    6 | "
+             "deceleration = "
+             "0.7\n      |                ^\n"},
+        Slip{"a_deceleration_in_metres",
+             "[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\n[vehicle.brake]\nfrom = \"0 s\"\ndeceleration = 7\n",
+             "a.toml:6:16: vehicle.car.brake.deceleration = 7 needs a unit: write \"7 m/s^2\" or \"0.714 g\"\n    6 | deceleration "
+             "= "
+             "7\n      |                ^\n"},
+        Slip{"a_camera_that_follows_nobody", kPerson + "[[camera]]\nname = \"c\"\nkind = \"follow\"\nfollow = \"pp\"\n",
+             "a.toml:6:10: camera.c.follow is \"pp\": is no body, vehicle or person of the scene; did you mean \"p\"?\n    6 | "
+             "follow = "
+             "\"pp\"\n      |          ^\n"},
         Slip{
             "knots", kPerson + "speed = \"8 kn\"\n",
             "a.toml:3:9: person.p.speed is \"8 kn\": \"kn\" is not a unit; a knot is 1.852 km/h\n    3 | speed = \"8 kn\"\n      | "
@@ -167,6 +197,8 @@ TEST(Mistakes, OptionsThatMeanAValueOfTheScene) {
       "km/h\"\n");
   EXPECT_EQ(run(folder, {"check", "ball.toml", "--set", "body.bal.mass=1 kg"}).err,
             "crashreel: --set body.bal.mass=1 kg: there is no body named or numbered \"bal\"; the scene has ball\n");
+  EXPECT_EQ(run(folder, {"check", "ball.toml", "--set", "ball.mass=1 kg"}).err,
+            "crashreel: --set ball.mass=1 kg: there is no section ball; did you mean body.ball.mass?\n");
 }
 
 TEST(Mistakes, AKeyInTheWrongPlaceIsToldItsPlace) {
