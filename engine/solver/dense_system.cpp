@@ -36,120 +36,157 @@ constexpr Places kLane = {0, 1, 2, 3};
 constexpr Places kNoSign = {INT64_MAX, INT64_MAX, INT64_MAX, INT64_MAX};
 constexpr Places kBelow[] = {{0, -1, -1, -1}, {0, 0, -1, -1}, {0, 0, 0, -1}};  // of a panel's rows, those below the pivot
 
-/// Wide vectors where the processor has them; without fused multiply-add, so that all processors find the same bits. What is called
-/// from here would be compiled for the plainest of them, therefore one function.
+/// What is called from a function of two variants would be compiled for the plainest of them, unless it becomes a part of it.
+#define PART_OF_BOTH inline __attribute__((always_inline))
+
+struct Panel {
+  double *p0, *p1, *p2, *p3;  // its columns
+  std::size_t first, end;     // its rows, which are those of its columns
+
+  Panel(double* A, std::size_t n, std::size_t at)
+      : p0(A + at * n), p1(p0 + n), p2(p1 + n), p3(p2 + n), first(at), end(at + kPanel) {}
+};
+
+/// Of a band most is zero: rows beyond the panel's last are left alone, and so are columns its rows have no part in.
+PART_OF_BOTH std::size_t last_row(const Panel& panel, std::size_t n) {
+  std::size_t last = n;
+  for (; last > panel.end; last -= kPanel) {
+    Places b0, b1, b2, b3;
+    std::memcpy(&b0, panel.p0 + last - kPanel, sizeof b0);
+    std::memcpy(&b1, panel.p1 + last - kPanel, sizeof b1);
+    std::memcpy(&b2, panel.p2 + last - kPanel, sizeof b2);
+    std::memcpy(&b3, panel.p3 + last - kPanel, sizeof b3);
+    const Places any = (b0 | b1 | b2 | b3) & kNoSign;
+    if ((any[0] | any[1] | any[2] | any[3]) != 0) break;
+  }
+  return last;
+}
+
+struct Largest {
+  double size;
+  std::int64_t row;
+};
+
+/// Takes the multiples of the panel's columns before this one from it, and finds the first of its largest numbers below.
+PART_OF_BOTH Largest reduce(const Panel& panel, double* column, std::int64_t step, std::size_t last) {
+  const auto [p0, p1, p2, p3, first, end] = panel;
+  // of the columns from this one on nothing
+  Places m0, m1, m2;
+  Four h;
+  std::memcpy(&m0, p0 + first, sizeof m0);
+  std::memcpy(&m1, p1 + first, sizeof m1);
+  std::memcpy(&m2, p2 + first, sizeof m2);
+  std::memcpy(&h, column + first, sizeof h);
+  const double f0 = step > 0 ? h[0] : 0;
+  h = h - reinterpret_cast<Four>(m0 & kBelow[0]) * f0;
+  const double f1 = step > 1 ? h[1] : 0;
+  h = h - reinterpret_cast<Four>(m1 & kBelow[1]) * f1;
+  const double f2 = step > 2 ? h[2] : 0;
+  h = h - reinterpret_cast<Four>(m2 & kBelow[2]) * f2;
+  std::memcpy(column + first, &h, sizeof h);
+  // lane by lane
+  Four largest = kLane < step ? Four{-1, -1, -1, -1} : reinterpret_cast<Four>(reinterpret_cast<Places>(h) & kNoSign);
+  Places here = kLane + static_cast<std::int64_t>(first), place = here;
+  for (std::size_t i = end; i < last; i += kPanel) {
+    Four x, q0, q1, q2;
+    std::memcpy(&x, column + i, sizeof x);
+    std::memcpy(&q0, p0 + i, sizeof q0);
+    std::memcpy(&q1, p1 + i, sizeof q1);
+    std::memcpy(&q2, p2 + i, sizeof q2);
+    x = x - q0 * f0 - q1 * f1 - q2 * f2;
+    std::memcpy(column + i, &x, sizeof x);
+    const Four size = reinterpret_cast<Four>(reinterpret_cast<Places>(x) & kNoSign);
+    here += static_cast<std::int64_t>(kPanel);
+    const auto larger = size > largest;
+    largest = larger ? size : largest;
+    place = larger ? here : place;
+  }
+  Largest out{largest[0], place[0]};
+  for (int lane = 1; lane < 4; ++lane)
+    if (largest[lane] > out.size || (largest[lane] == out.size && place[lane] < out.row)) out = {largest[lane], place[lane]};
+  return out;
+}
+
+/// Makes the column below its pivot the multiples of the pivot's row.
+PART_OF_BOTH void divide(const Panel& panel, double* column, std::int64_t step, std::size_t last, double pivot) {
+  const double inverse = 1 / pivot;
+  Four h;
+  std::memcpy(&h, column + panel.first, sizeof h);
+  h = kLane > step ? h * inverse : h;
+  std::memcpy(column + panel.first, &h, sizeof h);
+  for (std::size_t i = panel.end; i < last; i += kPanel) {
+    Four x;
+    std::memcpy(&x, column + i, sizeof x);
+    x *= inverse;
+    std::memcpy(column + i, &x, sizeof x);
+  }
+}
+
+/// Takes the panel's multiples from the columns behind it, two at a time.
+PART_OF_BOTH void take_from_columns_behind(const Panel& panel, double* A, std::size_t n, std::size_t last) {
+  const auto [p0, p1, p2, p3, first, end] = panel;
+  Places m0, m1, m2;
+  std::memcpy(&m0, p0 + first, sizeof m0);
+  std::memcpy(&m1, p1 + first, sizeof m1);
+  std::memcpy(&m2, p2 + first, sizeof m2);
+  const Four L0 = reinterpret_cast<Four>(m0 & kBelow[0]);
+  const Four L1 = reinterpret_cast<Four>(m1 & kBelow[1]);
+  const Four L2 = reinterpret_cast<Four>(m2 & kBelow[2]);
+  for (std::size_t c = end; c < n; c += 2) {
+    double *x = A + c * n, *y = x + n;
+    Four u, v;
+    std::memcpy(&u, x + first, sizeof u);
+    std::memcpy(&v, y + first, sizeof v);
+    const Places met = (reinterpret_cast<Places>(u) | reinterpret_cast<Places>(v)) & kNoSign;
+    if ((met[0] | met[1] | met[2] | met[3]) == 0) continue;
+    const Four f0 = __builtin_shufflevector(u, u, 0, 0, 0, 0), g0 = __builtin_shufflevector(v, v, 0, 0, 0, 0);
+    u = u - L0 * f0, v = v - L0 * g0;
+    const Four f1 = __builtin_shufflevector(u, u, 1, 1, 1, 1), g1 = __builtin_shufflevector(v, v, 1, 1, 1, 1);
+    u = u - L1 * f1, v = v - L1 * g1;
+    const Four f2 = __builtin_shufflevector(u, u, 2, 2, 2, 2), g2 = __builtin_shufflevector(v, v, 2, 2, 2, 2);
+    u = u - L2 * f2, v = v - L2 * g2;
+    const Four f3 = __builtin_shufflevector(u, u, 3, 3, 3, 3), g3 = __builtin_shufflevector(v, v, 3, 3, 3, 3);
+    std::memcpy(x + first, &u, sizeof u);
+    std::memcpy(y + first, &v, sizeof v);
+    for (std::size_t i = end; i < last; i += kPanel) {
+      Four q0, q1, q2, q3;
+      std::memcpy(&u, x + i, sizeof u);
+      std::memcpy(&v, y + i, sizeof v);
+      std::memcpy(&q0, p0 + i, sizeof q0);
+      std::memcpy(&q1, p1 + i, sizeof q1);
+      std::memcpy(&q2, p2 + i, sizeof q2);
+      std::memcpy(&q3, p3 + i, sizeof q3);
+      u = u - q0 * f0 - q1 * f1 - q2 * f2 - q3 * f3;
+      v = v - q0 * g0 - q1 * g1 - q2 * g2 - q3 * g3;
+      std::memcpy(x + i, &u, sizeof u);
+      std::memcpy(y + i, &v, sizeof v);
+    }
+  }
+}
+
+/// Wide vectors where the processor has them; without fused multiply-add, so that all processors find the same bits.
 #if defined(__x86_64__)
 __attribute__((target_clones("avx2", "default")))
 #endif
 bool factor_in_place(double* A, std::size_t n, std::size_t* pivots, std::size_t* reach) {
   const double* past = A + n * n;
   for (std::size_t first = 0; first < n; first += kPanel) {
-    const std::size_t end = first + kPanel;
-    double *p0 = A + first * n, *p1 = p0 + n, *p2 = p1 + n, *p3 = p2 + n;
-    // of a band most is zero: rows beyond the panel's last are left alone, and so are columns its rows have no part in
-    std::size_t last = n;
-    for (; last > end; last -= kPanel) {
-      Places b0, b1, b2, b3;
-      std::memcpy(&b0, p0 + last - kPanel, sizeof b0);
-      std::memcpy(&b1, p1 + last - kPanel, sizeof b1);
-      std::memcpy(&b2, p2 + last - kPanel, sizeof b2);
-      std::memcpy(&b3, p3 + last - kPanel, sizeof b3);
-      const Places any = (b0 | b1 | b2 | b3) & kNoSign;
-      if ((any[0] | any[1] | any[2] | any[3]) != 0) break;
-    }
+    const Panel panel(A, n, first);
+    const std::size_t last = last_row(panel, n);
     reach[first / kPanel] = last;
-    for (std::size_t k = first; k < end; ++k) {
+    for (std::size_t k = first; k < panel.end; ++k) {
       double* column = A + k * n;
       const auto step = static_cast<std::int64_t>(k - first);
-      // multiples of the panel's columns before this one; of the others nothing
-      Places m0, m1, m2;
-      Four h;
-      std::memcpy(&m0, p0 + first, sizeof m0);
-      std::memcpy(&m1, p1 + first, sizeof m1);
-      std::memcpy(&m2, p2 + first, sizeof m2);
-      std::memcpy(&h, column + first, sizeof h);
-      const double f0 = step > 0 ? h[0] : 0;
-      h = h - reinterpret_cast<Four>(m0 & kBelow[0]) * f0;
-      const double f1 = step > 1 ? h[1] : 0;
-      h = h - reinterpret_cast<Four>(m1 & kBelow[1]) * f1;
-      const double f2 = step > 2 ? h[2] : 0;
-      h = h - reinterpret_cast<Four>(m2 & kBelow[2]) * f2;
-      std::memcpy(column + first, &h, sizeof h);
-      // the first of the largest, lane by lane
-      Four largest = kLane < step ? Four{-1, -1, -1, -1} : reinterpret_cast<Four>(reinterpret_cast<Places>(h) & kNoSign);
-      Places here = kLane + static_cast<std::int64_t>(first), place = here;
-      for (std::size_t i = end; i < last; i += kPanel) {
-        Four x, q0, q1, q2;
-        std::memcpy(&x, column + i, sizeof x);
-        std::memcpy(&q0, p0 + i, sizeof q0);
-        std::memcpy(&q1, p1 + i, sizeof q1);
-        std::memcpy(&q2, p2 + i, sizeof q2);
-        x = x - q0 * f0 - q1 * f1 - q2 * f2;
-        std::memcpy(column + i, &x, sizeof x);
-        const Four size = reinterpret_cast<Four>(reinterpret_cast<Places>(x) & kNoSign);
-        here += static_cast<std::int64_t>(kPanel);
-        const auto larger = size > largest;
-        largest = larger ? size : largest;
-        place = larger ? here : place;
-      }
-      double most = largest[0];
-      std::int64_t at = place[0];
-      for (int lane = 1; lane < 4; ++lane)
-        if (largest[lane] > most || (largest[lane] == most && place[lane] < at)) at = place[lane], most = largest[lane];
-      if (!(most > 1e-100)) return false;
-      const auto pivot = static_cast<std::size_t>(at);
+      const Largest largest = reduce(panel, column, step, last);
+      if (!(largest.size > 1e-100)) return false;
+      const auto pivot = static_cast<std::size_t>(largest.row);
       pivots[k] = pivot;
       // here and not where they are read next: a vector read right after one of its numbers is written waits for it
       if (pivot != k)
-        for (double* c = p0; c < past; c += n) std::swap(c[k], c[pivot]);
-      const double inverse = 1 / column[k];
-      std::memcpy(&h, column + first, sizeof h);
-      h = kLane > step ? h * inverse : h;
-      std::memcpy(column + first, &h, sizeof h);
-      for (std::size_t i = end; i < last; i += kPanel) {
-        Four x;
-        std::memcpy(&x, column + i, sizeof x);
-        x *= inverse;
-        std::memcpy(column + i, &x, sizeof x);
-      }
+        for (double* c = panel.p0; c < past; c += n) std::swap(c[k], c[pivot]);
+      divide(panel, column, step, last, column[k]);
     }
-    Places m0, m1, m2;
-    std::memcpy(&m0, p0 + first, sizeof m0);
-    std::memcpy(&m1, p1 + first, sizeof m1);
-    std::memcpy(&m2, p2 + first, sizeof m2);
-    const Four L0 = reinterpret_cast<Four>(m0 & kBelow[0]);
-    const Four L1 = reinterpret_cast<Four>(m1 & kBelow[1]);
-    const Four L2 = reinterpret_cast<Four>(m2 & kBelow[2]);
-    for (std::size_t c = end; c < n; c += 2) {
-      double *x = A + c * n, *y = x + n;
-      Four u, v;
-      std::memcpy(&u, x + first, sizeof u);
-      std::memcpy(&v, y + first, sizeof v);
-      const Places met = (reinterpret_cast<Places>(u) | reinterpret_cast<Places>(v)) & kNoSign;
-      if ((met[0] | met[1] | met[2] | met[3]) == 0) continue;
-      const Four f0 = __builtin_shufflevector(u, u, 0, 0, 0, 0), g0 = __builtin_shufflevector(v, v, 0, 0, 0, 0);
-      u = u - L0 * f0, v = v - L0 * g0;
-      const Four f1 = __builtin_shufflevector(u, u, 1, 1, 1, 1), g1 = __builtin_shufflevector(v, v, 1, 1, 1, 1);
-      u = u - L1 * f1, v = v - L1 * g1;
-      const Four f2 = __builtin_shufflevector(u, u, 2, 2, 2, 2), g2 = __builtin_shufflevector(v, v, 2, 2, 2, 2);
-      u = u - L2 * f2, v = v - L2 * g2;
-      const Four f3 = __builtin_shufflevector(u, u, 3, 3, 3, 3), g3 = __builtin_shufflevector(v, v, 3, 3, 3, 3);
-      std::memcpy(x + first, &u, sizeof u);
-      std::memcpy(y + first, &v, sizeof v);
-      for (std::size_t i = end; i < last; i += kPanel) {
-        Four q0, q1, q2, q3;
-        std::memcpy(&u, x + i, sizeof u);
-        std::memcpy(&v, y + i, sizeof v);
-        std::memcpy(&q0, p0 + i, sizeof q0);
-        std::memcpy(&q1, p1 + i, sizeof q1);
-        std::memcpy(&q2, p2 + i, sizeof q2);
-        std::memcpy(&q3, p3 + i, sizeof q3);
-        u = u - q0 * f0 - q1 * f1 - q2 * f2 - q3 * f3;
-        v = v - q0 * g0 - q1 * g1 - q2 * g2 - q3 * g3;
-        std::memcpy(x + i, &u, sizeof u);
-        std::memcpy(y + i, &v, sizeof v);
-      }
-    }
+    take_from_columns_behind(panel, A, n, last);
   }
   return true;
 }
