@@ -31,6 +31,7 @@ World::World(const Model& m, const Plan& p, const RunOptions& o)
   smooth.reset(topology);
   impulse.reset(topology);
   loops.reset(topology);
+  coordinates.reset(m.joints.size());
   const std::size_t n = m.bodies.size();
   reach.assign(n, 0);
   awake.assign(n, 1);

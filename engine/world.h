@@ -105,6 +105,7 @@ struct World {
   std::vector<char> awake;        // per body: takes part in this step; follows from the state
   std::vector<int> active_trees;
   std::vector<int> awake_joints;  // one of whose bodies takes part
+  KnownCoordinates coordinates;
   StillBodies still;
   ContactPairs pairs;
   std::vector<std::unique_ptr<Effect>> effects;  // of the plan

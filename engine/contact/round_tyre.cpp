@@ -40,10 +40,13 @@ std::vector<TyrePair> tyre_pairs(const Model& model) {
   return out;
 }
 
-bool near(const Outlook& outlook, const TyrePair& pair, double margin) {
+Vec3 hub_of(const Outlook& outlook, const TyrePair& pair) {
+  return outlook.at.X_WB[pair.vehicle_body] * wheel_of(outlook.world, pair).hub_B;
+}
+
+bool near(const Outlook& outlook, const TyrePair& pair, const Vec3& hub, double margin) {
   const Wheel& wheel = wheel_of(outlook.world, pair);
   const double within = wheel.radius + 2 * wheel.travel + outlook.world.reach[pair.body] + margin;
-  const Vec3 hub = outlook.at.X_WB[pair.vehicle_body] * wheel.hub_B;
   return (hub - outlook.at.X_WB[pair.body].p).squaredNorm() < within * within;
 }
 
@@ -70,7 +73,7 @@ Touches touches_between<ShapeKind::round, ShapeKind::tyre>(const Outlook& outloo
   World& world = outlook.world;
   const TyrePair& pair = world.pairs.tyres[at.at];
   const double margin = pair_margin(outlook, pair.body, pair.vehicle_body);
-  if (!near(outlook, pair, margin)) return {};
+  if (!near(outlook, pair, hub_of(outlook, pair), margin)) return {};
   const auto& shape = std::get<HyperEllipsoid>(world.model.bodies[pair.body].shape);
   auto contact = contact_with_tyre(shape, outlook.at.X_WB[pair.body],
                                    tyre_of(outlook, pair.wheel, outlook.state.wheels[pair.wheel].lift), margin);

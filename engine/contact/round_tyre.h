@@ -24,8 +24,11 @@ constexpr double kTyreGives = 0.03;
 /// leaves it no place.
 bool yields_as_rubber(const Model&, int body);
 
-/// Spheres about the two, with the ways of the strut: near enough to look?
-bool near(const Outlook&, const TyrePair&, double margin);
+/// Where the hub of the pair's wheel is [m], at static ride.
+Vec3 hub_of(const Outlook&, const TyrePair&);
+
+/// Spheres about the two, with the ways of the strut: near enough to look? `hub` is that of the pair's wheel.
+bool near(const Outlook&, const TyrePair&, const Vec3& hub, double margin);
 
 /// The suspension's compression [m], from static ride, at which the tyre just stands on the body: beneath it, no higher than the
 /// stop lets it. Nothing where the two meet sideways, or that is below `least` [m].

@@ -53,9 +53,11 @@ Footing footing_of(const Ground& ground, const Wheel& spec, const Pose& X, doubl
 }
 
 void step_on_bodies(const Outlook& outlook, std::span<const std::size_t> pairs, Footing& best) {
+  if (pairs.empty()) return;
+  const Vec3 hub = hub_of(outlook, outlook.world.pairs.tyres[pairs.front()]);
   for (const std::size_t p : pairs) {
     const TyrePair& pair = outlook.world.pairs.tyres[p];
-    if (!near(outlook, pair, 0)) continue;
+    if (!near(outlook, pair, hub, 0)) continue;
     const auto touch = stands_on(outlook, pair, best.compression);
     if (!touch) continue;
     best.found = true;

@@ -105,14 +105,13 @@ class JointLimits final : public Effect {
   JointLimits(const World&, int self) : Effect(self) {}
 
   void find_limits(ContactSearch& search) override {
-    const World& world = search.world;
+    World& world = search.world;
     const Motion& at = search.at;
     for (const int j : world.awake_joints) {
       const Joint& joint = world.model.joints[j];
       const auto& angles = joint.angles;
       if (!has_limit(angles[0]) && !has_limit(angles[1]) && !has_limit(angles[2]) && !has_limit(joint.slide)) continue;
-      const JointCoordinates now =
-          joint_coordinates(joint, joint.parent < 0 ? Pose{} : at.X_WB[joint.parent], at.X_WB[joint.child]);
+      const JointCoordinates& now = world.coordinates.at(joint, static_cast<std::size_t>(j), at.X_WB);
       const Twist relative = relative_motion(now, joint.parent < 0 ? Twist{} : at.V_WB[joint.parent], at.V_WB[joint.child]);
       for (int i = 0; i < kCoordinates; ++i) {
         if (!now.free[i]) continue;

@@ -110,6 +110,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
   JointResistance(const World& world, int self) : EffectWith(self), legs_(passive_legs(world.model)) {
     awake_legs_.reserve(legs_.size());
     for (const Joint& joint : world.model.joints) in_stages_.push_back(resists(joint) && in_stages(world.model, joint));
+    any_in_stages_ = std::find(in_stages_.begin(), in_stages_.end(), 1) != in_stages_.end();
   }
 
   void begin(World& world, State& state) override {
@@ -124,6 +125,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
 
   void add_forces(const World& world, const std::vector<Pose>& X, const std::vector<Twist>& V,
                   std::vector<Vec6>& force) const override {
+    if (!any_in_stages_) return;  // the legs' flexions would be looked up for nothing
     for (const int j : world.awake_joints) {
       const Joint& joint = world.model.joints[j];
       if (!in_stages_[j] || !world.awake[joint.child]) continue;
@@ -206,7 +208,8 @@ class JointResistance final : public EffectWith<FrictionMemory> {
     JointDamper& damper = step.buffers.dampers[j];
     Resistance& resistance = step.buffers.resistances[j];
     const double h = step.length;
-    const JointCoordinates& now = resistance.at_start = coordinates_at(joint, step.state.X_WB);
+    const JointCoordinates& now = resistance.at_start =
+        step.world.coordinates.at(joint, static_cast<std::size_t>(j), step.state.X_WB);
     const Twist relative = relative_motion_at(joint, now, step.state.V_WB);
     damper = {};
     resistance.torque_W.setZero();
@@ -252,6 +255,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
   }
 
   std::vector<char> in_stages_;  // per joint: springs and dampers act in the stages of Runge and Kutta
+  bool any_in_stages_ = false;
   const std::vector<PassiveLeg> legs_;
   std::vector<PassiveLeg> awake_legs_;
   double power_ = 0;  // [W] what those take out at the start of the step

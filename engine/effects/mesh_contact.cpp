@@ -1,5 +1,6 @@
 // Segments and free bodies against the meshes of vehicles and other bodies.
 #include <algorithm>
+#include <utility>
 
 #include "engine/contact/round_tyre.h"
 #include "engine/effects/registration.h"
@@ -82,7 +83,14 @@ class MeshContact final : public Effect {
       for (std::size_t i = pairs.mesh_runs[r].begin; i < pairs.mesh_runs[r].end; ++i)
         add_contacts(search, mesh_, {pairs.mesh[i].body, pairs.mesh[i].mesh_body, i}, self_);
     if (search.state.wheels.empty()) return;  // they meet nothing without the effect `tyres`
-    for (const std::size_t i : pairs.in_reach.tyres) find_beside_tyre(search, i);
+    int wheel = -1;
+    Vec3 hub;
+    for (const std::size_t i : pairs.in_reach.tyres) {
+      const TyrePair& pair = pairs.tyres[i];
+      if (!search.world.awake[pair.vehicle_body]) continue;
+      if (std::exchange(wheel, pair.wheel) != pair.wheel) hub = hub_of(search, pair);
+      if (near(search, pair, hub, pair_margin(search, pair.body, pair.vehicle_body))) find_beside_tyre(search, i);
+    }
   }
 
  private:
@@ -90,7 +98,6 @@ class MeshContact final : public Effect {
   void find_beside_tyre(ContactSearch& search, std::size_t index) const {
     const World& world = search.world;
     const TyrePair& pair = world.pairs.tyres[index];
-    if (!world.awake[pair.vehicle_body] || !near(search, pair, pair_margin(search, pair.body, pair.vehicle_body))) return;
     if (stands_on(search, pair, -kHangs)) return;
     const std::size_t before = search.found.size();
     add_contacts(search, tyre_, {pair.body, pair.vehicle_body, index}, self_);

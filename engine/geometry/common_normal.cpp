@@ -219,9 +219,11 @@ CommonNormal climb(const RoundPair& pair, const Vec3& n, int steps) {
 bool close_in(const RoundPair& pair, At& at) {
   constexpr double kRounding = 2e-14, kSmall = 1e-12;  // [m]
   constexpr int kSteps = 30, kShortened = 5;
+  if (at.closed) return true;
   At here = at;
   Eigen::Vector2d miss = tangential_miss(pair, here);
-  for (int k = 0; k < kSteps && miss.norm() > kRounding; ++k) {
+  bool by_itself = miss.norm() <= kRounding;
+  for (int k = 0; k < kSteps && !by_itself; ++k) {
     const SurfaceChart chart(pair, flatter(pair, here), here);
     Eigen::Vector2d step = chart.step(here, miss);
     if (!(step.norm() < 1)) step *= 1 / step.norm();
@@ -235,13 +237,14 @@ bool close_in(const RoundPair& pair, At& at) {
       here = next;
       miss = left;
     }
-    if (!nearer) break;
+    by_itself = !nearer || miss.norm() <= kRounding;
   }
   if (miss.norm() > kSmall || here.gap < at.gap - 1e-15) return false;
   const Tangents E = tangents(here.n);
   const Mat3 H = pair.hessian(here, 0) + pair.hessian(here, 1) + here.gap * Mat3::Identity();
   if (!positive(E.transpose() * H * E)) return false;
   at = here;
+  at.closed = by_itself;
   return true;
 }
 

@@ -20,6 +20,7 @@ struct RoundPair {
     std::array<Support, 2> reach;  // of either along n, in its axes
     double gap = 0;                // [m]
     Vec3 sum;                      // [m] of the support points, world axes
+    bool closed = false;           // close_in ended here by itself: asked again it would not move
   };
 
   double gap(const Vec3& n) const;

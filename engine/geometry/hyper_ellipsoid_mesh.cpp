@@ -10,10 +10,11 @@
 namespace engine {
 namespace {
 
-constexpr double kLookAhead = 0.15;   // [m] how far beyond the margin a free neighbourhood is told
-constexpr double kFromBehind = 0.25;  // [-] of the body: deeper than can be by so much is not this side
-constexpr double kCluster = 0.985;    // [-] cosine of 10 degrees
-constexpr int kKeep = 4;              // contacts of one body with one mesh; one more where a flat side's deepest point counts
+constexpr double kLookAhead = 0.15;    // [m] how far beyond the margin a free neighbourhood is told
+constexpr double kBoundSlack = 1e-12;  // [-] of bounds beside what they bound
+constexpr double kFromBehind = 0.25;   // [-] of the body: deeper than can be by so much is not this side
+constexpr double kCluster = 0.985;     // [-] cosine of 10 degrees
+constexpr int kKeep = 4;               // contacts of one body with one mesh; one more where a flat side's deepest point counts
 
 std::uint32_t key_of(const SurfaceContact& c, const Quat& q_MA, double exponent) {
   // main direction of the normal and, of a body with corners, which of a face's points it is, or else the octant of the point:
@@ -114,14 +115,25 @@ void keep_reached_triangles(MeshTouch& s, double passed_by) {
   MeshContactScratch& scratch = s.scratch;
   const Mat3 R_AM = s.X_MA.q.conjugate().toRotationMatrix();
   Vec3 last_normal = Vec3::Zero();  // many triangles of a panel share theirs
-  double h = 0;
+  double h = 0, least = 0, most = 0;
+  bool known = false;
   std::erase_if(scratch.triangles, [&](int t) {
     const Vec3& n = s.mesh.face_normals()[t];
     const double height = n.dot(s.X_MA.p - s.mesh.vertices()[s.mesh.triangles()[t][0]]);
     if (height > sphere_of(s)) return true;
     if (n != last_normal) {
       last_normal = n;
+      // the ellipsoid within and the box without tell most triangles already
+      const Vec3 half = s.shape.semi_axes.cwiseProduct((R_AM * n).cwiseAbs());
+      least = (1 - kBoundSlack) * half.norm();
+      most = (1 + kBoundSlack) * half.sum();
+      known = false;
+    }
+    if (height - most > s.margin || height < -passed_by * most) return true;
+    if (height - least <= s.margin && height >= -passed_by * least) return false;
+    if (!known) {
       h = support_value(s.shape, R_AM * n);
+      known = true;
     }
     return height - h > s.margin || height < -passed_by * h;
   });

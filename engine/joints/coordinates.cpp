@@ -4,6 +4,7 @@
 
 #include "engine/joints/joint_type.h"
 #include "engine/math/functions.h"
+#include "engine/math/same_bits.h"
 
 namespace engine {
 namespace {
@@ -63,6 +64,15 @@ JointCoordinates joint_coordinates(const Joint& joint, const Pose& X_WP, const P
   JointCoordinates out;
   type_of(joint.kind).coordinates(at, out);
   return out;
+}
+
+const JointCoordinates& KnownCoordinates::at(const Joint& joint, std::size_t j, const std::vector<Pose>& X_WB) {
+  static const Pose kWorld;
+  Known& known = known_[j];
+  const Pose &X_WP = joint.parent < 0 ? kWorld : X_WB[joint.parent], &X_WC = X_WB[joint.child];
+  if (!(known.any && same_bits(known.X_WC, X_WC) && same_bits(known.X_WP, X_WP)))
+    known = {X_WP, X_WC, joint_coordinates(joint, X_WP, X_WC), true};
+  return known.now;
 }
 
 Twist relative_motion(const JointCoordinates& now, const Twist& P, const Twist& C) {

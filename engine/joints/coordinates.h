@@ -34,6 +34,24 @@ struct JointCoordinates {
 
 JointCoordinates joint_coordinates(const Joint&, const Pose& X_WP, const Pose& X_WC);
 
+/// The coordinates of a run's joints where they were asked for last: what limits look at where a step ends, resistance looks at
+/// where the next one begins.
+class KnownCoordinates {
+ public:
+  void reset(std::size_t joints) { known_.assign(joints, {}); }
+
+  /// Of joint `j` between bodies that stand so.
+  const JointCoordinates& at(const Joint&, std::size_t j, const std::vector<Pose>& X_WB);
+
+ private:
+  struct Known {
+    Pose X_WP, X_WC;
+    JointCoordinates now;
+    bool any = false;
+  };
+  std::vector<Known> known_;
+};
+
 /// Velocity of the child against the parent: w, and of one that slides v at the child's point. The world passes a zero twist.
 Twist relative_motion(const JointCoordinates&, const Twist& V_WP, const Twist& V_WC);
 

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "engine/math/same_bits.h"
 #include "engine/solver/wide_links.h"
 
 namespace engine {
@@ -86,6 +87,7 @@ void Articulation::reset(const Topology& topology) {
   }
   factors_.resize(links);
   H_.resize(links);
+  places_.assign(links, {});
 }
 
 /// Of the motion subspace S, at the joint's point, the body's centre makes [S_v + skew(r) S_w; S_w].
@@ -134,8 +136,12 @@ void Articulation::eliminate(Factor& f, const Hinge& hinge, const Mat6& H, Mat6*
   const int slides = f.rows.slides(), turns = f.rows.turns();
   const bool damped = hinge.damper && hinge.damper->present;
   double* parent = H_parent ? H_parent->data() : nullptr;
-  if (slides == 0 && turns == 3 && !damped) {
-    eliminate_point(H.data(), hinge.r.data(), hinge.r_parent.data(), f.D.data(), f.X.data(), parent);
+  if (slides == 0 && turns == 3) {
+    if (damped)
+      eliminate_damped_point(H.data(), hinge.r.data(), hinge.r_parent.data(), hinge.damper->turning.data(), f.D.data(), f.X.data(),
+                             parent);
+    else
+      eliminate_point(H.data(), hinge.r.data(), hinge.r_parent.data(), f.D.data(), f.X.data(), parent);
     return;
   }
   if (slides == 0 && turns == 1) {
@@ -171,6 +177,30 @@ void Articulation::eliminate_fixed(Factor& f, const Hinge& hinge, const Mat6& H,
   H_parent->noalias() += f.X.transpose() * H * f.X;
 }
 
+JointRows& Articulation::rows_at(const Topology& topology, int link, const std::vector<Pose>& X_WB) {
+  static const Pose kWorld;
+  const Joint& joint = model_.joints[topology.links[link].joint];
+  const Pose &X_WP = joint.parent < 0 ? kWorld : X_WB[joint.parent], &X_WC = X_WB[joint.child];
+  JointRows& rows = of_link(link).rows;
+  Place& place = places_[link - first_];
+  if (place.of_rows == link && same_bits(place.X_WC, X_WC) && same_bits(place.X_WP, X_WP)) return rows;
+  joint_rows(joint, X_WP, X_WC, rows);
+  place.of_rows = link;
+  place.X_WP = X_WP;
+  place.X_WC = X_WC;
+  return rows;
+}
+
+const Mat3& Articulation::inertia_at(const Topology& topology, int link, const Quat& q_WB) {
+  Place& place = places_[link - first_];
+  if (place.of_inertia != link || !same_bits(place.q_WB, q_WB)) {
+    place.of_inertia = link;
+    place.q_WB = q_WB;
+    place.inertia = inertia_W(model_.bodies[topology.links[link].body], q_WB);
+  }
+  return place.inertia;
+}
+
 void Articulation::factor(const Topology& topology, int tree, const std::vector<Pose>& X_WB,
                           const std::vector<JointDamper>* dampers) {
   turn_to(topology, tree);
@@ -180,7 +210,7 @@ void Articulation::factor(const Topology& topology, int tree, const std::vector<
     Mat6& H = H_[l - first_];
     H.setZero();
     H.diagonal().head<3>().setConstant(model_.bodies[b].mass);
-    H.bottomRightCorner<3, 3>() = inertia_W(model_.bodies[b], X_WB[b].q);
+    H.bottomRightCorner<3, 3>() = inertia_at(topology, l, X_WB[b].q);
   }
   for (int l = range.begin; l < range.end; ++l) {
     const Topology::Link& link = topology.links[l];
@@ -190,11 +220,10 @@ void Articulation::factor(const Topology& topology, int tree, const std::vector<
       f.D = inverse_spd(H);
       f.X.setZero();
       f.rows.count = 0;
+      places_[l - first_].of_rows = -1;  // those of another tree's link, which may have stood here, are gone
       continue;
     }
-    const Joint& joint = model_.joints[link.joint];
-    static const Pose kWorld;
-    joint_rows(joint, joint.parent < 0 ? kWorld : X_WB[joint.parent], X_WB[joint.child], f.rows);
+    rows_at(topology, l, X_WB);
     const bool child = link.body_is_joint_child;
     const Hinge hinge{child ? f.rows.r_C : f.rows.r_P, child ? f.rows.r_P : f.rows.r_C,
                       dampers ? &(*dampers)[link.joint] : nullptr};

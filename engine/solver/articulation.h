@@ -36,6 +36,11 @@ class Articulation {
   /// The tree that the next calls are about; `factor` turns by itself.
   void turn_to(const Topology& topology, int tree) { first_ = keeps_ == Keeps::last_tree ? topology.trees[tree].begin : 0; }
 
+  /// The rows of a link's joint, and the inertia of its body in world axes, where the bodies stand so. What was asked for last is
+  /// kept: an attempt at a step asks at the same place for its first stage, its resistance and its energy.
+  JointRows& rows_at(const Topology&, int link, const std::vector<Pose>& X_WB);
+  const Mat3& inertia_at(const Topology&, int link, const Quat& q_WB);
+
   /// Factorises one tree at the poses given. `dampers` (per joint) may be null.
   void factor(const Topology&, int tree, const std::vector<Pose>& X_WB, const std::vector<JointDamper>* dampers);
 
@@ -71,6 +76,14 @@ class Articulation {
   int first_ = 0;                // link whose factor stands first
   std::vector<Factor> factors_;  // per link kept
   std::vector<Mat6> H_;          // of the same: inertia with what its children added
+  /// Where rows and inertia were asked for last, and by which link.
+  struct Place {
+    int of_rows = -1, of_inertia = -1;
+    Pose X_WP, X_WC;
+    Quat q_WB;
+    Mat3 inertia;
+  };
+  std::vector<Place> places_;  // of the same
 };
 
 /// Inertia of a body about its centre in world axes.

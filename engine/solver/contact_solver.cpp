@@ -47,7 +47,8 @@ void ContactSolver::assemble(const Topology& topology, const Articulation& artic
     size_ += all[members[i]].rows;
   }
   stride_ = whole_rows(static_cast<std::size_t>(size_));
-  G_.resize(stride_ * static_cast<std::size_t>(size_));  // all of it is written
+  // all of it is written; never smaller: growing again would write zeros for nothing
+  if (const std::size_t room = stride_ * static_cast<std::size_t>(size_); G_.size() < room) G_.resize(room);
   u_.assign(stride_, 0.0);
   response_.compute(topology, articulation, all, members, offset_, stride_, G_);
   note_own_responses(all, members);

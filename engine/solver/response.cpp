@@ -93,7 +93,11 @@ Rows Response::write_columns(const Topology& topology, const Constraint& c, std:
   const Rows a = rows_[first], b = second >= 0 && second != first ? rows_[second] : a;
   const Rows reach{std::min(a.begin, b.begin), std::max(a.end, b.end)};
   const auto within = [](const Rows& rows, std::size_t r) { return rows.begin <= r && r < rows.end; };
-  for (std::size_t r = reach.begin, next = 0; r < reach.end; r = next) {
+  // the same freedoms in the same order gave the columns before this one their rows here
+  const std::size_t fresh = row / 8 * 8;
+  for (std::size_t r = reach.begin; r < fresh; ++r)
+    for (std::size_t k = row; k < row + static_cast<std::size_t>(c.rows); ++k) G[k * stride + r] = G[r * stride + k];
+  for (std::size_t r = std::max(reach.begin, fresh), next = 0; r < reach.end; r = next) {
     next = reach.end;
     for (const std::size_t edge : {a.begin, a.end, b.begin, b.end})
       if (edge > r) next = std::min(next, edge);
@@ -129,7 +133,8 @@ void Response::compute(const Topology& topology, const Articulation& articulatio
     take_root(f.D, rank_[link], Q_[link]);
   }
 
-  Y_.resize(static_cast<std::size_t>(freedoms) * stride + 4);  // the last row is written as a whole vector too
+  // the last row is written as a whole vector too; never smaller: growing again would write zeros for nothing
+  if (const std::size_t room = static_cast<std::size_t>(freedoms) * stride + 4; Y_.size() < room) Y_.resize(room);
   for (const int link : marked_) {
     const Rows rows = rows_[topology.links[link].tree];
     for (int k = first_[link]; k < first_[link] + rank_[link]; ++k) {

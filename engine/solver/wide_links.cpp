@@ -32,6 +32,12 @@ void eliminate_point(const double* H, const double* r, const double* r_parent, d
   kWide ? wide::eliminate_point(H, r, r_parent, D, X, H_parent) : plain::eliminate_point(H, r, r_parent, D, X, H_parent);
 }
 
+void eliminate_damped_point(const double* H, const double* r, const double* r_parent, const double* damping, double* D, double* X,
+                            double* H_parent) {
+  kWide ? wide::eliminate_damped_point(H, r, r_parent, damping, D, X, H_parent)
+        : plain::eliminate_damped_point(H, r, r_parent, damping, D, X, H_parent);
+}
+
 void eliminate_hinge(const double* H, const double* r, const double* r_parent, const double* axis, double damping, double* D,
                      double* X, double* H_parent) {
   kWide ? wide::eliminate_hinge(H, r, r_parent, axis, damping, D, X, H_parent)

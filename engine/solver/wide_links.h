@@ -9,6 +9,10 @@ namespace engine {
 /// X is zero.
 void eliminate_point(const double* H, const double* r, const double* r_parent, double* D, double* X, double* H_parent);
 
+/// The same where `damping` (3x3) [kg m^2] resists the turning about the point as inertia would.
+void eliminate_damped_point(const double* H, const double* r, const double* r_parent, const double* damping, double* D, double* X,
+                            double* H_parent);
+
 /// The same of a body that turns about `axis` through the point; `damping` [kg m^2] resists as inertia would.
 void eliminate_hinge(const double* H, const double* r, const double* r_parent, const double* axis, double damping, double* D,
                      double* X, double* H_parent);

@@ -90,6 +90,15 @@ inline Three inverse(const Three& m) {
   return transpose({row0 * scale, row1 * scale, row2 * scale});
 }
 
+/// X0^T rest X0 of what is left of a body's inertia without the joint's freedoms, P, Q above R.
+inline void add_rest(double* H_parent, const Four& d, const Three& P, const Three& Q, const Three& R) {
+  const Three Pd = -times_skew(P, d), dQ = skew_times(d, Q), upper = Q + Pd;
+  add_to_block(H_parent, P);
+  add_to_block(H_parent + 3, transpose(upper));
+  add_to_block(H_parent + 18, upper);
+  add_to_block(H_parent + 21, ((R + dQ) + transpose(dQ)) + skew_times(d, Pd));
+}
+
 inline void eliminate_point(const double* H, const double* r_in, const double* r_parent_in, double* D, double* X,
                             double* H_parent) {
   // the point's motion turns the body: S = [skew(r); 1], and what passes through the joint is a force at the point
@@ -124,6 +133,49 @@ inline void eliminate_point(const double* H, const double* r_in, const double* r
   add_to_block(H_parent + 21, skew_times(r_parent, AP));
 }
 
+/// m v, all three rows summed in the order of the columns, as products of larger matrices are.
+inline Four in_order(const Three& m, const Four& v) {
+  return (m.c0 * v[0] + m.c1 * v[1]) + m.c2 * v[2];
+}
+
+inline Three in_order(const Three& m, const Three& n) {
+  return {in_order(m, n.c0), in_order(m, n.c1), in_order(m, n.c2)};
+}
+
+inline void eliminate_damped_point(const double* H, const double* r_in, const double* r_parent_in, const double* damping, double* D,
+                                   double* X, double* H_parent) {
+  const Four r = load(r_in);
+  const Three M = load_block(H), Q0 = load_block(H + 18), R0 = load_block(H + 21);
+  const Three HS0 = times_skew(M, r) + Q0, HS1 = times_skew(load_block(H + 3), r) + R0;
+  const Four first = {-r[1], -r[2], r[1], 0}, second = {r[2], r[0], -r[0], 0};
+  const auto asked = [&](const Four& of_force, const Four& of_moment) {
+    return first * __builtin_shufflevector(of_force, of_force, 2, 0, 0, 3) +
+           (second * __builtin_shufflevector(of_force, of_force, 1, 2, 1, 3) + of_moment);
+  };
+  const Three K = {asked(HS0.c0, HS1.c0) + load(damping), asked(HS0.c1, HS1.c1) + load(damping + 3),
+                   asked(HS0.c2, HS1.c2) + load(damping + 6)};
+  const Three Ki = inverse(K), SKi = skew_times(r, Ki);
+  store_block(D, -times_skew(SKi, r));
+  store_block(D + 3, -times_skew(Ki, r));
+  store_block(D + 18, SKi);
+  store_block(D + 21, Ki);
+  if (!H_parent) {
+    std::memset(X, 0, 36 * sizeof(double));
+    return;
+  }
+  const Four d = load(r_parent_in) - r;
+  const Three one = {Four{1, 0, 0, 0}, Four{0, 1, 0, 0}, Four{0, 0, 1, 0}};
+  const Three skew_d = {Four{0, d[2], -d[1], 0}, Four{-d[2], 0, d[0], 0}, Four{d[1], -d[0], 0, 0}};
+  const Three U0 = in_order(HS0, Ki), U1 = in_order(HS1, Ki);
+  const Three U0t = transpose(U0), UXt = transpose(U1 + skew_times(d, U0));
+  store_block(X, one - skew_times(r, U0t));
+  store_block(X + 3, -U0t);
+  store_block(X + 18, -skew_times(r, UXt) - skew_d);
+  store_block(X + 21, one - UXt);
+  const Three HS0t = transpose(HS0), HS1t = transpose(HS1);
+  add_rest(H_parent, d, M - in_order(U0, HS0t), Q0 - in_order(U0, HS1t), R0 - in_order(U1, HS1t));
+}
+
 inline void eliminate_hinge(const double* H, const double* r_in, const double* r_parent_in, const double* axis, double damping,
                             double* D, double* X, double* H_parent) {
   const Four r = load(r_in);
@@ -151,11 +203,5 @@ inline void eliminate_hinge(const double* H, const double* r_in, const double* r
   store_block(X + 3, -outer(S1, U0));
   store_block(X + 18, -outer(S0, UX) - skew_d);
   store_block(X + 21, one - outer(S1, UX));
-  // X0^T (H - U (H S)^T) X0
-  const Three P = H00 - outer(U0, HS0), Q = H01 - outer(U0, HS1), R = H11 - outer(U1, HS1);
-  const Three Pd = -times_skew(P, d), dQ = skew_times(d, Q), upper = Q + Pd;
-  add_to_block(H_parent, P);
-  add_to_block(H_parent + 3, transpose(upper));
-  add_to_block(H_parent + 18, upper);
-  add_to_block(H_parent + 21, ((R + dQ) + transpose(dQ)) + skew_times(d, Pd));
+  add_rest(H_parent, d, H00 - outer(U0, HS0), H01 - outer(U0, HS1), H11 - outer(U1, HS1));
 }

@@ -24,14 +24,20 @@ double work_of(const StepContext& s, std::size_t i) {
   return work;
 }
 
-/// Rise [J] of the mechanical energy of each island, by its root.
+/// Wheels and springs may give energy to what they act on.
+bool has_springs(const StepContext& s, const std::vector<int>& island) {
+  return std::any_of(island.begin(), island.end(),
+                     [&](int i) { return s.constraints[i].kind == ConstraintKind::wheel || is_compliant(s.constraints[i]); });
+}
+
+/// Rise [J] of the mechanical energy of each island without springs, by its root.
 void note_rises(StepContext& s) {
-  const World& world = s.world;
+  World& world = s.world;
   Islands& islands = s.buffers.islands;
-  islands.rise.assign(islands.members.size(), 0);
   for (const int tree : world.active_trees) {
     int root = tree;
     while (islands.of_tree[root] != root) root = islands.of_tree[root];
+    if (islands.members[root].empty() || has_springs(s, islands.members[root])) continue;
     double& rise = islands.rise[root];
     for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
       const int b = world.topology.links[l].body, j = world.topology.links[l].joint;
@@ -40,7 +46,9 @@ void note_rises(StepContext& s) {
       const Twist &from = s.state.V_WB[b], &to = s.end.V_WB[b];
       rise += 0.5 * body.mass * (to.v - from.v).dot(to.v + from.v);
       rise -= body.mass * world.model.settings.gravity.dot(X_to.p - X_from.p);
-      rise += 0.5 * (to.w.dot(inertia_W(body, X_to.q) * to.w) - from.w.dot(inertia_W(body, X_from.q) * from.w));
+      // the start first: what is found for the end serves the next step's start
+      const double turning = from.w.dot(world.impulse.inertia_at(world.topology, l, X_from.q) * from.w);
+      rise += 0.5 * (to.w.dot(world.impulse.inertia_at(world.topology, l, X_to.q) * to.w) - turning);
       if (s.any_damper && j >= 0 && s.buffers.dampers[j].present) rise -= resistance_work(s, j);
     }
   }
@@ -102,17 +110,14 @@ void note_gains(StepContext& s) {
 }
 
 double largest_rise(StepContext& s) {
-  note_rises(s);
   Islands& islands = s.buffers.islands;
+  islands.rise.assign(islands.members.size(), 0);
+  note_rises(s);
   double largest = 0;
   for (std::size_t k = 0; k < islands.members.size(); ++k) {
     const std::vector<int>& island = islands.members[k];
     if (island.empty()) continue;
-    const bool springs = std::any_of(island.begin(), island.end(), [&](int i) {
-      return s.constraints[i].kind == ConstraintKind::wheel || is_compliant(s.constraints[i]);
-    });
-    if (springs) {
-      islands.rise[k] = 0;
+    if (has_springs(s, island)) {
       for (const int i : island)
         if (is_hard(s.constraints[i])) islands.rise[k] += work_of(s, static_cast<std::size_t>(i));
     }

@@ -162,10 +162,7 @@ double joint_errors(World& world, int tree, const std::vector<Pose>& X, double& 
   for (int l = range.begin; l < range.end; ++l) {
     const Topology::Link& link = world.topology.links[l];
     if (link.joint < 0) continue;
-    const Joint& joint = world.model.joints[link.joint];
-    static const Pose kWorld;
-    JointRows& rows = world.smooth.of_link(l).rows;
-    joint_rows(joint, joint.parent < 0 ? kWorld : X[joint.parent], X[joint.child], rows);
+    const JointRows& rows = world.smooth.rows_at(world.topology, l, X);
     largest_gap = std::max(largest_gap, gap_of(rows));
     for (int k = 0; k < rows.count; ++k) largest = std::max(largest, std::abs(rows.error[k]));
   }

@@ -29,16 +29,22 @@ void warm_start(Constraint& c, const std::vector<WarmStart>& warm) {
   }
 }
 
-/// `again`: from the impulses that the conditions have, which an earlier pass of the step found.
-void solve_islands(StepContext& s, bool again) {
+/// From the impulses of the last step; again from those that the conditions have, with other resistance in the joints; or only
+/// with other springs, so that bodies answer as they did.
+enum class Solve { first, other_joints, other_springs };
+
+void solve_islands(StepContext& s, Solve which) {
   World& world = s.world;
   s.residual = 0;
   s.unsettled = -1;
-  for (const auto& island : s.buffers.islands.members) {
+  const auto& islands = s.buffers.islands.members;
+  const auto filled = std::count_if(islands.begin(), islands.end(), [](const auto& island) { return !island.empty(); });
+  const bool assembled = which == Solve::other_springs && filled == 1;  // the solver knows one island at a time
+  for (const auto& island : islands) {
     if (island.empty()) continue;
-    if (!again)
+    if (which == Solve::first)
       for (const int i : island) warm_start(s.constraints[i], s.state.warm);
-    world.solver.assemble(world.topology, world.impulse, s.constraints, island);
+    if (!assembled) world.solver.assemble(world.topology, world.impulse, s.constraints, island);
     const SolveReport report = world.solver.solve(s.constraints, island, world.model.settings.solver_tolerance);
     world.log.diagnostics.contact_sweeps += report.sweeps;
     world.log.diagnostics.newton_steps += report.newton_steps;
@@ -126,9 +132,9 @@ void exchange_over_step(StepContext& s) {
     for (Constraint& c : s.constraints) c.u_free = row_velocity(c, s.end.V_WB);
     if (pass == 0) build_islands(s);
     formulate(s);
-    solve_islands(s, pass > 0);
-    if (wake_struck_springs(s)) solve_islands(s, true);
-    if (hold_spent_springs(s)) solve_islands(s, true);
+    solve_islands(s, pass > 0 ? Solve::other_joints : Solve::first);
+    if (wake_struck_springs(s)) solve_islands(s, Solve::other_springs);
+    if (hold_spent_springs(s)) solve_islands(s, Solve::other_springs);
     apply(s);
     if (!s.any_damper) return;
     note_motion_after(s);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <string>
 
 #include "engine/math/types.h"
 #include "engine/solver/wide_links.h"
@@ -77,22 +78,27 @@ TEST(WideProducts, AreThoseOfEigen) {
   }
 }
 
-TEST(WideLinks, EliminateAPointAndAHingeAsTheirFormulasSay) {
+TEST(WideLinks, EliminatePointsAndAHingeAsTheirFormulasSay) {
   using Mat6 = Eigen::Matrix<double, 6, 6>;
   using Eigen::MatrixXd;
   std::srand(13);
-  for (const bool hinge : {false, true})
+  for (const std::string kind : {"point", "damped point", "hinge"})
     for (const bool has_parent : {false, true}) {
-      SCOPED_TRACE(testing::Message() << (hinge ? "hinge" : "point") << (has_parent ? " on a parent" : " on the world"));
+      SCOPED_TRACE(kind + (has_parent ? " on a parent" : " on the world"));
+      const bool hinge = kind == "hinge";
       const Mat6 root = Mat6::Random();
       const Mat6 H = root * root.transpose() + Mat6::Identity();
       const Vec3 r = Vec3::Random(), r_parent = Vec3::Random(), axis = Vec3::Random().normalized();
       const double damping = 0.3;
+      const Mat3 half = Mat3::Random();
+      const Mat3 damper = half * half.transpose();
       const Mat6 before = Mat6::Random();
       Mat6 D, X, H_parent = before;
       double* onto = has_parent ? H_parent.data() : nullptr;
       if (hinge) {
         eliminate_hinge(H.data(), r.data(), r_parent.data(), axis.data(), damping, D.data(), X.data(), onto);
+      } else if (kind == "damped point") {
+        eliminate_damped_point(H.data(), r.data(), r_parent.data(), damper.data(), D.data(), X.data(), onto);
       } else {
         eliminate_point(H.data(), r.data(), r_parent.data(), D.data(), X.data(), onto);
       }
@@ -102,6 +108,7 @@ TEST(WideLinks, EliminateAPointAndAHingeAsTheirFormulasSay) {
       S << skew(r) * turning, turning;
       MatrixXd K = S.transpose() * H * S;
       if (hinge) K(0, 0) += damping;
+      if (kind == "damped point") K += damper;
       const Mat6 answer = S * K.inverse() * S.transpose();
       Mat6 locked = Mat6::Identity();
       locked.topRightCorner<3, 3>() = -skew(r_parent - r);
