@@ -25,13 +25,14 @@ using engine::Model;
 using engine::PlanLine;
 using engine::Recording;
 
-/// An effect that never had anything within its reach has waited: it was there and did nothing.
-bool was_on(const PlanLine& line) {
-  return line.active && !line.forced && !(line.acted.told && line.acted.in_reach < 0);
+/// An effect that never had anything within its reach: `plan --measure` says that it waited.
+bool waited(const PlanLine& line) {
+  return line.acted.told && line.acted.in_reach < 0;
 }
 
+/// Strictly: who waits counts as idle too.
 int count_idle(const std::vector<std::string>& scenes, double window) {
-  int on = 0, waited = 0, idle = 0;
+  int on = 0, waiting = 0, idle = 0;
   for (const std::string& path : scenes) {
     Model model = scenes::load(path, {}).model;
     model.settings.duration = std::min(model.settings.duration, window);
@@ -39,22 +40,23 @@ int count_idle(const std::vector<std::string>& scenes, double window) {
     std::string names;
     int here = 0;
     for (const PlanLine& line : run.plan) {
-      waited += line.active && !was_on(line);
-      if (!was_on(line)) continue;
+      if (!line.active || line.forced) continue;
       ++here;
       Model without = model;
       without.settings.effects[line.effect] = Force::off;
       if (engine::hash(engine::simulate(without)) != engine::hash(run)) continue;
-      ++idle;
-      names += " " + line.effect;
+      ++(waited(line) ? waiting : idle);
+      names += " " + line.effect + (waited(line) ? " (waited)" : "");
     }
     on += here;
     std::printf("%-44s %2d on%s%s\n", std::filesystem::path(path).filename().c_str(), here,
                 names.empty() ? "" : ", the same without", names.c_str());
     std::fflush(stdout);
   }
-  std::printf("%d effects on, %d waited, %d idle: %.1f %%\n", on, waited, idle, on > 0 ? 100.0 * idle / on : 0.0);
-  return 10 * idle > on ? 1 : 0;
+  const int same = waiting + idle;
+  std::printf("%d effects on; the run is the same without %d (%.1f %%): %d had nothing in reach, %d were idle\n", on, same,
+              on > 0 ? 100.0 * same / on : 0.0, waiting, idle);
+  return 10 * same > on ? 1 : 0;
 }
 
 /// False, and a line, where a claim of the scene's plan does not hold.
