@@ -12,7 +12,7 @@
 
 #include "render/charts/chart.h"
 #include "render/error.h"
-#include "render/publish.h"
+#include "render/paper_file.h"
 
 namespace render::charts {
 namespace {
@@ -87,20 +87,22 @@ void check(cairo_status_t status, const std::filesystem::path& file) {
 template <typename Make, typename Finish>
 std::string write(const Page& page, const std::filesystem::path& file, double scale, const Make& make, const Finish& finish) {
   PartFile part(file);
+  PaperFile paper(part);
   {
-    const SurfacePtr surface(make(part.path().c_str()));
+    const SurfacePtr surface(make(&paper));
     check(cairo_surface_status(surface.get()), file);
     const CairoPtr cairo(cairo_create(surface.get()));
     cairo_scale(cairo.get(), scale, scale);
     draw(page, cairo.get());
     check(cairo_status(cairo.get()), file);
-    check(finish(surface.get(), part.path().c_str()), file);
+    check(finish(surface.get(), &paper), file);
   }
+  check(paper.close(), file);
   part.publish();
   return file.string();
 }
 
-cairo_status_t finished(cairo_surface_t* surface, const char*) {
+cairo_status_t finished(cairo_surface_t* surface, PaperFile*) {
   cairo_surface_finish(surface);
   return cairo_surface_status(surface);
 }
@@ -108,19 +110,21 @@ cairo_status_t finished(cairo_surface_t* surface, const char*) {
 }  // namespace
 
 std::vector<std::string> write_page(const Page& page, const std::filesystem::path& base) {
-  const auto pdf = [&page](const char* file) {
-    cairo_surface_t* surface = cairo_pdf_surface_create(file, kWidth, kHeight);
+  const auto pdf = [&page](PaperFile* file) {
+    cairo_surface_t* surface = cairo_pdf_surface_create_for_stream(PaperFile::write, file, kWidth, kHeight);
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, nullptr);  // equal figures, equal files
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, page.title.c_str());
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_SUBJECT, page.footer.c_str());
     return surface;
   };
-  const auto svg = [](const char* file) { return cairo_svg_surface_create(file, kWidth, kHeight); };
-  const auto png = [](const char*) {
+  const auto svg = [](PaperFile* file) { return cairo_svg_surface_create_for_stream(PaperFile::write, file, kWidth, kHeight); };
+  const auto png = [](PaperFile*) {
     return cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(kWidth * kDotsPerPoint)),
                                       static_cast<int>(std::lround(kHeight * kDotsPerPoint)));
   };
-  const auto save = [](cairo_surface_t* surface, const char* file) { return cairo_surface_write_to_png(surface, file); };
+  const auto save = [](cairo_surface_t* surface, PaperFile* file) {
+    return cairo_surface_write_to_png_stream(surface, PaperFile::write, file);
+  };
   return {write(page, base.string() + ".pdf", 1, pdf, finished), write(page, base.string() + ".svg", 1, svg, finished),
           write(page, base.string() + ".png", kDotsPerPoint, png, save)};
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "render/error.h"
-#include "render/publish.h"
+#include "render/paper_file.h"
 #include "render/text/fonts.h"
 
 namespace render {
@@ -18,7 +18,8 @@ constexpr double kPoint = 72 / 25.4;  // points a millimetre
 template <class Make>
 void write_one(const Make& make, const std::filesystem::path& file, const std::function<void(cairo_t*)>& draw) {
   PartFile part(file);
-  cairo_surface_t* surface = make(part.path().c_str(), kSheetWidth * kPoint, kSheetHeight * kPoint);
+  PaperFile paper(part);
+  cairo_surface_t* surface = make(PaperFile::write, &paper, kSheetWidth * kPoint, kSheetHeight * kPoint);
   cairo_t* c = cairo_create(surface);
   cairo_scale(c, kPoint, kPoint);
   cairo_select_font_face(c, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
@@ -27,7 +28,8 @@ void write_one(const Make& make, const std::filesystem::path& file, const std::f
   cairo_show_page(c);
   cairo_destroy(c);
   cairo_surface_finish(surface);
-  const cairo_status_t status = cairo_surface_status(surface);
+  const cairo_status_t drawn = cairo_surface_status(surface), written = paper.close();
+  const cairo_status_t status = drawn != CAIRO_STATUS_SUCCESS ? drawn : written;
   cairo_surface_destroy(surface);
   if (status != CAIRO_STATUS_SUCCESS) throw RenderError("cannot write " + file.string() + ": " + cairo_status_to_string(status));
   part.publish();
@@ -39,14 +41,14 @@ std::vector<std::string> write_sheets(const std::filesystem::path& folder, const
                                       const std::function<void(cairo_t*)>& draw) {
   require_font();
   const std::filesystem::path pdf = folder / (name + ".pdf"), svg = folder / (name + ".svg");
-  const auto titled = [&title](const char* file, double width, double height) {
-    cairo_surface_t* paper = cairo_pdf_surface_create(file, width, height);
+  const auto titled = [&title](cairo_write_func_t write, void* file, double width, double height) {
+    cairo_surface_t* paper = cairo_pdf_surface_create_for_stream(write, file, width, height);
     cairo_pdf_surface_set_metadata(paper, CAIRO_PDF_METADATA_CREATE_DATE, nullptr);  // equal figures, equal files
     cairo_pdf_surface_set_metadata(paper, CAIRO_PDF_METADATA_TITLE, title.c_str());
     return paper;
   };
   write_one(titled, pdf, draw);
-  write_one(cairo_svg_surface_create, svg, draw);
+  write_one(cairo_svg_surface_create_for_stream, svg, draw);
   return {pdf.string(), svg.string()};
 }
 
