@@ -70,10 +70,12 @@ Recorder::Recorder(const World& world, const State& state)
       hit_vehicle_(world.model.persons.size(), 0),
       hit_head_(world.model.persons.size(), 0),
       hit_ground_(world.model.persons.size(), 0),
+      run_over_(world.model.persons.size() * world.model.vehicles.size(), 0),
       trunk_(world.model.bodies.size(), 0),
       lying_(world.model.persons.size(), 0),
       tyre_impulse_(world.model.vehicles.size(), Vec3::Zero()),
-      last_ground_(world.model.persons.size(), 0) {
+      last_ground_(world.model.persons.size(), 0),
+      last_trunk_(world.model.persons.size(), -1) {
   tallies_.reserve(kRoom);
   events_.reserve(kRoom);
   keep(world, state);
@@ -84,6 +86,7 @@ Recorder::Recorder(const World& world, const State& state)
       if (!shape) continue;
       const double lowest = state.X_WB[b].p.z() - aabb_half_widths(*shape, state.X_WB[b].q).z();
       lying_[p] = lying_[p] || lowest - world.model.ground.height < 0.02;
+      if (lying_[p]) last_trunk_[p] = 0;
     }
   for (std::size_t t = 0; t < has_trunk_.size(); ++t)
     for (int l = world.topology.trees[t].begin; l < world.topology.trees[t].end; ++l)
@@ -110,30 +113,49 @@ void Recorder::note_head(const Constraint& c, double time) {
   events_.push_back({time, "head_impact", c.record_a, c.record_b, c.point, velocity.norm(), c.frame.col(0), velocity});
 }
 
+void Recorder::note(const char* kind, const Constraint& c, double time) {
+  events_.push_back({time, kind, c.record_a, c.record_b, c.point, std::max(0.0, -c.u_before[0]), c.frame.col(0), Vec3::Zero()});
+}
+
+void Recorder::watch_vehicle(const World& world, const Constraint& c, int person, double time) {
+  if (!hit_vehicle_[person]) {
+    note("first_contact", c, time);
+    // who has fallen before is thrown from where it lies, and comes down anew
+    hit_ground_[person] = 0;
+    lying_[person] = time - last_trunk_[person] <= kAirborne;
+  }
+  hit_vehicle_[person] = 1;
+  if (is_fixture(world.model, c.record_b)) return;
+  if (c.record_a == world.model.persons[person].head && !hit_head_[person]) {
+    note_head(c, time);
+    hit_head_[person] = 1;
+  }
+  // a wheel that shoves a limb ahead of it, or climbs it, does not stand on it yet
+  constexpr double kOnTop = 0.9;  // [-] upright part of the normal: 26 degrees
+  const int vehicle = world.model.bodies[c.record_b].vehicle;
+  if (c.shapes.b != ShapeKind::tyre || vehicle < 0 || !(-c.frame.col(0).z() > kOnTop)) return;
+  char& told = run_over_[static_cast<std::size_t>(person) * world.model.vehicles.size() + static_cast<std::size_t>(vehicle)];
+  if (!told) note("run_over", c, time);
+  told = 1;
+}
+
+void Recorder::watch_ground(const Constraint& c, int person, double time) {
+  // feet and hands come and go while a person is being struck, carried or walks: who falls comes down on the trunk
+  if (time - last_ground_[person] > kAirborne) lying_[person] = 0;
+  if (!hit_ground_[person] && trunk_[c.record_a] && !lying_[person]) {
+    note("ground_contact", c, time);
+    hit_ground_[person] = 1;
+  }
+  last_ground_[person] = time;
+  if (trunk_[c.record_a]) last_trunk_[person] = time;
+}
+
 void Recorder::watch_events(const World& world, const Constraint& c, double time) {
   const int person = c.record_a >= 0 ? world.model.bodies[c.record_a].person : -1;
   if (person < 0 || world.model.bodies[c.record_a].vehicle >= 0 || c.impulse[0] <= 0) return;
-  const double closing = std::max(0.0, -c.u_before[0]);
-  auto note = [&](const char* kind) {
-    events_.push_back({time, kind, c.record_a, c.record_b, c.point, closing, c.frame.col(0), Vec3::Zero()});
-  };
-  if (c.shapes.on_vehicle()) {
-    if (!hit_vehicle_[person]) note("first_contact");
-    hit_vehicle_[person] = 1;
-    if (c.record_a == world.model.persons[person].head && !hit_head_[person]) {
-      note_head(c, time);
-      hit_head_[person] = 1;
-    }
-  }
-  if (c.shapes.on_ground()) {
-    // feet and hands come and go while a person is being struck, carried or walks: who falls comes down on the trunk
-    if (time - last_ground_[person] > kAirborne) lying_[person] = 0;
-    if (!hit_ground_[person] && trunk_[c.record_a] && !lying_[person]) {
-      note("ground_contact");
-      hit_ground_[person] = 1;
-    }
-    last_ground_[person] = time;
-  }
+  const bool fixture = c.shapes.on_vehicle() && is_fixture(world.model, c.record_b);
+  if (c.shapes.on_vehicle() && (!fixture || world.model.persons[person].mount >= 0)) watch_vehicle(world, c, person, time);
+  if (c.shapes.on_ground() || (fixture && bears(c.frame.col(0)))) watch_ground(c, person, time);
 }
 
 /// A part pressed in by all its thickness has slipped through: its law no longer knows from which side it came.

@@ -47,6 +47,9 @@ class Recorder {
   void watch_rest(const World&, const State&, double since);
   void watch_halt(const World&, const State&);
   void watch_events(const World&, const Constraint&, double time);
+  void watch_vehicle(const World&, const Constraint&, int person, double time);
+  void watch_ground(const Constraint&, int person, double time);
+  void note(const char* kind, const Constraint&, double time);
   void watch_bounds(const World&, const Constraint&, double time);
   void watch_compression(const Constraint&, double time, double duration);
 
@@ -60,11 +63,12 @@ class Recorder {
   double watched_ = 0;               // [s] when that was
   std::vector<Event> events_;
   std::vector<char> hit_vehicle_, hit_head_, hit_ground_;  // per person
+  std::vector<char> run_over_;                             // per person and vehicle
   std::vector<char> trunk_;                                // per body: of hips, head and what joins them
-  std::vector<char> lying_;                                // per person: lay on its trunk at the start
+  std::vector<char> lying_;                                // per person: lay on its trunk at the start, or when it was struck
   std::vector<BodyState> before_;                          // per body, at the last sample
   std::vector<Vec3> tyre_impulse_;                         // [N s] world, per vehicle, since the last snapshot
-  std::vector<double> last_ground_;                        // [s] per person: last time on the ground
+  std::vector<double> last_ground_, last_trunk_;           // [s] per person: last time on the ground, and with its trunk
   std::size_t exchanges_told_ = 0;
   std::vector<Vec3> velocity_;  // [m/s] per body, at the last sample
   double sampled_ = 0;          // [s] when that was

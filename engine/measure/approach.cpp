@@ -11,10 +11,14 @@ namespace {
 
 using Point2 = Eigen::Vector2d;
 
-bool any_touch(const Recording& recording) {
+/// Of a vehicle with a person or a vehicle; a kerb or a wall is neither.
+bool any_touch(const Model& model, const Recording& recording) {
+  const auto counts = [&](int b) { return b >= 0 && (model.bodies[b].vehicle >= 0 || model.bodies[b].person >= 0); };
   for (const Snapshot& s : recording.snapshots)
     for (const ContactRecord& c : s.contacts)
-      if (c.shapes.with_vehicle() && !c.impulse.isZero(0)) return true;
+      if (c.shapes.with_vehicle() && counts(c.body_a) && counts(c.body_b) && !c.impulse.isZero(0) &&
+          (model.bodies[c.body_a].vehicle >= 0 || model.bodies[c.body_b].vehicle >= 0))
+        return true;
   return false;
 }
 
@@ -137,7 +141,7 @@ std::optional<Approach> of_vehicles(const Model& model, const Recording& recordi
 }  // namespace
 
 std::optional<Approach> nearest_approach(const Model& model, const Recording& recording) {
-  if (any_touch(recording)) return std::nullopt;
+  if (any_touch(model, recording)) return std::nullopt;
   const auto person = of_persons(model, recording);
   return person ? person : of_vehicles(model, recording);
 }

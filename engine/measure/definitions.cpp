@@ -27,10 +27,10 @@ constexpr Definition kDefinitions[] = {
      "Pedestrian and Cyclist Impact, 2009: total throw).",
      kUnstruck, kPath, true},
     {"throw_along_m", "m", "throw along",
-     "Part of the throw along the heading of the vehicle at the first touch; of a rider along the heading of the faster of the "
-     "two.",
+     "Part of the throw along the way that the vehicle goes at the first touch, forwards or backwards; of a rider along that of "
+     "the faster of the two; along its heading where it stands.",
      kUnstruck, kPath},
-    {"throw_across_m", "m", "throw across", "Part of the throw across that heading, positive to the left.", kUnstruck, kPath},
+    {"throw_across_m", "m", "throw across", "Part of the throw across that way, positive to the left.", kUnstruck, kPath},
     {"contact_m", "m", "contact",
      "Distance of the phase contact: from the first touch until the person goes as fast as the vehicle, or the vehicle last pushes "
      "it.",
@@ -54,11 +54,16 @@ constexpr Definition kDefinitions[] = {
      "person may push or drag it meanwhile.",
      kNotLanded, kPhase, true},
     {"landing_s", "s", "landing",
-     "Time at which hips, head or what joins them first touch the ground after the first touch with a vehicle; of who lay there, "
-     "after having been off it for 50 ms. Feet and hands do not count.",
+     "Time at which hips, head or what joins them first touch the ground, or a body fixed to it that they can lie on, after the "
+     "first touch with a vehicle; of who lay there, after having been off it for 50 ms. Feet and hands do not count.",
      kNotLanded, "exact to the step; which part lands first is chaotic", true},
     {"first_ground_contact_s", "s", "on the ground", "The same as landing_s under its older name.", kNotLanded,
      "exact to the step; which part lands first is chaotic"},
+    {"run_over_s", "s", "run over",
+     "Time at which a wheel of a vehicle first stands on the person: its push on a part comes from within 26 degrees of upright. A "
+     "wheel that shoves a part ahead, and a floor that passes over the person, do not count.",
+     "no wheel stood on the person", "exact to the step", true},
+    {"run_over_part", "", "run over", "The part it stands on, and whose wheel it is.", "as run_over_s", "exact to the step", true},
     {"rest_s", "s", "rest",
      "Time from which nothing of it moves faster than 0.05 m/s or 0.3 rad/s until the run ends, for 0.25 s or more; of a person "
      "its trunk: hips, head and what joins them. A hand or a foot may settle later. Of rider and mount each its own.",
@@ -89,7 +94,8 @@ constexpr Definition kDefinitions[] = {
     {"wrap_around_distance_m", "m", "wrap-around distance",
      "Length of a taut tape in the vertical fore and aft plane through the head's place of touch: from the ground vertically "
      "below the foremost part over front and bonnet to that place (Euro NCAP, Pedestrian Testing Protocol, wrap around distance).",
-     "the head met no vehicle that came with its front, or a place no tape from the front reaches (flank, underside)",
+     "the head met no vehicle that came with its front, as they went before the first touch; or a place no tape from the front "
+     "reaches (flank, side window, underside)",
      "multibody persons wrap farther than finite-element ones (Fahlstedt et al. 2016)", true},
     {"hic15", "", "HIC15",
      "Head injury criterion of the resultant acceleration of the head's centre over windows of 15 ms at most, from the head's "
@@ -99,10 +105,12 @@ constexpr Definition kDefinitions[] = {
     {"three_ms_g", "g", "3 ms clip", "Largest acceleration of the head that is held for 3 ms without a break, same course.",
      kNoForce, kHic},
     {"hic15_vehicle", "", "HIC15 vehicle",
-     "HIC15 of the head's touches of vehicles alone, each from 5 ms before to 5 ms after by itself; the worst of them.", kNoForce,
-     kHic, true},
+     "HIC15 of the head's touches of vehicles alone, each from 5 ms before to 5 ms after by itself; the worst of them. While "
+     "vehicle "
+     "and ground push at once, the blow is of the one that pushes harder.",
+     kNoForce, kHic, true},
     {"three_ms_vehicle_g", "g", "3 ms clip, vehicle", "3 ms clip of the same.", kNoForce, kHic},
-    {"hic15_ground", "", "HIC15 ground", "The same of its touches of the ground alone.", kNoForce,
+    {"hic15_ground", "", "HIC15 ground", "The same of its touches of the ground and of bodies fixed to it alone.", kNoForce,
      "head against ground is highly variable (Simms and Wood 2005): a cloud, no number", true},
     {"three_ms_ground_g", "g", "3 ms clip, ground", "3 ms clip of the same.", kNoForce, "as hic15_ground"},
     {"peak_acceleration_mps2", "m/s^2", "peak acceleration",

@@ -3,9 +3,30 @@
 
 #include "engine/math/functions.h"
 #include "engine/measure/metrics.h"
+#include "engine/measure/parties.h"
 
 namespace engine {
 namespace {
+
+/// Whether the vehicle came with its front: how it and the person neared each other before they first touched, not as the head came
+/// down. That may be upright, or across, on a car that has lost its speed by then.
+bool came_with_its_front(const Model& model, const Recording& recording, const Event& head) {
+  const int p = model.bodies[head.body_a].person;
+  const Party person{p, -1, model.persons[p].bodies};
+  double first = head.time;
+  for (const Event& e : recording.events)
+    if (e.kind == "first_contact" && e.body_b == head.body_b && holds(person, e.body_a)) first = std::min(first, e.time);
+  const Snapshot* before = &recording.snapshots.front();
+  for (const Snapshot& s : recording.snapshots)
+    if (s.time <= first) before = &s;
+  const BodyState& vehicle = before->bodies[head.body_b];
+  const Vec3 person_B = vehicle.X_WB.q.conjugate() * (velocity_of(model, person, *before) - vehicle.V_WB.v);
+  return person_B.x() < 0 && -person_B.x() > std::abs(person_B.y());
+}
+
+bool is_beside(Panel panel) {
+  return panel == Panel::side || panel == Panel::side_window || panel == Panel::rear || panel == Panel::rear_window;
+}
 
 /// Where the head struck, in the axes of the vehicle as its mesh was drawn: the origin of the mesh, x forward, y left, z up.
 void measure_place(const Model& model, const Recording& recording, const Event& e, const std::string& name,
@@ -14,20 +35,19 @@ void measure_place(const Model& model, const Recording& recording, const Event& 
   if (!shape) return;
   const Pose X_WB = recording.at(e.time).bodies[e.body_b].X_WB;
   const Vec3 point_B = X_WB.inverse() * e.point, point_M = shape->X_BM.inverse() * point_B;
+  Panel panel = Panel::unknown;
   if (shape->panels) {
     const Vec3 normal_M = shape->X_BM.q.conjugate() * (X_WB.q.conjugate() * e.normal);
-    const Panel panel = panel_at(*shape->mesh, *shape->panels, point_M, normal_M);
+    panel = panel_at(*shape->mesh, *shape->panels, point_M, normal_M);
     if (panel != Panel::unknown) out.push_back({"head_impact_panel", name, 0, name_of(panel)});
   }
   out.push_back({"head_impact_vehicle_x_m", name, point_M.x()});
   out.push_back({"head_impact_vehicle_y_m", name, point_M.y()});
   out.push_back({"head_impact_vehicle_z_m", name, point_M.z()});
   // a tape from the front has a meaning only for a vehicle whose front runs against the person: who flies at its flank and comes
-  // down on the bonnet has none
-  const Vec3 velocity_B = X_WB.q.conjugate() * e.velocity;
-  const bool forwards = velocity_B.x() < 0 && -velocity_B.x() > std::abs(velocity_B.y());
+  // down on the bonnet has none, nor has a place of its flanks or behind that leans enough to be seen from above
   const auto tape = wrap_around_distance(model, e.body_b, point_B);
-  if (forwards && tape) out.push_back({"wrap_around_distance_m", name, *tape});
+  if (tape && !is_beside(panel) && came_with_its_front(model, recording, e)) out.push_back({"wrap_around_distance_m", name, *tape});
 }
 
 }  // namespace

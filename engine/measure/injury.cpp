@@ -58,17 +58,38 @@ struct Span {
 
 constexpr double kAround = 0.005;  // [s] kept before and after a touch: windows may begin and end where nothing acts
 
-/// Times at which the head is pushed by a partner of the wanted kind, neighbours run together.
-std::vector<Span> touches(const Recording& recording, int head, bool ground) {
+/// Which of two kinds pushed the head harder since the snapshot before: what both did at once is that one's. What is fixed to the
+/// ground counts as ground.
+enum class Partner { none, vehicle, ground };
+
+Partner partner_in(const Model& model, const Snapshot& s, int head) {
+  double by_vehicle = 0, by_ground = 0;
+  for (const ContactRecord& c : s.contacts) {
+    if (c.body_a != head) continue;
+    if (c.shapes.on_ground() || is_fixture(model, c.body_b))
+      by_ground += c.normal_impulse;
+    else if (c.shapes.on_vehicle())
+      by_vehicle += c.normal_impulse;
+  }
+  if (!(by_vehicle > 0) && !(by_ground > 0)) return Partner::none;
+  return by_vehicle >= by_ground ? Partner::vehicle : Partner::ground;
+}
+
+/// Times at which the head is pushed by the partner wanted, neighbours run together. They reach not into the other's.
+std::vector<Span> touches(const Model& model, const Recording& recording, int head, Partner wanted) {
+  const auto& all = recording.snapshots;
+  std::vector<Partner> partner;
+  for (const Snapshot& s : all) partner.push_back(partner_in(model, s, head));
+  const auto others = [&](std::size_t i) { return partner[i] != Partner::none && partner[i] != wanted; };
   std::vector<Span> out;
-  for (std::size_t i = 1; i < recording.snapshots.size(); ++i) {
-    const Snapshot& s = recording.snapshots[i];
-    const bool touched = std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
-      const bool wanted = ground ? c.shapes.on_ground() : c.shapes.on_vehicle();
-      return wanted && c.body_a == head && c.normal_impulse > 0;
-    });
-    if (!touched) continue;
-    const double from = recording.snapshots[i - 1].time - kAround, to = s.time + kAround;
+  double free_from = -1e300;  // [s] when the other's last push ended
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (others(i)) free_from = all[i].time;
+    if (partner[i] != wanted) continue;
+    const double from = std::max(all[i - 1].time - kAround, free_from);
+    double to = all[i].time + kAround;
+    for (std::size_t k = i + 1; k < all.size() && all[k - 1].time < to; ++k)
+      if (others(k)) to = all[k - 1].time;
     if (!out.empty() && from <= out.back().to)
       out.back().to = to;
     else
@@ -112,7 +133,8 @@ void measure_injury(const Model& model, const Recording& recording, int p, std::
   const Person& person = model.persons[p];
   for (const HeadMotion& head : recording.heads) {
     if (head.person != p) continue;
-    const std::vector<Span> car = touches(recording, person.head, false), road = touches(recording, person.head, true);
+    const std::vector<Span> car = touches(model, recording, person.head, Partner::vehicle),
+                            road = touches(model, recording, person.head, Partner::ground);
     if (car.empty() && road.empty()) return;
     const double first = std::min(car.empty() ? 1e300 : car.front().from, road.empty() ? 1e300 : road.front().from);
     const Criteria whole = criteria(head, {{first, 1e300}}), vehicle = criteria(head, car), ground = criteria(head, road);

@@ -72,6 +72,10 @@ std::optional<double> rest_of(const Model& model, const Recording& recording, co
   return std::nullopt;
 }
 
+bool is_fixture(const Model& model, int body) {
+  return body >= 0 && model.bodies[body].fixed && model.bodies[body].vehicle < 0;
+}
+
 Vec3 push_on(const Party& party, const ContactRecord& c) {
   const bool a = holds(party, c.body_a), b = c.body_b >= 0 && holds(party, c.body_b);
   if (a == b) return Vec3::Zero();

@@ -35,6 +35,14 @@ std::vector<int> joined_for_good(const Model&, std::vector<int> bodies);
 /// A person rests with its trunk.
 std::optional<double> rest_of(const Model&, const Recording&, const Party&);
 
+/// A wall, a kerb, a pavement: a body that is fixed and no vehicle. It strikes nobody on foot, and to come down on it is to land.
+bool is_fixture(const Model&, int body);
+
+/// Whether a surface with this unit normal, away from it, is one to stand or lie on and no wall.
+inline bool bears(const Vec3& normal) {
+  return normal.z() > 0.5;
+}
+
 /// A push of a contact on the party, zero where it has no part in it; contacts within the party count for nothing.
 Vec3 push_on(const Party&, const ContactRecord&);
 

@@ -13,13 +13,14 @@ struct Touch {
   int other = -1;  // body
 };
 
-/// First push between the party and a vehicle or mesh that is neither its rider nor its mount.
+/// First push between the party and a vehicle or mesh that is neither its rider nor its mount; of who is on foot no wall or kerb.
 std::optional<Touch> first_touch(const Model& model, const Recording& recording, const Party& party) {
   const auto own = [&](int b) {
     return b >= 0 && std::any_of(party.bodies.begin(), party.bodies.end(), [&](int own_body) {
              return model.bodies[b].person >= 0 && model.bodies[b].person == model.bodies[own_body].person;
            });
   };
+  const bool on_foot = party.person >= 0 && model.persons[party.person].mount < 0;
   for (const Event& e : recording.events)
     if (e.kind == "first_contact" && holds(party, e.body_a)) return Touch{e.time, e.body_b};
   for (const Snapshot& s : recording.snapshots) {
@@ -27,6 +28,7 @@ std::optional<Touch> first_touch(const Model& model, const Recording& recording,
     for (const ContactRecord& c : s.contacts) {
       if (!c.shapes.with_vehicle() || push_on(party, c).isZero(0)) continue;
       const int other = holds(party, c.body_a) ? c.body_b : c.body_a;
+      if (on_foot && is_fixture(model, other)) continue;
       if (!own(other) && (!first || c.begun < first->time)) first = Touch{c.begun, other};
     }
     if (first) return first;
@@ -34,26 +36,40 @@ std::optional<Touch> first_touch(const Model& model, const Recording& recording,
   return std::nullopt;
 }
 
-bool pushed_by_vehicle(const Party& party, const Snapshot& s) {
+/// By a vehicle, or by what the party ran into first. A wall that it flies against later ends no throw.
+bool pushed_by_vehicle(const Model& model, const Party& party, const Snapshot& s, int struck_by) {
   return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
-    return c.shapes.on_vehicle() && c.normal_impulse > 0 && !push_on(party, c).isZero(0);
+    return c.shapes.on_vehicle() && c.normal_impulse > 0 && !push_on(party, c).isZero(0) &&
+           (c.body_b == struck_by || !is_fixture(model, c.body_b));
   });
 }
 
-bool on_ground(const Party& party, const Snapshot& s) {
+/// On the ground, or on what stands on it for good.
+bool on_ground(const Model& model, const Party& party, const Snapshot& s) {
   return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
-    return c.shapes.on_ground() && c.normal_impulse > 0 && holds(party, c.body_a);
+    const bool ground = c.shapes.on_ground() || (is_fixture(model, c.body_b) && bears(c.normal));
+    return ground && c.normal_impulse > 0 && holds(party, c.body_a);
   });
 }
 
-/// Level direction of the faster of the vehicle that touched first and of what the person rides, as they go at the touch.
+/// By anything but itself.
+bool touched(const Party& party, const Snapshot& s) {
+  return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
+    return (c.shapes.on_ground() || c.shapes.on_vehicle()) && c.normal_impulse > 0 && !push_on(party, c).isZero(0);
+  });
+}
+
+/// Level direction in which the faster of the vehicle that touched first and of what the person rides goes at the touch, which a
+/// vehicle that backs or skids does not do along its own axis. Of one that stands its axis.
 Vec3 heading_of(const Model& model, const Snapshot& s, int struck_by, int mount) {
   int body = struck_by;
   const auto speed = [&](int b) { return b < 0 ? -1.0 : s.bodies[b].V_WB.v.norm(); };
   if (speed(mount) > speed(struck_by)) body = mount;
+  constexpr double kGoes = 0.3;  // [m/s] slower, it stands
+  // a barrier goes nowhere: what runs against it does
+  if (body >= 0 && model.bodies[body].vehicle < 0 && mount >= 0) body = mount;
   Vec3 heading = body < 0 ? Vec3(Vec3::UnitX()) : Vec3(s.bodies[body].X_WB.q * Vec3::UnitX());
-  // a barrier has no heading: what runs against it has
-  if (body >= 0 && model.bodies[body].vehicle < 0 && mount >= 0) heading = s.bodies[mount].X_WB.q * Vec3::UnitX();
+  if (body >= 0 && s.bodies[body].V_WB.v.head<2>().norm() > kGoes) heading = s.bodies[body].V_WB.v;
   heading.z() = 0;
   return heading.norm() > 1e-6 ? Vec3(heading.normalized()) : Vec3(Vec3::UnitX());
 }
@@ -75,22 +91,22 @@ std::optional<double> as_fast(const Model& model, const Recording& recording, co
   return std::nullopt;
 }
 
-/// Whether neither ground nor vehicle touched the party for a break's time between two instants.
+/// Whether nothing touched the party for a break's time between two instants.
 bool flew_between(const Recording& recording, const Party& party, double from, double to) {
   double since = from;
   for (const Snapshot& s : recording.snapshots) {
     if (s.time <= from || s.time > to) continue;
     if (s.time - since >= kBreak) return true;
-    if (on_ground(party, s) || pushed_by_vehicle(party, s)) since = s.time;
+    if (touched(party, s)) since = s.time;
   }
   return to - since >= kBreak;
 }
 
 /// When it had stopped bouncing: it touches the ground from there on without a break.
-double settled_after(const Recording& recording, const Party& party, double landed, double end) {
+double settled_after(const Model& model, const Recording& recording, const Party& party, double landed, double end) {
   double settled = landed, last = landed;
   for (const Snapshot& s : recording.snapshots) {
-    if (s.time <= landed || s.time > end || !on_ground(party, s)) continue;
+    if (s.time <= landed || s.time > end || !on_ground(model, party, s)) continue;
     if (s.time - last > kBreak) settled = s.time;
     last = s.time;
   }
@@ -105,7 +121,7 @@ void add_phases(const Model& model, const Recording& recording, const Party& par
   if (t.landed) {
     begins.emplace_back(t.flew ? "flight" : "fall", off);
     begins.emplace_back("landing", *t.landed);
-    begins.emplace_back("slide", settled_after(recording, party, *t.landed, t.end));
+    begins.emplace_back("slide", settled_after(model, recording, party, *t.landed, t.end));
   }
   if (t.rest) begins.emplace_back("rest", *t.rest);
   const double length = t.thrown.norm();
@@ -151,7 +167,7 @@ std::optional<Throw> throw_of_person(const Model& model, const Recording& record
     if (e.kind == "ground_contact" && !t.landed && holds(party, e.body_a) && e.time >= t.hit && e.time <= t.end) t.landed = e.time;
   for (const Snapshot& s : recording.snapshots) {
     if (s.time < t.hit) continue;
-    if (pushed_by_vehicle(party, s)) t.separated = std::min(s.time, t.landed.value_or(t.end));
+    if (pushed_by_vehicle(model, party, s, t.vehicle)) t.separated = std::min(s.time, t.landed.value_or(t.end));
     if (s.time >= t.landed.value_or(t.end)) break;
   }
   // a rider that nothing but its mount was struck with leaves with that blow

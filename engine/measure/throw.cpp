@@ -46,6 +46,13 @@ void measure_throw(const Model& model, const Recording& recording, int p, std::v
   const auto t = throw_of_person(model, recording, p);
   if (!t) return measure_unstruck(model, recording, {p, -1, person.bodies}, out);
   add_throw(*t, person.name, out);
+  for (const Event& e : recording.events)
+    if (e.kind == "run_over" && model.bodies[e.body_a].person == p) {
+      out.push_back({"run_over_s", person.name, e.time});
+      const std::string& part = model.bodies[e.body_a].name;
+      out.push_back({"run_over_part", person.name, 0, part.substr(part.find('/') + 1) + " by " + model.bodies[e.body_b].name});
+      break;
+    }
   for (const ThrowPhase& phase : t->phases)
     if (phase.name != std::string("rest")) out.push_back({key_of(phase.name), person.name, phase.distance});
   if (!t->landed) return;

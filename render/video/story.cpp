@@ -30,6 +30,7 @@ std::string event_text(const engine::Recording& recording, const engine::Event& 
   std::string text = fmt::format("{:.3f} s  {}", e.time, kind);
   if (e.body_a >= 0) text += ": " + name(e.body_a);
   if (touch && e.body_a >= 0) text += " and " + name(e.body_b);
+  if (e.kind == "run_over") text += " by " + name(e.body_b);
   if (touch && e.value > 0) text += fmt::format(", {:.1f} m/s", e.value);
   return text;
 }

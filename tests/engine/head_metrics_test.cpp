@@ -91,13 +91,37 @@ TEST(HeadMetrics, WrapAroundOfABoxIsHeightPlusLength) {
 
 TEST(HeadMetrics, WrapAroundIsAbsentWhenTheVehicleReversesOrIsMetFromTheSide) {
   const Model model = person_and_car();
-  for (const Vec3& velocity : {Vec3(15, 0, -5), Vec3(-4, 10, -3)}) {
+  for (const Vec3& velocity : {Vec3(-5, 0, 0), Vec3(4, -10, 0)}) {
     Recording run = head_on_bonnet();
-    run.events[0].velocity = velocity;
+    for (Snapshot& s : run.snapshots) s.bodies.own()[kCar].V_WB.v = velocity;
     std::vector<Metric> out;
     measure_head(model, run, 0, out);
     EXPECT_TRUE(value_of(out, "head_impact_speed_mps"));
     EXPECT_FALSE(value_of(out, "wrap_around_distance_m"));
+  }
+}
+
+/// At 20 km/h a car that brakes has lost half of its speed when the head comes down, upright or across, on the bonnet before it.
+TEST(HeadMetrics, WrapAroundHangsOnHowTheyMetAndNotOnHowTheHeadComesDown) {
+  const Model model = person_and_car();
+  Recording run = head_on_bonnet();
+  run.events[0].velocity = {0.3, 1.2, -5};
+  run.events.insert(run.events.begin(), {0.05, "first_contact", kHips, kCar, Vec3::Zero(), 0});
+  run.snapshots[1].bodies.own()[kCar].V_WB.v = {1, 9, 0};  // later, however the car turned meanwhile
+  std::vector<Metric> out;
+  measure_head(model, run, 0, out);
+  EXPECT_NEAR(value_of(out, "wrap_around_distance_m").value(), 1.0 + 1.5, kAlmost);
+}
+
+TEST(HeadMetrics, NoTapeGoesToAWindowAtTheSide) {
+  for (const Panel panel : {Panel::bonnet, Panel::side_window}) {
+    Model model = person_and_car();
+    MeshShape shape{box({-2, -0.8, -0.2}, {2, 0.8, 0.5}), Pose{}};
+    shape.panels = std::make_shared<const Panels>(Panels(shape.mesh->triangles().size(), panel));
+    model.bodies[kCar].shape = shape;
+    std::vector<Metric> out;
+    measure_head(model, head_on_bonnet(), 0, out);
+    EXPECT_EQ(value_of(out, "wrap_around_distance_m").has_value(), panel == Panel::bonnet);
   }
 }
 
@@ -173,6 +197,51 @@ TEST(HeadMetrics, CriteriaAreToldApartByPartner) {
   measure_injury(model, run, 0, out);
   EXPECT_FALSE(value_of(out, "hic15_vehicle"));
   EXPECT_TRUE(value_of(out, "hic15")) << "a head that meets only the road has a criterion too";
+}
+
+/// A head that lies on the road is struck there by a car: the blow is the car's, and what the road does before and after its own.
+TEST(HeadMetrics, ABlowOnAHeadThatLiesIsOfTheOneThatPushesHarder) {
+  Model model = person_and_car();
+  model.settings.contact_law = ContactLaw::compliant;
+  Recording run;
+  run.interval = 0.005;
+  HeadMotion head{0, {}, {}};
+  for (int i = 0; i <= 200; ++i) {
+    Snapshot s = still(0.005 * i);
+    s.contacts = {push(kHead, -1, kOnGround, {0, 0, 1})};
+    if (i >= 101 && i <= 102) s.contacts.push_back(push(kHead, kCar, kOnVehicle, {20, 0, 0}));
+    run.snapshots.push_back(s);
+  }
+  for (int i = 0; i <= 10000; ++i) {
+    const double t = 1e-4 * i;
+    head.time.push_back(t);
+    head.acceleration.push_back(t > 0.5 && t < 0.51 ? 100 * kGravity * std::sin(std::numbers::pi * (t - 0.5) / 0.01) : kGravity);
+  }
+  run.heads = {head};
+  std::vector<Metric> out;
+  measure_injury(model, run, 0, out);
+  EXPECT_NEAR(value_of(out, "hic15_vehicle").value(), 414.6, 1) << "a half sine of 100 g over 10 ms";
+  EXPECT_NEAR(value_of(out, "hic15_ground").value(), 0.015, 1e-6) << "1 g over 15 ms";
+}
+
+TEST(HeadMetrics, AWallIsNoVehicleToAHead) {
+  Model model = person_and_car();
+  model.settings.contact_law = ContactLaw::compliant;
+  model.bodies[kCar].vehicle = -1;
+  model.bodies[kCar].fixed = true;
+  Recording run;
+  run.interval = 0.005;
+  run.heads = {{0, {}, {}}};
+  for (int i = 0; i <= 20; ++i) {
+    run.snapshots.push_back(still(0.005 * i));
+    run.heads[0].time.push_back(0.005 * i);
+    run.heads[0].acceleration.push_back(50 * kGravity);
+  }
+  run.snapshots[10].contacts = {push(kHead, kCar, kOnVehicle, {5, 0, 0})};
+  std::vector<Metric> out;
+  measure_injury(model, run, 0, out);
+  EXPECT_FALSE(value_of(out, "hic15_vehicle"));
+  EXPECT_TRUE(value_of(out, "hic15_ground"));
 }
 
 TEST(HeadMetrics, StruckHeadSaysWhyItHasNoCriterion) {

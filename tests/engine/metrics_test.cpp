@@ -131,6 +131,60 @@ TEST(ThrowMetrics, NoPhaseIsWithoutLengthAndRestLastsToTheEnd) {
   EXPECT_EQ(value_of(out, "landing_m"), 0.0) << "a figure, for who counts bounces over many runs";
 }
 
+TEST(ThrowMetrics, ACarThatBacksThrowsTheWayItGoes) {
+  const Model model = person_and_car();
+  Recording run = struck_along_y();
+  const Quat backwards(Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitZ()));
+  for (Snapshot& s : run.snapshots) s.bodies.own()[kCar].X_WB.q = backwards;
+  std::vector<Metric> out;
+  measure_throw(model, run, 0, out);
+  EXPECT_NEAR(value_of(out, "throw_along_m").value(), 16, kAlmost);
+  EXPECT_NEAR(value_of(out, "throw_across_m").value(), -1.25, kAlmost);
+  EXPECT_TRUE(value_of(out, "carried_m")) << "as fast as the car, though against its axis";
+}
+
+/// A pavement, a wall: bodies that are fixed.
+TEST(ThrowMetrics, WhatIsFixedStrikesNobodyOnFootAndBearsWhoComesDownOnIt) {
+  Model model = person_and_car();
+  model.bodies.emplace_back();
+  model.bodies[3].fixed = true;
+  Recording run = struck_along_y();
+  for (Snapshot& s : run.snapshots) s.bodies.own().emplace_back();
+  for (const int i : {0, 1, 4, 5}) {
+    run.snapshots[i].contacts.push_back(push(kHips, 3, kOnVehicle, {0, 0, 9}));
+    run.snapshots[i].contacts.back().normal = Vec3::UnitZ();
+  }
+  for (const int i : {4, 5}) run.snapshots[i].contacts.erase(run.snapshots[i].contacts.begin());
+  const auto thrown = throw_of_person(model, run, 0);
+  ASSERT_TRUE(thrown);
+  EXPECT_EQ(thrown->hit, 1.0) << "it stood on the pavement before";
+  std::string names;
+  for (const ThrowPhase& p : thrown->phases) names += std::string(p.name) + " ";
+  EXPECT_EQ(names, "contact carried flight landing slide rest ");
+  EXPECT_EQ(thrown->separated, 3.0);
+  run.snapshots[0].contacts[0].normal = Vec3::UnitY();
+  run.events.erase(run.events.begin());
+  EXPECT_EQ(throw_of_person(model, run, 0)->vehicle, kCar) << "nor does one that leans at a wall begin its throw there";
+}
+
+TEST(ThrowMetrics, WhoIsRunOverIsToldByTheFirstWheelThatStandsOnIt) {
+  Model model = person_and_car();
+  model.bodies[kHips].name = "pedestrian/hips";
+  model.bodies[kCar].name = "car";
+  Recording run = struck_along_y();
+  std::vector<Metric> out;
+  measure_throw(model, run, 0, out);
+  EXPECT_FALSE(value_of(out, "run_over_s"));
+  run.events.push_back({5, "run_over", kHips, kCar, Vec3::Zero(), 0});
+  run.events.push_back({5.5, "run_over", kHips, kCar, Vec3::Zero(), 0});
+  out.clear();
+  measure_throw(model, run, 0, out);
+  EXPECT_EQ(value_of(out, "run_over_s"), 5.0);
+  const auto part = std::find_if(out.begin(), out.end(), [](const Metric& m) { return m.key == "run_over_part"; });
+  ASSERT_NE(part, out.end());
+  EXPECT_EQ(part->text, "hips by car");
+}
+
 TEST(ThrowMetrics, RiderAndMountHaveEachTheirOwnRestAndThrow) {
   Model model = person_and_car();
   model.bodies.emplace_back();  // a mount, which has its rider's number
@@ -212,6 +266,12 @@ TEST(NearestApproach, ARunWithoutATouchSaysHowNearItWas) {
   ASSERT_TRUE(near);
   EXPECT_NEAR(near->distance, 1.4 - 0.8 - 0.1, 1e-9);
   EXPECT_EQ(near->body_a, kHead);
+  model.bodies.emplace_back();  // a wall that the car runs into is none of those it passes
+  model.bodies[3].fixed = true;
+  for (Snapshot& s : run.snapshots) s.bodies.own().emplace_back();
+  run.snapshots[2].contacts = {push(kCar, 3, kVehicles, {1, 0, 0})};
+  ASSERT_TRUE(nearest_approach(model, run));
+  EXPECT_NEAR(nearest_approach(model, run)->distance, 1.4 - 0.8 - 0.1, 1e-9);
   run.snapshots[3].contacts = {push(kHips, kCar, kOnVehicle, {1, 0, 0})};
   EXPECT_FALSE(nearest_approach(model, run)) << "they touched";
 }
