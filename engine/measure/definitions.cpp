@@ -59,6 +59,10 @@ constexpr Definition kDefinitions[] = {
      kNotLanded, "exact to the step; which part lands first is chaotic", true},
     {"first_ground_contact_s", "s", "on the ground", "The same as landing_s under its older name.", kNotLanded,
      "exact to the step; which part lands first is chaotic"},
+    {"passed_over_s", "s", "passed over",
+     "Time from which a vehicle is over the person who has come down or lay there: the centre of the hips is within the box of its "
+     "bodywork seen from above, and lower than 0.4 m. With or without a wheel on the person, see run_over_s.",
+     "no vehicle came over the person after the landing", "to the recorded interval", true},
     {"run_over_s", "s", "run over",
      "Time at which a wheel of a vehicle first stands on the person: its push on a part comes from within 26 degrees of upright. A "
      "wheel that shoves a part ahead, and a floor that passes over the person, do not count.",

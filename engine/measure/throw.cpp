@@ -36,6 +36,25 @@ void measure_unstruck(const Model& model, const Recording& recording, const Part
   out.push_back({"travel_m", name, travelled.head<2>().norm()});
 }
 
+/// First instant after `from` at which a vehicle that is not its own mount is above the hips: these are within the box of its
+/// bodywork seen from above, and lower than who lies on any bonnet.
+std::optional<double> passed_over(const Model& model, const Recording& recording, const Person& person, double from) {
+  constexpr double kLow = 0.4;  // [m] over the ground as the mesh stands on it
+  for (const Snapshot& s : recording.snapshots) {
+    if (s.time < from || person.hips < 0) continue;
+    for (const Vehicle& v : model.vehicles) {
+      const auto* shape = std::get_if<MeshShape>(&model.bodies[v.body].shape);
+      if (!shape || v.body == person.mount) continue;
+      const Aabb box = shape->mesh->bounds();
+      const Vec3 hips_M = (s.bodies[v.body].X_WB * shape->X_BM).inverse() * s.bodies[person.hips].X_WB.p;
+      const bool within =
+          hips_M.x() > box.lower.x() && hips_M.x() < box.upper.x() && hips_M.y() > box.lower.y() && hips_M.y() < box.upper.y();
+      if (within && hips_M.z() < kLow) return s.time;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void measure_throw(const Model& model, const Recording& recording, int p, std::vector<Metric>& out) {
@@ -46,6 +65,9 @@ void measure_throw(const Model& model, const Recording& recording, int p, std::v
   const auto t = throw_of_person(model, recording, p);
   if (!t) return measure_unstruck(model, recording, {p, -1, person.bodies}, out);
   add_throw(*t, person.name, out);
+  // who lies there from the start does not land
+  if (const auto over = passed_over(model, recording, person, t->landed.value_or(t->hit)))
+    out.push_back({"passed_over_s", person.name, *over});
   for (const Event& e : recording.events)
     if (e.kind == "run_over" && model.bodies[e.body_a].person == p) {
       out.push_back({"run_over_s", person.name, e.time});

@@ -167,6 +167,21 @@ TEST(ThrowMetrics, WhatIsFixedStrikesNobodyOnFootAndBearsWhoComesDownOnIt) {
   EXPECT_EQ(throw_of_person(model, run, 0)->vehicle, kCar) << "nor does one that leans at a wall begin its throw there";
 }
 
+TEST(ThrowMetrics, AVehicleOverWhoLiesIsToldWithoutAWheel) {
+  Model model = person_and_car();
+  model.persons[0].hips = kHips;
+  Recording run = struck_along_y();  // down at 4 s
+  for (Snapshot& s : run.snapshots) s.bodies.own()[kHips].X_WB.p = {0, 12, 0.1};
+  for (const int i : {3, 5, 6}) run.snapshots[i].bodies.own()[kCar].X_WB.p = {0, 13, 0.5};
+  std::vector<Metric> out;
+  measure_throw(model, run, 0, out);
+  EXPECT_EQ(value_of(out, "passed_over_s"), 5.0) << "not at 3 s, before it came down";
+  for (Snapshot& s : run.snapshots) s.bodies.own()[kHips].X_WB.p.z() = 1.1;  // on the roof
+  out.clear();
+  measure_throw(model, run, 0, out);
+  EXPECT_FALSE(value_of(out, "passed_over_s"));
+}
+
 TEST(ThrowMetrics, WhoIsRunOverIsToldByTheFirstWheelThatStandsOnIt) {
   Model model = person_and_car();
   model.bodies[kHips].name = "pedestrian/hips";
