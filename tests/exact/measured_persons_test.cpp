@@ -170,6 +170,8 @@ void Measured::goes_through_what_its_name_says() const {
   } else if (name == "run_over") {
     const Pose& bus = run_.snapshots.back().bodies[scene_.model.vehicles[0].body].X_WB;
     EXPECT_LT((bus.q.conjugate() * (centre(run_.snapshots.back()) - bus.p)).x(), 0.0) << "half the bus has gone over the child";
+    ASSERT_TRUE(value("passed_over_s"));
+    EXPECT_GE(*value("passed_over_s"), value("landing_s").value_or(*hit_));
   } else {
     EXPECT_GT(lasts("contact"), 0);
     EXPECT_GT(lasts("slide"), 0);
@@ -236,6 +238,26 @@ TEST_P(Measured, AgreesWithTheTrajectory) {
   nothing_moves_after_rest();
   touches_lose_what_the_ledger_has();
   one_time_for_the_first_touch();
+}
+
+/// A bus rolls with its left wheels over the arm of who lies there: the wheel's load says so, in the row that the measure tells.
+TEST(RunOver, IsToldWhenAWheelStandsOnWhoLies) {
+  const scenes::Scene scene = scenes::load(
+      std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/sedan_pedestrian_40kmh.toml",
+      {"person.pedestrian.pose=lying_supine", "person.pedestrian.position=0 -0.85 m", "person.pedestrian.heading=0 deg",
+       "person.pedestrian.speed=0 m/s", "vehicle.sedan.model=bus", "vehicle.sedan.speed=25 km/h", "vehicle.sedan.front=-6 -1.75 m",
+       "vehicle.sedan.brake.from=1.2 s", "simulation.duration=2 s"});
+  const Recording run = simulate(scene.model);
+  std::optional<double> told, stands;
+  for (const Metric& m : measure(scene.model, run))
+    if (m.key == "run_over_s") told = m.value;
+  for (const Snapshot& s : run.snapshots)
+    for (const ContactRecord& c : s.contacts)
+      if (!stands && c.shapes.b == ShapeKind::tyre && c.shapes.a == ShapeKind::round && c.normal.z() < -0.9 &&
+          c.normal_force > 1000)
+        stands = s.time;
+  ASSERT_TRUE(told && stands);
+  EXPECT_NEAR(*told, *stands, 0.03) << "of a wheel that goes at 25 km/h over 10 cm of arm";
 }
 
 }  // namespace
