@@ -13,11 +13,11 @@
 namespace engine {
 namespace {
 
-constexpr double kFlatSides = 8;       // [-] least exponent
 constexpr double kLeastFacing = 0.98;  // [-] cosine between two sides: beyond 11 degrees an edge touches
 constexpr double kNoBetter = 1e-5;     // [m] by which the second body's side must separate better to be taken: no taking turns
 constexpr double kDepthCounts = 10;    // [-] a centimetre of depth counts like a decimetre of distance
 constexpr double kParallel = 1e-3;     // [rad] edges that cross at less have their corners to stand for them
+constexpr double kRounding = 1e-14;    // [-] of the half thickness
 constexpr double kSamePoint = 0.02;    // [-] of the smaller side: corners that are nearer to each other are one
 
 /// A body, and one of its sides: the axis that points out of it.
@@ -37,6 +37,7 @@ struct Side {
 
 using Plane = Eigen::Vector2d;
 using Quad = std::array<Plane, 4>;
+using Heights = std::array<double, 4>;  // [m] along the normal
 
 double cross(const Plane& a, const Plane& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -59,19 +60,25 @@ using Points = SmallVector<SurfaceContact, 24>;
 
 /// Two sides as they are seen along the normal.
 struct View {
-  Vec3 origin, t1, t2;
+  Vec3 origin, t1, t2, normal;
 
   Plane of(const Vec3& p) const { return {t1.dot(p - origin), t2.dot(p - origin)}; }
+  double height(const Vec3& p) const { return normal.dot(p - origin); }
   Vec3 at(const Plane& p) const { return origin + p.x() * t1 + p.y() * t2; }
 };
 
-/// The corners of a side, in turn about it. The more two sides lean to each other, the nearer to the rim they touch.
-Quad quad_of(const Side& side, double lean, const View& view) {
+/// The corners of a side, in turn about it, and how high they are. The more two sides lean to each other, the nearer to the rim
+/// they touch.
+Quad quad_of(const Side& side, double lean, const View& view, Heights& heights) {
   Quad quad;
   std::size_t i = 0;
-  for (const Vec3& direction : corner_directions(side.shape, side.sign * Vec3::Unit(side.axis), lean))
-    quad[i++] = view.of(side.X * support_point(side.shape, direction));
+  for (const Vec3& direction : corner_directions(side.shape, side.sign * Vec3::Unit(side.axis), lean)) {
+    const Vec3 corner = side.X * support_point(side.shape, direction);
+    heights[i] = view.height(corner);
+    quad[i++] = view.of(corner);
+  }
   std::swap(quad[2], quad[3]);  // they come row by row
+  std::swap(heights[2], heights[3]);
   return quad;
 }
 
@@ -131,41 +138,54 @@ void clip(const View& view, const Side& side_a, const Quad& a, const Side& side_
 }
 
 /// How far along `n` [m] from `p` the surface lies on the side of a body that faces n. Newton from outside: the gauge is convex
-/// along the line, so it comes down on the root from beyond. Not a number where the line misses the body.
+/// along the line, so it comes down on the root from beyond. Being homogeneous, it is its gradient times x. A step s leaves
+/// about (n-1) s^2 / (2 a): one that leaves less than rounding is the last. Not a number where the line misses the body.
 double surface_along(const Side& side, const Vec3& p, const Vec3& n) {
   const Vec3 x_B = side.R.transpose() * (p - side.X.p), n_B = side.R.transpose() * n;
+  const double thinnest = side.shape.semi_axes.minCoeff(), bend = 0.5 * (side.shape.exponent - 1) / thinnest;
   double t = support_value(side.shape, n_B) - n_B.dot(x_B);
   for (int k = 0; k < 20; ++k) {
-    const Vec3 x = x_B + t * n_B;
-    const double slope = gauge_gradient(side.shape, x).dot(n_B);
+    const Vec3 x = x_B + t * n_B, gradient = gauge_gradient(side.shape, x);
+    const double slope = gradient.dot(n_B);
     if (!(slope > 0)) return std::numeric_limits<double>::quiet_NaN();
-    const double step = (gauge(side.shape, x) - 1) / slope;
+    const double step = (gradient.dot(x) - 1) / slope;
     t -= step;
-    if (std::abs(step) < 1e-12) break;
+    if (bend * step * step < kRounding * thinnest) break;
   }
   return t;
 }
 
-/// What lies over a point of the patch: both surfaces, along the normal. Infinitely far where one of them is not there.
-SurfaceContact between(const Side& a, const Side& b, const Vec3& p, const Vec3& normal) {
-  const double to_a = surface_along(a, p, -normal), to_b = surface_along(b, p, normal);
+/// What lies over a corner of the patch: both surfaces, along the normal. A corner of a side is a point of its surface. Infinitely
+/// far where one of them is not there.
+SurfaceContact between(const Side& a, const Heights& of_a, const Side& b, const Heights& of_b, const Corner& corner,
+                       const View& view) {
+  const std::uint32_t i = corner.key - 1;  // as Clip counts: the corners of a, those of b, crossings
+  const Vec3 p = view.at(corner.at);
+  const double to_a = i < 4 ? -of_a[i] : surface_along(a, p, -view.normal);
+  const double to_b = i >= 4 && i < 8 ? of_b[i - 4] : surface_along(b, p, view.normal);
   SurfaceContact c;
-  c.normal = normal;
-  c.p_a = p - to_a * normal;
-  c.p_b = p + to_b * normal;
+  c.normal = view.normal;
+  c.p_a = p - to_a * view.normal;
+  c.p_b = p + to_b * view.normal;
   c.gap = std::isfinite(to_a + to_b) ? -to_a - to_b : std::numeric_limits<double>::infinity();
+  c.key = corner.key;
   return c;
 }
 
 /// The largest distance [m] of the two along an axis of either, negative where they overlap along all, and that axis, from b to a.
+/// Along its own axis a body reaches as far as that semi-axis, along any other at least as far as its share of the longest.
 double separate_along_axes(const Side& a, const Side& b, Vec3& normal) {
   const Vec3 d = a.X.p - b.X.p;
   double gap = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < 6; ++i) {
-    Vec3 n = i < 3 ? a.R.col(i) : b.R.col(i - 3);
+    const Side &own = i < 3 ? a : b, &other = i < 3 ? b : a;
+    Vec3 n = own.R.col(i % 3);
     if (n.dot(d) < 0) n = -n;
-    const double along = n.dot(d) - support_value(a.shape, a.R.transpose() * n) - support_value(b.shape, b.R.transpose() * n);
-    if (along > gap + (i < 3 ? 0 : kNoBetter)) gap = along, normal = n;
+    const double least = gap + (i < 3 ? 0 : kNoBetter), beyond_own = n.dot(d) - own.shape.semi_axes[i % 3];
+    const Vec3 n_other = other.R.transpose() * n;
+    if (beyond_own - other.shape.semi_axes.cwiseProduct(n_other.cwiseAbs()).maxCoeff() <= least) continue;
+    const double along = beyond_own - support_value(other.shape, n_other);
+    if (along > least) gap = along, normal = n;
   }
   return gap;
 }
@@ -202,14 +222,15 @@ FacesMeet contacts_of_faces(const HyperEllipsoid& A, const Pose& X_WA, const Hyp
   if (-a.out().dot(b.out()) < kLeastFacing) return FacesMeet::other;
 
   const Vec3 t1 = normal.unitOrthogonal();
-  const View view{X_WB.p, t1, normal.cross(t1)};
+  const View view{X_WB.p, t1, normal.cross(t1), normal};
   Corners corners;
   const double lean = std::max(kCornerLean, a.out().cross(b.out()).norm());
-  clip(view, a, quad_of(a, lean, view), b, quad_of(b, lean, view), corners);
+  Heights of_a, of_b;
+  const Quad quad_a = quad_of(a, lean, view, of_a), quad_b = quad_of(b, lean, view, of_b);
+  clip(view, a, quad_a, b, quad_b, corners);
   Points points;
   for (const Corner& corner : corners) {
-    SurfaceContact c = between(a, b, view.at(corner.at), normal);
-    c.key = corner.key;
+    const SurfaceContact c = between(a, of_a, b, of_b, corner, view);
     if (c.gap < margin) points.push_back(c);
   }
   keep_four(points);

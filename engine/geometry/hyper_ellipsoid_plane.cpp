@@ -3,8 +3,20 @@
 #include <algorithm>
 
 #include "engine/geometry/face_corners.h"
+#include "engine/math/functions.h"
 
 namespace engine {
+namespace {
+
+/// [-] The corners of a side of half depth a stand above it by 2 a lean^(n/(n-1)) / n, to first order.
+double lean_of_corners(const HyperEllipsoid& shape, int face) {
+  constexpr double kHighest = 0.9 * kNoDeeper;
+  const double n = shape.exponent, most = 0.5 * n * kHighest / shape.semi_axes[face];
+  if (n < kFlatSides || most >= kCornerLean) return kCornerLean;
+  return std::min(kCornerLean, math::pow(most, 1 - 1 / n));
+}
+
+}  // namespace
 
 std::array<Vec3, 4> corner_directions(const HyperEllipsoid& shape, const Vec3& direction, double lean) {
   int face = 0;
@@ -20,6 +32,12 @@ std::array<Vec3, 4> corner_directions(const HyperEllipsoid& shape, const Vec3& d
     out[static_cast<std::size_t>(corner)] = leaned.normalized();
   }
   return out;
+}
+
+std::array<Vec3, 4> corner_directions(const HyperEllipsoid& shape, const Vec3& direction) {
+  int face = 0;
+  direction.cwiseAbs().maxCoeff(&face);
+  return corner_directions(shape, direction, lean_of_corners(shape, face));
 }
 
 bool corners_carry(const HyperEllipsoid& shape, const Vec3& direction) {
