@@ -1,7 +1,9 @@
 // Keys bound to fields: `bound<&Shot::speed>({"speed", Type::number, ...})` is all a key needs whose value goes as it is into a
-// field. `Reader::fill` reads them; schema, reference and refusal come from the same line.
+// field. `Reader::fill` reads them; schema, reference and refusal come from the same line. Where a section makes something else of
+// its values, they are fields of a struct in the section's file.
 #pragma once
 
+#include <array>
 #include <type_traits>
 
 #include "scenes/loader/reader.h"
@@ -42,6 +44,39 @@ constexpr Key bound(Key key) {
   return key;
 }
 
+/// The key of a value that two fields take alike.
+template <auto first, auto second>
+constexpr Key bound_to_both(Key key) {
+  using Object = typename detail::MemberOf<decltype(first)>::Class;
+  key.owner = &detail::kOwner<Object>;
+  key.fill = [](Reader& r, std::string_view name, void* object) {
+    Object& out = *static_cast<Object*>(object);
+    if (r.read(name, out.*first)) out.*second = out.*first;
+  };
+  return key;
+}
+
+/// The key of a range whose ends are two fields.
+template <auto lower, auto upper>
+constexpr Key bound_to_ends(Key key) {
+  using Object = typename detail::MemberOf<decltype(lower)>::Class;
+  key.owner = &detail::kOwner<Object>;
+  key.fill = [](Reader& r, std::string_view name, void* object) {
+    Object& out = *static_cast<Object*>(object);
+    if (std::array<double, 2> ends{}; r.read(name, ends)) out.*lower = ends[0], out.*upper = ends[1];
+  };
+  return key;
+}
+
+/// The key of a choice of two words: true for the first.
+template <auto field>
+constexpr Key bound_to_first_word(Key key) {
+  using Object = typename detail::MemberOf<decltype(field)>::Class;
+  key.owner = &detail::kOwner<Object>;
+  key.fill = [](Reader& r, std::string_view name, void* object) { static_cast<Object*>(object)->*field = r.choice(name) == 0; };
+  return key;
+}
+
 template <class T>
 void Reader::fill(T& object) {
   for (const Key& key : section_->keys)
@@ -49,9 +84,9 @@ void Reader::fill(T& object) {
 }
 
 template <class T>
-void Reader::read(std::string_view key, T& out) {
+bool Reader::read(std::string_view key, T& out) {
   const Key* line = nullptr;
-  if (!get(key, line)) return;
+  if (!get(key, line)) return false;
   const bool word = line->type == Type::choice;
   if constexpr (std::is_same_v<T, bool>)
     out = word ? choice(key) == 1 : boolean(key);
@@ -73,8 +108,13 @@ void Reader::read(std::string_view key, T& out) {
     out = numbers(key);
   else if constexpr (std::is_same_v<T, std::vector<std::string>>)
     out = texts(key);
+  else if constexpr (std::is_same_v<T, std::array<double, 2>>)
+    out = range(key);
+  else if constexpr (std::is_same_v<T, std::array<float, 3>>)
+    out = colour(key);
   else
-    read(key, out.emplace());
+    read(key, out.emplace());  // std::optional
+  return true;
 }
 
 }  // namespace scenes

@@ -59,28 +59,37 @@ extern const Section kSnapshotSection, kExpectSection;
 
 // Shared by several sections.
 
-/// Attitude from the keys attitude (roll pitch yaw) or quaternion. Roll about x, then pitch about y, then yaw about z, all world
-/// axes.
+/// Keys attitude or quaternion. Roll about x, then pitch about y, then yaw about z, all world axes.
+struct Attitude {
+  engine::Vec3 roll_pitch_yaw = engine::Vec3::Zero();  // [rad]
+  std::optional<std::vector<double>> quaternion;       // [w, x, y, z]
+};
 engine::Quat read_attitude(Reader&);
+/// Where on the ground a vehicle or person is at the start, and how it moves.
+struct Placing {
+  engine::Vec3 position = engine::Vec3::Zero();  // [m] world x, y
+  double heading = 0;                            // [rad]
+  double speed = 0;                              // [m/s] along the heading
+  std::optional<engine::Vec3> velocity;          // [m/s] world, in place of speed
+
+  engine::Vec3 ahead() const;
+  /// Tells of a velocity beside a speed.
+  engine::Vec3 v(Reader&) const;
+};
 /// Index of the body a key names; -1 for the world (key `parent` only) and, with an error told, for none.
 int find_body(Builder&, Reader&, std::string_view key);
 /// friction, restitution, each also as _body and _ground, and stiffness on top of `base`.
 engine::SurfaceProperties read_surface(Reader&, engine::SurfaceProperties base);
 /// Checks that an inertia tensor belongs to some distribution of mass: positive, and no moment above the sum of the others.
 void check_inertia(Reader&, std::string_view key, const engine::Mat3& inertia);
-/// range, stiffness, rest, damping, friction_torque on top of `base`.
-engine::JointCoordinate read_angle(Reader&, engine::JointCoordinate base);
-render::MaterialKind read_material_kind(Reader&, std::string_view key);
 /// Tells of a name that is no camera's.
 void check_camera_name(Builder&, Reader&, const std::string& name, std::string_view key);
 
 /// Keys that several sections list in their tables.
-inline constexpr Key kSurfaceFriction{"friction",
-                                      Type::schedule,
-                                      Dimension::none,
-                                      "",
-                                      "Coulomb coefficient, sets both kinds below. Of two objects the smaller acts.",
-                                      kNotNegative};
+inline constexpr Key kSurfaceFriction =
+    bound_to_both<&engine::SurfaceProperties::friction_body, &engine::SurfaceProperties::friction_ground>(
+        {"friction", Type::schedule, Dimension::none, "",
+         "Coulomb coefficient, sets both kinds below. Of two objects the smaller acts.", kNotNegative});
 inline constexpr Key kSurfaceStiffness = bound<&engine::SurfaceProperties::stiffness>(
     {"stiffness", Type::schedule, Dimension::stiffness, "",
      "S of the compliant contact law; two surfaces act in series. Left out: 400 kN/m.", kPositive});
@@ -88,13 +97,10 @@ inline constexpr Key kSurfaceFrictionBody = bound<&engine::SurfaceProperties::fr
     {"friction_body", Type::schedule, Dimension::none, "", "Coulomb coefficient against every other object.", kNotNegative});
 inline constexpr Key kSurfaceFrictionGround = bound<&engine::SurfaceProperties::friction_ground>(
     {"friction_ground", Type::schedule, Dimension::none, "", "Coulomb coefficient against the ground.", kNotNegative});
-inline constexpr Key kSurfaceRestitution{
-    "restitution",
-    Type::schedule,
-    Dimension::none,
-    "",
-    "Ratio of separating to closing normal speed, sets both kinds below. Of two objects the larger acts.",
-    kShare};
+inline constexpr Key kSurfaceRestitution =
+    bound_to_both<&engine::SurfaceProperties::restitution_body, &engine::SurfaceProperties::restitution_ground>(
+        {"restitution", Type::schedule, Dimension::none, "",
+         "Ratio of separating to closing normal speed, sets both kinds below. Of two objects the larger acts.", kShare});
 inline constexpr Key kSurfaceRestitutionBody = bound<&engine::SurfaceProperties::restitution_body>(
     {"restitution_body", Type::schedule, Dimension::none, "", "The same against every other object.", kShare});
 inline constexpr Key kSurfaceRestitutionGround = bound<&engine::SurfaceProperties::restitution_ground>(

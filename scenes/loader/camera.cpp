@@ -11,6 +11,10 @@ namespace {
 
 constexpr double kFilmHeight = 0.024;  // [m] of the 35 mm still format that focal lengths are spoken of in
 
+struct Lens {
+  std::optional<double> focal_length;  // [m] in place of the angle of view
+};
+
 const Key kKnotKeys[] = {
     bound<&render::CameraKnot::time>({"time", Type::number, Dimension::time, kRequired, "When the camera is there.", kNotNegative}),
     bound<&render::CameraKnot::position>(
@@ -38,16 +42,16 @@ const Key kCameraKeys[] = {
         {"follow", Type::text, Dimension::none, "''", "The subject: a body, a vehicle or a person. Empty: the world."}),
     bound<&render::Camera::vertical_fov>(
         {"fov", Type::number, Dimension::angle, "'40 deg'", "Vertical angle of view.", between(0.02, 2.6)}),
-    {"lens",
-     Type::number,
-     Dimension::length,
-     "",
-     "Focal length in place of fov, for a picture 24 mm high (35 mm still format): \"50 mm\".",
-     between(0.006, 1),
-     {},
-     nullptr,
-     {},
-     between(0.006, 0.25)},
+    bound<&Lens::focal_length>({"lens",
+                                Type::number,
+                                Dimension::length,
+                                "",
+                                "Focal length in place of fov, for a picture 24 mm high (35 mm still format): \"50 mm\".",
+                                between(0.006, 1),
+                                {},
+                                nullptr,
+                                {},
+                                between(0.006, 0.25)}),
     bound<&render::Camera::orbit_radius>({"radius", Type::number, Dimension::length, "'8 m'", "Orbit: distance.", kPositive}),
     bound<&render::Camera::orbit_height>({"height", Type::number, Dimension::length, "'2.5 m'", "Orbit: above the subject."}),
     bound<&render::Camera::orbit_start>(
@@ -110,7 +114,9 @@ void read_knots(Reader& r, render::Camera& camera) {
 
 void read_camera(Builder& builder, Reader& r) {
   render::Camera camera;
+  Lens lens;
   r.fill(camera);
+  r.fill(lens);
   for (const render::Camera& other : builder.scene.stage.cameras)
     if (other.name == camera.name) r.fail("name", "this name is already used; every camera needs a name of its own");
   if (!camera.follow.empty() && !subject_exists(builder, camera.follow)) {
@@ -120,7 +126,7 @@ void read_camera(Builder& builder, Reader& r) {
     r.fail("follow", guess.empty() ? "is no body, vehicle or person of the scene"
                                    : fmt::format("is no body, vehicle or person of the scene; did you mean \"{}\"?", guess));
   }
-  if (const auto lens = r.number_if("lens")) camera.vertical_fov = 2 * engine::math::atan(kFilmHeight / 2 / *lens);
+  if (lens.focal_length) camera.vertical_fov = 2 * engine::math::atan(kFilmHeight / 2 / *lens.focal_length);
   if (r.has("lens") && r.has("fov")) r.fail("lens", "says the same as fov; give one of them");
   const bool straight = camera.kind == render::CameraKind::fixed || camera.kind == render::CameraKind::eye;
   if (straight && (camera.position - camera.target).norm() < 1e-6) {

@@ -44,20 +44,34 @@ const Key kWheelKeys[] = {
     {"mesh", Type::path, Dimension::none, "", "Its own mesh, like twin tyres, in place of the vehicle's wheel_mesh."},
 };
 
+/// What the first force of an act follows from.
+struct Reaction {
+  double from = 0, lag = 0;  // [s]
+};
+
+/// One braking by the driver.
+struct Braking {
+  double build_up = 0, deceleration = 0;  // [s], [m/s^2]
+  std::optional<double> until;            // [s]
+};
+
 const Key kBrakeKeys[] = {
-    {"from", Type::number, Dimension::time, "'0 s'", "When the pedal is pressed; may be negative: before the scene begins."},
-    {"lag", Type::number, Dimension::time, "'0 s'", "Until the first force.", kNotNegative},
-    {"build_up", Type::number, Dimension::time, "'0.2 s'", "From the first force to the full one.", kNotNegative},
-    {"until", Type::number, Dimension::time, "", "When the pedal is let go; left out: never."},
-    {"deceleration", Type::number, Dimension::acceleration, "'0.7 g'",
-     "That the full brake force would give this mass; the tyres may give less.", kNotNegative},
+    bound<&Reaction::from>(
+        {"from", Type::number, Dimension::time, "'0 s'", "When the pedal is pressed; may be negative: before the scene begins."}),
+    bound<&Reaction::lag>({"lag", Type::number, Dimension::time, "'0 s'", "Until the first force.", kNotNegative}),
+    bound<&Braking::build_up>(
+        {"build_up", Type::number, Dimension::time, "'0.2 s'", "From the first force to the full one.", kNotNegative}),
+    bound<&Braking::until>({"until", Type::number, Dimension::time, "", "When the pedal is let go; left out: never."}),
+    bound<&Braking::deceleration>({"deceleration", Type::number, Dimension::acceleration, "'0.7 g'",
+                                   "That the full brake force would give this mass; the tyres may give less.", kNotNegative}),
 };
 
 const Key kDriverKeys[] = {
     bound<&engine::DriverPhase::drives>(
         {"action", Type::choice, Dimension::none, "'brake'", "What is done. To coast needs no act.", kAny, "brake|accelerate"}),
-    {"from", Type::number, Dimension::time, "'0 s'", "When it begins; may be negative: before the scene begins."},
-    {"lag", Type::number, Dimension::time, "'0 s'", "Reaction and lag until the first force.", kNotNegative},
+    bound<&Reaction::from>(
+        {"from", Type::number, Dimension::time, "'0 s'", "When it begins; may be negative: before the scene begins."}),
+    bound<&Reaction::lag>({"lag", Type::number, Dimension::time, "'0 s'", "Reaction and lag until the first force.", kNotNegative}),
     bound<&engine::DriverPhase::build_up>(
         {"build_up", Type::number, Dimension::time, "'0.2 s'", "From the first force to the full one.", kNotNegative}),
     bound<&engine::DriverPhase::until>({"until", Type::number, Dimension::time, "", "When it ends; left out: never."}),
@@ -69,8 +83,12 @@ const Key kDriverKeys[] = {
                                         "or evenly at the driven wheels."}),
 };
 
+struct PathPoint {
+  engine::Vec3 at = engine::Vec3::Zero();  // [m] world
+};
+
 const Key kPathPointKeys[] = {
-    {"at", Type::vector2, Dimension::length, kRequired, "World x, y."},
+    bound<&PathPoint::at>({"at", Type::vector2, Dimension::length, kRequired, "World x, y."}),
 };
 const Section kPathPointSection{"vehicle.path.point", "[[vehicle.path.point]]", "A point of the path, in order.", kPathPointKeys};
 const Key kPathKeys[] = {
@@ -113,18 +131,19 @@ void read_wheels(Reader& r, const engine::Vec3& cg, engine::Vehicle& vehicle) {
 void read_brake(Reader& r, double mass, engine::Vehicle& vehicle) {
   auto brake = r.table("brake");
   if (!brake) return;
-  vehicle.brake_force = mass * brake->number("deceleration");
-  const double first = brake->number("from") + brake->number("lag");
-  const double full = first + brake->number("build_up");
+  Reaction reaction;
+  Braking braking;
+  brake->fill(reaction);
+  brake->fill(braking);
+  vehicle.brake_force = mass * braking.deceleration;
+  const double first = reaction.from + reaction.lag;
+  const double full = first + braking.build_up;
   std::vector<engine::Schedule::Knot> knots{{first, 0}, {full, 1}};
-  if (brake->has("until")) {
-    const double until = brake->number("until");
-    if (until < full) {
-      brake->fail("until", "must not be earlier than the end of the build-up");
-    } else {
-      knots.push_back({until, 1});
-      knots.push_back({until, 0});
-    }
+  if (braking.until && *braking.until < full) {
+    brake->fail("until", "must not be earlier than the end of the build-up");
+  } else if (braking.until) {
+    knots.push_back({*braking.until, 1});
+    knots.push_back({*braking.until, 0});
   }
   vehicle.brake = engine::Schedule(std::move(knots));
 }
@@ -132,8 +151,10 @@ void read_brake(Reader& r, double mass, engine::Vehicle& vehicle) {
 void read_driver(Reader& r, double mass, engine::Vehicle& vehicle) {
   for (Reader& act : r.tables("driver")) {
     engine::DriverPhase phase;
+    Reaction reaction;
     act.fill(phase);
-    phase.first_force = act.number("from") + act.number("lag");
+    act.fill(reaction);
+    phase.first_force = reaction.from + reaction.lag;
     if (phase.until < phase.first_force) act.fail("until", "must not be earlier than the first force");
     phase.force *= mass;
     if (!phase.drives && phase.force < 0) act.fail("level", "must not be negative for a brake");
@@ -149,7 +170,9 @@ void read_driver(Reader& r, double mass, engine::Vehicle& vehicle) {
   }
   if (auto path = r.table("path")) {
     for (Reader& point : path->tables("point")) {
-      vehicle.path.points.push_back(point.vector("at"));
+      PathPoint given;
+      point.fill(given);
+      vehicle.path.points.push_back(given.at);
       const auto n = vehicle.path.points.size();
       if (n > 1 && (vehicle.path.points[n - 1] - vehicle.path.points[n - 2]).norm() < 0.01)
         point.fail("at", "must be at least a centimetre from the point before");

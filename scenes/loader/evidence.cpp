@@ -10,21 +10,21 @@ namespace scenes {
 namespace {
 
 const Key kEvidenceKeys[] = {
-    {"name", Type::text, Dimension::none, kRequired, "What it is called in tables and pages."},
-    {"metric", Type::text, Dimension::none, "",
-     "What it is compared with: a measure of summary.json with or without its unit (`throw_distance`, `wrap_around_distance`, "
-     "`delta_v`, "
-     "`ees`, `head_impact_speed`), or `rest_place`, `landing_place` (world x, y), `contact_place` (of the part `of` on the vehicle "
-     "`with`, in the vehicle's axes from its centre of mass), `speed` (at the time `at`, as an event data recorder has it), "
-     "`contact` or "
-     "`no_contact` (of `of` and `with`)."},
+    bound<&Evidence::name>({"name", Type::text, Dimension::none, kRequired, "What it is called in tables and pages."}),
+    bound<&Evidence::metric>(
+        {"metric", Type::text, Dimension::none, "",
+         "What it is compared with: a measure of summary.json with or without its unit (`throw_distance`, `wrap_around_distance`, "
+         "`delta_v`, `ees`, `head_impact_speed`), or `rest_place`, `landing_place` (world x, y), `contact_place` (of the part `of` "
+         "on the vehicle `with`, in the vehicle's axes from its centre of mass), `speed` (at the time `at`, as an event data "
+         "recorder has it), `contact` or `no_contact` (of `of` and `with`)."}),
     {"mark", Type::any, Dimension::none, "",
      "In place of a metric: a skid or scuff mark on the ground as a list of world points, `[\"3.1 -1.2 m\", \"9.8 -1.4 m\"]`. Of a "
      "vehicle it is held against the way its wheels slip, of a person or body against the way it slides."},
-    {"of", Type::text, Dimension::none, "''",
-     "The person, vehicle or body meant, or a part of a person (`pedestrian/head`). Left out where there is only one."},
-    {"with", Type::text, Dimension::none, "''", "The other one, of contact_place, contact and no_contact."},
-    {"at", Type::number, Dimension::time, "'0 s'", "The time of `speed`.", kNotNegative},
+    bound<&Evidence::of>(
+        {"of", Type::text, Dimension::none, "''",
+         "The person, vehicle or body meant, or a part of a person (`pedestrian/head`). Left out where there is only one."}),
+    bound<&Evidence::with>({"with", Type::text, Dimension::none, "''", "The other one, of contact_place, contact and no_contact."}),
+    bound<&Evidence::at>({"at", Type::number, Dimension::time, "'0 s'", "The time of `speed`.", kNotNegative}),
     {"value", Type::any, Dimension::none, "", "What was seen: `\"14.2 m\"`, a place as `\"12.1 -3.0 m\"`."},
     {"tolerance", Type::any, Dimension::none, "",
      "How exactly: one standard deviation of everything that may be off (two in three times the truth lies within). Of a mark, "
@@ -93,12 +93,8 @@ void read_mark(Reader& r, Evidence& out) {
 
 void read_one(Builder& builder, Reader& r) {
   Evidence out;
-  out.name = r.text("name");
+  r.fill(out);
   out.place = r.place().text();
-  out.metric = r.text("metric");
-  out.of = r.text("of");
-  out.with = r.text("with");
-  out.at = r.number("at");
   check_name(builder, r, "of", out.of);
   check_name(builder, r, "with", out.with);
   for (const Evidence& other : builder.scene.inference.evidence)

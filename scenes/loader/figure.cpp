@@ -11,30 +11,58 @@
 namespace scenes {
 namespace {
 
+/// What a part's size, mass and mirror image follow from.
+struct SegmentGiven {
+  bool sides = false, lengthwise = false;
+  std::optional<std::vector<double>> mass_male, mass_female;  // regressions
+  std::optional<double> mass_share;                           // [-]
+};
+
 const Key kFigureSegmentKeys[] = {
     bound<&Segment::name>(
         {"name", Type::text, Dimension::none, kRequired, "Name of the part; with sides it becomes left_NAME and right_NAME."}),
-    {"sides", Type::boolean, Dimension::none, "false", "Given for the left side; the right one is its mirror image."},
-    {"centre", Type::vector3, Dimension::length, kRequired, "Centre when standing, x forward, y left, z above the soles."},
-    {"axes", Type::vector3, Dimension::length, kRequired, "Semi-axes.", kExtent},
-    {"exponent", Type::number, Dimension::none, "2", "Exponent n.", between(2, 100), {}, nullptr, "a hyper-ellipsoid needs n >= 2"},
-    {"mass_male", Type::numbers, Dimension::none, "",
-     "[b0, b1, b2]: mass in kg = b0 + b1 mass/kg + b2 stature/cm; all parts are then scaled to the person's mass."},
-    {"mass_female", Type::numbers, Dimension::none, "", "The same for women; left out: as for men."},
-    {"mass_share", Type::number, Dimension::none, "", "Share of the person's mass, in place of a regression.", kPositive},
-    {"lengthwise", Type::boolean, Dimension::none, "false", "Its x axis grows with stature, like a foot."},
+    bound<&SegmentGiven::sides>(
+        {"sides", Type::boolean, Dimension::none, "false", "Given for the left side; the right one is its mirror image."}),
+    bound<&Segment::centre>(
+        {"centre", Type::vector3, Dimension::length, kRequired, "Centre when standing, x forward, y left, z above the soles."}),
+    bound<&Segment::shape, &engine::HyperEllipsoid::semi_axes>(
+        {"axes", Type::vector3, Dimension::length, kRequired, "Semi-axes.", kExtent}),
+    bound<&Segment::shape, &engine::HyperEllipsoid::exponent>({"exponent",
+                                                               Type::number,
+                                                               Dimension::none,
+                                                               "2",
+                                                               "Exponent n.",
+                                                               between(2, 100),
+                                                               {},
+                                                               nullptr,
+                                                               "a hyper-ellipsoid needs n >= 2"}),
+    bound<&SegmentGiven::mass_male>(
+        {"mass_male", Type::numbers, Dimension::none, "",
+         "[b0, b1, b2]: mass in kg = b0 + b1 mass/kg + b2 stature/cm; all parts are then scaled to the person's mass."}),
+    bound<&SegmentGiven::mass_female>(
+        {"mass_female", Type::numbers, Dimension::none, "", "The same for women; left out: as for men."}),
+    bound<&SegmentGiven::mass_share>(
+        {"mass_share", Type::number, Dimension::none, "", "Share of the person's mass, in place of a regression.", kPositive}),
+    bound<&SegmentGiven::lengthwise>(
+        {"lengthwise", Type::boolean, Dimension::none, "false", "Its x axis grows with stature, like a foot."}),
     bound<&Segment::stiffness>({"stiffness", Type::number, Dimension::stiffness, "'400 kN/m'",
                                 "What it yields by against whatever it touches, in series with it.", kPositive}),
-    {"cloth", Type::colour, Dimension::none, "'#808080'", "Colour."},
+    bound<&Segment::material, &render::Material::colour>({"cloth", Type::colour, Dimension::none, "'#808080'", "Colour."}),
 };
 const Section kSegmentSectionOfFigure{"figure.segment", "[[segment]]", "In a person's library file: one part.", kFigureSegmentKeys};
+
+enum class Turn { x, minus_x, y, minus_y, z, minus_z };
+struct AngleGiven {
+  Turn about = Turn::x;
+};
 
 const Key kFigureAngleKeys[] = {
     bound<&AnatomicalAngle::name>(
         {"name", Type::text, Dimension::none, kRequired, "The word used in poses: JOINT_NAME, like knee_flexion."}),
-    {"about", Type::choice, Dimension::none, kRequired, "Axis of the standing person that a positive angle turns about.", kAny,
-     "+x|-x|+y|-y|+z|-z"},
-    {"range", Type::range, Dimension::angle, kRequired, "Range of motion."},
+    bound<&AngleGiven::about>({"about", Type::choice, Dimension::none, kRequired,
+                               "Axis of the standing person that a positive angle turns about.", kAny, "+x|-x|+y|-y|+z|-z"}),
+    bound_to_ends<&AnatomicalAngle::lower, &AnatomicalAngle::upper>(
+        {"range", Type::range, Dimension::angle, kRequired, "Range of motion."}),
     bound<&AnatomicalAngle::word>(
         {"word", Type::text, Dimension::none, "''",
          "Another word for poses. Angles of several joints that have one in common take an even part of it each."}),
@@ -42,12 +70,18 @@ const Key kFigureAngleKeys[] = {
 const Section kAngleSectionOfFigure{"figure.joint.angle", "[[joint.angle]]", "In a person's library file: one angle of a joint.",
                                     kFigureAngleKeys};
 
+struct JointGiven {
+  bool sides = false;
+};
+
 const Key kFigureJointKeys[] = {
-    {"name", Type::text, Dimension::none, kRequired, "Name of the joint; with sides left_NAME and right_NAME."},
-    {"sides", Type::boolean, Dimension::none, "false", "Given for the left side; the right one is its mirror image."},
+    bound<&FigureJoint::name>(
+        {"name", Type::text, Dimension::none, kRequired, "Name of the joint; with sides left_NAME and right_NAME."}),
+    bound<&JointGiven::sides>(
+        {"sides", Type::boolean, Dimension::none, "false", "Given for the left side; the right one is its mirror image."}),
     {"parent", Type::text, Dimension::none, kRequired, "The part nearer to the root."},
     {"child", Type::text, Dimension::none, kRequired, "The part it carries."},
-    {"at", Type::vector3, Dimension::length, kRequired, "Its centre when standing."},
+    bound<&FigureJoint::at>({"at", Type::vector3, Dimension::length, kRequired, "Its centre when standing."}),
     {"angle",
      Type::tables,
      Dimension::none,
@@ -75,13 +109,21 @@ const Key kFigureJointKeys[] = {
 const Section kJointSectionOfFigure{"figure.joint", "[[joint]] of a person's file", "In a person's library file: one joint.",
                                     kFigureJointKeys};
 
+/// Whom the file is made for.
+struct FigureGiven {
+  std::string title, root;
+  double stature = 0, mass = 0;                           // [m], [kg]
+  std::optional<std::array<double, 2>> statures, masses;  // [m], [kg]
+};
+
 const Key kFigureKeys[] = {
-    {"title", Type::text, Dimension::none, "''", "What it is."},
-    {"stature", Type::number, Dimension::length, kRequired, "Stature the figures are for.", kPositive},
-    {"mass", Type::number, Dimension::mass, kRequired, "Mass the figures are for.", kPositive},
-    {"statures", Type::range, Dimension::length, "", "Statures it may be sized to. Left out: any."},
-    {"masses", Type::range, Dimension::mass, "", "Masses it may be sized to. Left out: any."},
-    {"root", Type::text, Dimension::none, kRequired, "The part all others hang on."},
+    bound<&FigureGiven::title>({"title", Type::text, Dimension::none, "''", "What it is."}),
+    bound<&FigureGiven::stature>(
+        {"stature", Type::number, Dimension::length, kRequired, "Stature the figures are for.", kPositive}),
+    bound<&FigureGiven::mass>({"mass", Type::number, Dimension::mass, kRequired, "Mass the figures are for.", kPositive}),
+    bound<&FigureGiven::statures>({"statures", Type::range, Dimension::length, "", "Statures it may be sized to. Left out: any."}),
+    bound<&FigureGiven::masses>({"masses", Type::range, Dimension::mass, "", "Masses it may be sized to. Left out: any."}),
+    bound<&FigureGiven::root>({"root", Type::text, Dimension::none, kRequired, "The part all others hang on."}),
     {"segment", Type::tables, Dimension::none, kRequired, "Parts.", kAny, {}, &kSegmentSectionOfFigure},
     {"joint", Type::tables, Dimension::none, kRequired, "Joints.", kAny, {}, &kJointSectionOfFigure},
 };
@@ -95,13 +137,13 @@ struct Scaling {
 };
 
 /// Mass of a part before all are scaled to the person's [kg].
-double part_mass(Reader& r, const PersonSize& size) {
-  if (r.has("mass_share") == r.has("mass_male")) r.fail_here("must have either mass_male or mass_share");
-  if (r.has("mass_share")) return r.number("mass_share") * size.mass;
-  const char* key = size.female && r.has("mass_female") ? "mass_female" : "mass_male";
-  const std::vector<double> b = r.numbers(key);
+double part_mass(Reader& r, const SegmentGiven& given, const PersonSize& size) {
+  if (given.mass_share.has_value() == given.mass_male.has_value()) r.fail_here("must have either mass_male or mass_share");
+  if (given.mass_share) return *given.mass_share * size.mass;
+  const bool female = size.female && given.mass_female;
+  const std::vector<double> b = (female ? given.mass_female : given.mass_male).value_or(std::vector<double>{});
   if (b.size() != 3) {
-    r.fail(key, "must be three numbers [b0, b1, b2]");
+    r.fail(female ? "mass_female" : "mass_male", "must be three numbers [b0, b1, b2]");
     return 1;
   }
   return b[0] + b[1] * size.mass + b[2] * size.stature * 100;
@@ -109,17 +151,18 @@ double part_mass(Reader& r, const PersonSize& size) {
 
 void read_segment(Reader& r, const Scaling& scale, std::vector<Segment>& out) {
   Segment s;
+  SegmentGiven given;
   r.fill(s);
-  const bool lengthwise = r.boolean("lengthwise");
-  const engine::Vec3 grow{lengthwise ? scale.along : scale.across, scale.across, scale.along};
-  s.centre = r.vector("centre").cwiseProduct(grow);
-  s.shape = {r.vector("axes").cwiseProduct(grow), std::max(2.0, r.number("exponent"))};
-  s.mass = part_mass(r, scale.size);
-  const auto colour = r.colour("cloth");
+  r.fill(given);
+  const engine::Vec3 grow{given.lengthwise ? scale.along : scale.across, scale.across, scale.along};
+  s.centre = s.centre.cwiseProduct(grow);
+  s.shape = {s.shape.semi_axes.cwiseProduct(grow), std::max(2.0, s.shape.exponent)};
+  s.mass = part_mass(r, given, scale.size);
+  const auto colour = s.material.colour;
   // bare parts are lit as skin: their red clearly above their blue, and light
   const bool bare = colour[0] > 0.4f && colour[0] > 1.6f * colour[2];
   s.material = {s.name, bare ? render::MaterialKind::skin : render::MaterialKind::cloth, colour, 0.8f, 1.0f};
-  if (!r.boolean("sides")) {
+  if (!given.sides) {
     out.push_back(s);
     return;
   }
@@ -134,9 +177,10 @@ void read_segment(Reader& r, const Scaling& scale, std::vector<Segment>& out) {
 std::vector<AnatomicalAngle> read_angles(Reader& r) {
   std::vector<AnatomicalAngle> out;
   for (Reader& angle : r.tables("angle")) {
-    const int about = angle.choice("about");
-    const auto [lower, upper] = angle.range("range");
-    angle.fill(out.emplace_back(AnatomicalAngle{"", engine::Vec3::Unit(about / 2) * (about % 2 == 0 ? 1 : -1), lower, upper, ""}));
+    AngleGiven given;
+    angle.fill(given);
+    const int about = static_cast<int>(given.about);
+    angle.fill(out.emplace_back(AnatomicalAngle{"", engine::Vec3::Unit(about / 2) * (about % 2 == 0 ? 1 : -1), 0, 0, ""}));
     if (out.back().word.empty()) out.back().word = r.text("name") + "_" + out.back().name;
   }
   constexpr int kOrder[] = {1, 0, 2};
@@ -158,13 +202,16 @@ int segment_index(Reader& r, const std::vector<Segment>& segments, std::string_v
 
 void read_joint_of_figure(Reader& r, const Scaling& scale, Figure& figure) {
   FigureJoint j;
+  JointGiven given;
   const std::vector<AnatomicalAngle> angles = read_angles(r);
   r.fill(j);
-  const engine::Vec3 at = r.vector("at").cwiseProduct(engine::Vec3{scale.across, scale.across, scale.along});
-  const bool sides = r.boolean("sides");
+  r.fill(given);
+  const std::string name = j.name;
+  const engine::Vec3 at = j.at.cwiseProduct(engine::Vec3{scale.across, scale.across, scale.along});
+  const bool sides = given.sides;
   for (const std::string side : {"left_", "right_"}) {
     const bool right = sides && side == "right_";
-    j.name = (sides ? side : "") + r.text("name");
+    j.name = (sides ? side : "") + name;
     j.parent = segment_index(r, figure.segments, "parent", sides ? side : "");
     j.child = segment_index(r, figure.segments, "child", sides ? side : "");
     j.at = right ? at.cwiseProduct(kMirror) : at;
@@ -180,8 +227,7 @@ void read_joint_of_figure(Reader& r, const Scaling& scale, Figure& figure) {
 }
 
 /// Root first, and joints so that a parent is placed before its children. Reports parts that hang on nothing.
-void sort_tree(Reader& r, Figure& figure) {
-  const std::string root = r.text("root");
+void sort_tree(Reader& r, const std::string& root, Figure& figure) {
   const auto at = std::find_if(figure.segments.begin(), figure.segments.end(), [&](const Segment& s) { return s.name == root; });
   if (at == figure.segments.end()) return r.fail("root", "is no part of this person");
   const int root_index = static_cast<int>(at - figure.segments.begin());
@@ -214,19 +260,16 @@ const Section kFigureSection{"figure", "scenes/library/persons/NAME.toml",
 namespace {
 
 /// The person's size, within what the figure is made for.
-PersonSize read_size(Builder& builder, Reader& person, Reader& figure) {
-  PersonSize size{figure.number("stature"), figure.number("mass"), person.choice("sex") == 1};
-  auto read = [&](std::string_view key, std::string_view limits, const char* unit, double& value) {
-    if (!person.has(key)) return;
-    value = person.number(key);
-    if (!figure.has(limits)) return;
-    const auto [lower, upper] = figure.range(limits);
-    if (value >= lower && value <= upper) return;
-    person.fail(key, fmt::format("must lie in {:.4g}..{:.4g} {} for the figure {}; the library of persons has {}", lower, upper,
-                                 unit, person.text("figure"), fmt::join(library_names(builder, "persons"), ", ")));
+PersonSize read_size(Builder& builder, Reader& person, const FigureGiven& figure) {
+  PersonSize size{figure.stature, figure.mass};
+  person.fill(size);
+  const auto check = [&](std::string_view key, const std::optional<std::array<double, 2>>& limits, const char* unit, double value) {
+    if (!person.has(key) || !limits || (value >= (*limits)[0] && value <= (*limits)[1])) return;
+    person.fail(key, fmt::format("must lie in {:.4g}..{:.4g} {} for the figure {}; the library of persons has {}", (*limits)[0],
+                                 (*limits)[1], unit, person.text("figure"), fmt::join(library_names(builder, "persons"), ", ")));
   };
-  read("stature", "statures", "m", size.stature);
-  read("mass", "masses", "kg", size.mass);
+  check("stature", figure.statures, "m", size.stature);
+  check("mass", figure.masses, "kg", size.mass);
   return size;
 }
 
@@ -241,15 +284,17 @@ Figure read_figure(Builder& builder, Reader& person, PersonSize& size) {
   }
   const std::size_t errors_before = builder.errors.count();
   Reader r(*tree, kFigureSection, name, builder.errors);
-  size = read_size(builder, person, r);
+  FigureGiven given;
+  r.fill(given);
+  size = read_size(builder, person, given);
   if (!(size.stature > 0) || !(size.mass > 0) || builder.errors.count() != errors_before) return {};
-  const double along = size.stature / r.number("stature");
-  const Scaling scale{along, std::sqrt(size.mass / r.number("mass") / along), size};
+  const double along = size.stature / given.stature;
+  const Scaling scale{along, std::sqrt(size.mass / given.mass / along), size};
 
   Figure out;
   for (Reader& segment : r.tables("segment")) read_segment(segment, scale, out.segments);
   for (Reader& joint : r.tables("joint")) read_joint_of_figure(joint, scale, out);
-  sort_tree(r, out);
+  sort_tree(r, given.root, out);
   if (builder.errors.count() != errors_before) return {};
 
   double sum = 0;

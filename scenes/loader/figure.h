@@ -68,6 +68,7 @@ engine::Joint engine_joint(const Figure&, const FigureJoint&, const std::vector<
 
 /// Angles of a pose by joint and angle, in the order of the figure; and the attitude of the root.
 struct Pose {
+  std::string title;
   std::vector<std::vector<double>> angles;
   double roll = 0;  // [rad] of the root: about x (forward), then pitch about y (left)
   double pitch = 0;
@@ -79,11 +80,20 @@ Pose read_pose(Builder&, Reader& person, const Figure&);
 /// Attitudes and centres of all segments with the hips' centre at the origin.
 std::vector<engine::Pose> placed(const Figure&, const Pose&, const engine::Quat& q_root);
 engine::Vec3 centre_of_gravity(const Figure&, const std::vector<engine::Pose>& X_WB);
+/// How high a person is at the start.
+struct Standing {
+  double height = 0;                // [m] of the lowest point above the ground
+  std::optional<double> cg_height;  // [m] of the centre of gravity above z = 0, in its place
+};
 /// Moves the person to its position and down to the ground, or to the height the scene gives.
-void set_down(Reader&, const engine::Ground&, const Figure&, std::vector<engine::Pose>& X_WB);
+void set_down(Reader&, const engine::Vec3& position, const engine::Ground&, const Figure&, std::vector<engine::Pose>& X_WB);
 /// The vehicle ridden, -1: none.
 int find_mount(Builder&, Reader&);
+/// Above what force a rider's joints with the mount let go [N].
+struct Hold {
+  double hand = 0, foot = 0, seat = 0;
+};
 /// Joints of hands, feet and seat with the mount, breakable; the mount waits in the zero condition with its rider.
-void hold_on(Builder&, Reader&, int mount, engine::Person&);
+void hold_on(Builder&, const Hold&, int mount, engine::Person&);
 
 }  // namespace scenes

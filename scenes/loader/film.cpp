@@ -10,7 +10,8 @@ const Key kStillKeys[] = {
     bound<&Output::Still::time>({"time", Type::number, Dimension::time, kRequired, "Simulated time.", kNotNegative}),
     bound<&Output::Still::camera>(
         {"camera", Type::text, Dimension::none, "''", "Camera; left out: seen as the film shows this time, two cameras included."}),
-    {"card", Type::integer, Dimension::none, "", "The film's first, second ... card in place of a camera.", between(1, 100)},
+    bound<&Output::Still::card>(
+        {"card", Type::integer, Dimension::none, "", "The film's first, second ... card in place of a camera.", between(1, 100)}),
 };
 const Section kStillSection{"output.still", "[[output.still]]", "Stills a snapshot test draws.", kStillKeys};
 
@@ -26,14 +27,14 @@ const Key kOutputKeys[] = {
 void read_output(Builder& builder, Reader r) {
   Output& out = builder.scene.output;
   r.fill(out);
-  for (const char* key : {"width", "height"}) {
-    if (r.integer(key) % 2 != 0) r.fail(key, "must be even; the video's colour is stored for pairs of pixels");
-  }
+  constexpr const char* kEven = "must be even; the video's colour is stored for pairs of pixels";
+  if (out.width % 2 != 0) r.fail("width", kEven);
+  if (out.height % 2 != 0) r.fail("height", kEven);
   for (Reader& still : r.tables("still")) {
     Output::Still& drawn = out.stills.emplace_back();
     still.fill(drawn);
     if (!drawn.camera.empty()) check_camera_name(builder, still, drawn.camera, "camera");
-    if (still.has("card")) drawn.card = still.integer("card") - 1;
+    if (still.has("card")) --drawn.card;  // counted from 0 in the stage
     const int cards = static_cast<int>(builder.scene.stage.cards.size());
     if (drawn.card >= cards) still.fail("card", fmt::format("must be one of the scene's {} cards", cards));
   }

@@ -13,8 +13,9 @@ const Key kImpactKeys[] = {
     bound<&engine::ImpactSettings::point_W>(
         {"point", Type::vector3, Dimension::length, "",
          "Where the first impulse acts, in the world. Left out: the centroid of the overlap at that moment."}),
-    {"normal", Type::vector3, Dimension::none, "",
-     "Of the contact plane of the first impulse, in the world, either sign. Left out: from the line in which the surfaces cut."},
+    bound<&engine::ImpactSettings::normal_W>({"normal", Type::vector3, Dimension::none, "",
+                                              "Of the contact plane of the first impulse, in the world, either sign. Left out: "
+                                              "from the line in which the surfaces cut."}),
     bound<&engine::ImpactSettings::friction>({"friction", Type::number, Dimension::none, "",
                                               "In the contact plane. Left out: the smaller of the two bodies'.", kNotNegative}),
     bound<&engine::ImpactSettings::restitution>({"restitution", Type::number, Dimension::none, "",
@@ -39,11 +40,9 @@ void read_impact(Builder& builder, Reader r) {
       r.fail(key, "must ask for Kudlich-Slibar, with collision = \"kudlich_slibar\"; Default-Auto has no settings of a pair");
   }
   r.fill(impact);
-  if (const auto normal = r.vector_if("normal")) {
-    if (normal->norm() < 1e-9)
-      r.fail("normal", "must have a direction");
-    else
-      impact.normal_W = normal->normalized();
+  if (auto& normal = impact.normal_W) {
+    if (normal->norm() < 1e-9) r.fail("normal", "must have a direction");
+    normal->normalize();
   }
   builder.scene.model.impacts.push_back(impact);
 }

@@ -15,7 +15,8 @@ constexpr Key kDamping = bound<&engine::JointCoordinate::damping>(
     {"damping", Type::number, Dimension::angular_damping, "", "Resistance per angular speed.", kNotNegative});
 constexpr Key kFriction = bound<&engine::JointCoordinate::friction>(
     {"friction_torque", Type::number, Dimension::torque, "", "Constant resistance against turning.", kNotNegative});
-constexpr Key kRange{"range", Type::range, Dimension::angle, "", "Lower and upper limit of the angle. Left out: free."};
+constexpr Key kRange = bound_to_ends<&engine::JointCoordinate::lower, &engine::JointCoordinate::upper>(
+    {"range", Type::range, Dimension::angle, "", "Lower and upper limit of the angle. Left out: free."});
 
 const Key kAngleKeys[] = {kRange, kStiffness, kRest, kDamping, kFriction};
 const Section kAngleSection{
@@ -25,7 +26,8 @@ const Section kAngleSection{
     kAngleKeys};
 
 const Key kSlideKeys[] = {
-    {"range", Type::range, Dimension::length, "", "Lower and upper limit of the way. Left out: free."},
+    bound_to_ends<&engine::JointCoordinate::lower, &engine::JointCoordinate::upper>(
+        {"range", Type::range, Dimension::length, "", "Lower and upper limit of the way. Left out: free."}),
     bound<&engine::JointCoordinate::stiffness>(
         {"stiffness", Type::number, Dimension::stiffness, "0", "Resistive spring force per way.", kNotNegative}),
     bound<&engine::JointCoordinate::rest>({"rest", Type::number, Dimension::length, "0", "Way at which the spring is slack."}),
@@ -42,8 +44,15 @@ const Section kSlideSection{
     "joint.slide", "[joint.slide]",
     "The slide of a prismatic or cylindrical joint: the way of the joint's centre along axis since the start.", kSlideKeys};
 
+/// What the joint's frames follow from, in the world at the start.
+struct JointPlace {
+  std::optional<engine::Vec3> at;            // [m]
+  engine::Vec3 axis = engine::Vec3::Zero();  // need not be unit
+  std::optional<engine::Vec3> second_axis;   // need not be unit
+};
+
 const Key kJointKeys[] = {
-    {"name", Type::text, Dimension::none, "''", "Name in messages; left out: parent-child."},
+    bound<&engine::Joint::name>({"name", Type::text, Dimension::none, "''", "Name in messages; left out: parent-child."}),
     bound<&engine::Joint::kind>(
         {"kind", Type::choice, Dimension::none, "'spherical'",
          "What it leaves: turns about axis; a cardan cross; all turns; all with limits; nothing; sliding along axis; sliding and "
@@ -51,12 +60,15 @@ const Key kJointKeys[] = {
          kAny, "revolute|universal|spherical|ragdoll|fixed|prismatic|cylindrical"}),
     {"parent", Type::text, Dimension::none, "'world'", "A body, or the world."},
     {"child", Type::text, Dimension::none, kRequired, "The body that hangs on the parent."},
-    {"at", Type::vector3, Dimension::length, "", "The joint's centre at the start, in the world. Left out: the child's centre."},
-    {"axis", Type::vector3, Dimension::none, "[0, 1, 0]",
-     "World direction of the joint frame's y at the start: what a revolute turns about and a prismatic slides along, the "
-     "parent's arm of a cardan cross."},
-    {"second_axis", Type::vector3, Dimension::none, "",
-     "World direction of the joint frame's x, at right angles to axis: the child's arm of a cardan cross."},
+    bound<&JointPlace::at>({"at", Type::vector3, Dimension::length, "",
+                            "The joint's centre at the start, in the world. Left out: the child's centre."}),
+    bound<&JointPlace::axis>(
+        {"axis", Type::vector3, Dimension::none, "[0, 1, 0]",
+         "World direction of the joint frame's y at the start: what a revolute turns about and a prismatic slides along, the "
+         "parent's arm of a cardan cross."}),
+    bound<&JointPlace::second_axis>(
+        {"second_axis", Type::vector3, Dimension::none, "",
+         "World direction of the joint frame's x, at right angles to axis: the child's arm of a cardan cross."}),
     kRange,
     kStiffness,
     kRest,
@@ -74,16 +86,15 @@ const Key kJointKeys[] = {
 
 constexpr std::array<std::string_view, 3> kAngleNames{"x", "y", "z"};
 
-engine::Quat read_frame(Reader& r) {
-  const engine::Vec3 y = r.vector("axis");
-  if (y.norm() < 1e-9) {
+engine::Quat frame_at(Reader& r, const JointPlace& place) {
+  if (place.axis.norm() < 1e-9) {
     r.fail("axis", "must have a direction");
     return engine::Quat::Identity();
   }
-  const engine::Vec3 y_W = y.normalized();
+  const engine::Vec3 y_W = place.axis.normalized();
   // any direction across will do when none is asked for: the world axis farthest from y
   engine::Vec3 x = std::abs(y_W.x()) < 0.9 ? engine::Vec3::UnitX() : engine::Vec3(0, -1, 0);
-  if (const auto given = r.vector_if("second_axis")) {
+  if (const auto& given = place.second_axis) {
     if (std::abs(given->normalized().dot(y_W)) > 1e-6 || given->norm() < 1e-9)
       r.fail("second_axis", "must stand at right angles to axis");
     x = *given;
@@ -111,13 +122,6 @@ int find_body(Builder& builder, Reader& r, std::string_view key) {
 const Section kJointSection{"joint", "[[joint]]",
                             "Ties a body to another or to the world. All angles are zero in the pose at the start.", kJointKeys};
 
-engine::JointCoordinate read_angle(Reader& r, engine::JointCoordinate out) {
-  if (r.has("range"))
-    std::tie(out.lower, out.upper) = [](std::array<double, 2> a) { return std::pair{a[0], a[1]}; }(r.range("range"));
-  r.fill(out);
-  return out;
-}
-
 namespace {
 
 void refuse_what_is_not_free(Reader& r, const engine::Joint& joint) {
@@ -137,23 +141,26 @@ void refuse_what_is_not_free(Reader& r, const engine::Joint& joint) {
 
 void read_joint(Builder& builder, Reader r) {
   engine::Joint joint;
+  JointPlace place;
   r.fill(joint);
+  r.fill(place);
   joint.parent = find_body(builder, r, "parent");
   joint.child = find_body(builder, r, "child");
-  joint.name = r.has("name") ? r.text("name") : r.text("parent") + "-" + r.text("child");
+  if (!r.has("name")) joint.name = r.text("parent") + "-" + r.text("child");
   refuse_what_is_not_free(r, joint);
   const bool complete = joint.child >= 0 && (joint.parent >= 0 || r.text("parent") == "world");
   if (!complete) return;
   if (joint.child == joint.parent) r.fail("child", "must be another body than the parent");
   const engine::Body& child = builder.scene.model.bodies[static_cast<std::size_t>(joint.child)];
-  const engine::Pose X_WF{r.vector_if("at").value_or(child.X_WB.p), read_frame(r)};
+  const engine::Pose X_WF{place.at.value_or(child.X_WB.p), frame_at(r, place)};
   joint.X_CF = child.X_WB.inverse() * X_WF;
   joint.X_PF = joint.parent < 0 ? X_WF : builder.scene.model.bodies[static_cast<std::size_t>(joint.parent)].X_WB.inverse() * X_WF;
-  joint.angles.fill(read_angle(r, {}));
-  for (std::size_t i = 0; i < kAngleNames.size(); ++i) {
-    if (auto angle = r.table(kAngleNames[i])) joint.angles[i] = read_angle(*angle, joint.angles[i]);
-  }
-  if (auto slide = r.table("slide")) joint.slide = read_angle(*slide, {});
+  engine::JointCoordinate all;
+  r.fill(all);
+  joint.angles.fill(all);
+  for (std::size_t i = 0; i < kAngleNames.size(); ++i)
+    if (auto angle = r.table(kAngleNames[i])) angle->fill(joint.angles[i]);
+  if (auto slide = r.table("slide")) slide->fill(joint.slide);
   builder.scene.model.joints.push_back(std::move(joint));
 }
 

@@ -22,9 +22,14 @@ const Key kClosedFormKeys[] = {
 const Section kClosedFormSection{"closed_form", "[closed_form]",
                                  "Answers known in closed form; `crashreel study` measures errors against them.", kClosedFormKeys};
 
+struct Heading {
+  std::string title, description;
+};
+
 const Key kSceneKeys[] = {
-    {"title", Type::text, Dimension::none, "'Untitled scene'", "Shown in pictures and files."},
-    {"description", Type::text, Dimension::none, "''", "What the scene shows and where its numbers come from."},
+    bound<&Heading::title>({"title", Type::text, Dimension::none, "'Untitled scene'", "Shown in pictures and files."}),
+    bound<&Heading::description>(
+        {"description", Type::text, Dimension::none, "''", "What the scene shows and where its numbers come from."}),
     {"variables", Type::table, Dimension::none, "", "Names for quantities.", kAny, {}, &kVariablesSection},
     {"uncertain", Type::tables, Dimension::none, "", "What is not known exactly.", kAny, {}, &kUncertainSection},
     {"evidence", Type::tables, Dimension::none, "", "What was seen.", kAny, {}, &kEvidenceSection},
@@ -199,11 +204,12 @@ Scene load(const SceneFile& file, const std::vector<std::string>& overrides, Mes
   MeshShelf own;
   builder.shelf = shelf ? shelf : &own;
   Reader r(root, scene_section(), "", builder.errors);
-  builder.scene.title = r.text("title");
+  Heading heading;
+  r.fill(heading);
+  builder.scene.title = heading.title;
   builder.scene.path = file.path;
   builder.scene.overrides = overrides;
   builder.scene.sha256 = hash_of(file.text, overrides);
-  r.text("description");
 
   collect_names(builder, root);
   // joints and cameras name bodies, so those come first

@@ -36,8 +36,8 @@ Mat3 turn_of(int up, int forward) {
 constexpr int kUp = 2, kForward = 0;  // ours: z and x
 
 /// The two axes the scene gives; of one alone the other keeps our convention as far as it can.
-std::array<int, 2> given_axes(Reader& r) {
-  int up = r.has("mesh_up") ? r.choice("mesh_up") : -1, forward = r.has("mesh_forward") ? r.choice("mesh_forward") : -1;
+std::array<int, 2> given_axes(Reader& r, const MeshFrameGiven& given) {
+  int up = given.up ? static_cast<int>(*given.up) : -1, forward = given.forward ? static_cast<int>(*given.forward) : -1;
   if (up < 0) up = forward % 3 == kUp ? 1 : kUp;
   if (forward < 0) forward = up % 3 == kForward ? 1 : kForward;
   if (up % 3 == forward % 3) {
@@ -132,12 +132,14 @@ engine::Aabb box_in(const engine::TriangleMesh& mesh, const MeshFrame& frame) {
 
 MeshFrame given_frame(Reader& r) {
   MeshFrame frame;
-  if (r.has("mesh_scale")) frame.scale = r.number("mesh_scale");
-  if (r.has("mesh_up") || r.has("mesh_forward")) {
-    const auto [up, forward] = given_axes(r);
+  MeshFrameGiven given;
+  r.fill(given);
+  frame.scale = given.scale.value_or(frame.scale);
+  if (given.up || given.forward) {
+    const auto [up, forward] = given_axes(r, given);
     frame.turn = turn_of(up, forward);
   }
-  if (r.has("mesh_centre")) frame.centre = r.vector("mesh_centre");
+  frame.centre = given.centre.value_or(frame.centre);
   return frame;
 }
 

@@ -12,12 +12,21 @@ namespace scenes {
 namespace {
 
 const Key kPersonSegmentKeys[] = {
-    {"axes", Type::vector3, Dimension::length, "", "Semi-axes.", kExtent},
-    {"exponent", Type::number, Dimension::none, "", "Exponent n.", between(2, 100), {}, nullptr, "a hyper-ellipsoid needs n >= 2"},
-    {"mass", Type::number, Dimension::mass, "", "Mass; the other parts keep theirs.", kPositive},
-    {"inertia", Type::inertia, Dimension::inertia, "", "About the part's centre, in its axes."},
+    bound<&Segment::shape, &engine::HyperEllipsoid::semi_axes>(
+        {"axes", Type::vector3, Dimension::length, "", "Semi-axes.", kExtent}),
+    bound<&Segment::shape, &engine::HyperEllipsoid::exponent>({"exponent",
+                                                               Type::number,
+                                                               Dimension::none,
+                                                               "",
+                                                               "Exponent n.",
+                                                               between(2, 100),
+                                                               {},
+                                                               nullptr,
+                                                               "a hyper-ellipsoid needs n >= 2"}),
+    bound<&Segment::mass>({"mass", Type::number, Dimension::mass, "", "Mass; the other parts keep theirs.", kPositive}),
+    bound<&Segment::inertia>({"inertia", Type::inertia, Dimension::inertia, "", "About the part's centre, in its axes."}),
     CRASHREEL_SURFACE_KEYS,
-    {"colour", Type::colour, Dimension::none, "", "Colour in pictures."},
+    bound<&Segment::material, &render::Material::colour>({"colour", Type::colour, Dimension::none, "", "Colour in pictures."}),
 };
 const Section kSegmentSectionOfPerson{"person.segment", "[person.segment.NAME]",
                                       "Changes to one part: head, neck, torso, hips, left_thigh ...", kPersonSegmentKeys};
@@ -45,48 +54,55 @@ const Section kJointSectionOfPerson{"person.joint", "[person.joint.NAME]",
                                     "Changes to one joint: trunk, neck, head, left_hip, left_knee ...", kPersonJointKeys};
 
 const Key kPersonKeys[] = {
-    {"name", Type::text, Dimension::none, kRequired, "Name; its parts are NAME/head, NAME/left_thigh ..."},
+    bound<&engine::Person::name>(
+        {"name", Type::text, Dimension::none, kRequired, "Name; its parts are NAME/head, NAME/left_thigh ..."}),
     {"figure", Type::text, Dimension::none, "'person-14'", "A person of the library or of the scene's folder."},
-    {"sex", Type::choice, Dimension::none, "'male'", "Which regression gives the masses of the parts.", kAny, "male|female"},
-    {"stature",
-     Type::number,
-     Dimension::length,
-     "",
-     "Height standing, within what the figure is made for. Left out: the figure's own.",
-     kPositive,
-     {},
-     nullptr,
-     {},
-     between(0.4, 2.6)},
-    {"mass",
-     Type::number,
-     Dimension::mass,
-     "",
-     "Mass of the whole person. Left out: the figure's own.",
-     kPositive,
-     {},
-     nullptr,
-     {},
-     between(4, 300)},
+    bound<&PersonSize::female>(
+        {"sex", Type::choice, Dimension::none, "'male'", "Which regression gives the masses of the parts.", kAny, "male|female"}),
+    bound<&PersonSize::stature>({"stature",
+                                 Type::number,
+                                 Dimension::length,
+                                 "",
+                                 "Height standing, within what the figure is made for. Left out: the figure's own.",
+                                 kPositive,
+                                 {},
+                                 nullptr,
+                                 {},
+                                 between(0.4, 2.6)}),
+    bound<&PersonSize::mass>({"mass",
+                              Type::number,
+                              Dimension::mass,
+                              "",
+                              "Mass of the whole person. Left out: the figure's own.",
+                              kPositive,
+                              {},
+                              nullptr,
+                              {},
+                              between(4, 300)}),
     {"pose", Type::text, Dimension::none, "'standing'", "A pose of the library or of the scene's folder."},
     {"angles", Type::table, Dimension::none, "", "Changes to the pose.", kAny, {}, &kAnglesSection},
-    {"position", Type::vector2, Dimension::length, "'0 0 m'", "World x, y of the centre of the hips."},
-    {"heading", Type::number, Dimension::angle, "'0 deg'", "Where the person faces, from +x towards +y."},
-    {"speed", Type::number, Dimension::speed, "'0 m/s'", "Walking velocity along the heading."},
-    {"velocity", Type::vector3, Dimension::speed, "", "Velocity in world axes, in place of speed."},
-    {"angular_velocity", Type::vector3, Dimension::angular_speed, "",
-     "Of the whole person about its centre of gravity, world axes."},
-    {"height", Type::number, Dimension::length, "'0 m'", "Of the lowest point above the ground."},
-    {"cg_height", Type::number, Dimension::length, "", "Of the centre of gravity above z = 0, in place of height."},
+    bound<&Placing::position>({"position", Type::vector2, Dimension::length, "'0 0 m'", "World x, y of the centre of the hips."}),
+    bound<&Placing::heading>({"heading", Type::number, Dimension::angle, "'0 deg'", "Where the person faces, from +x towards +y."}),
+    bound<&Placing::speed>({"speed", Type::number, Dimension::speed, "'0 m/s'", "Walking velocity along the heading."}),
+    bound<&Placing::velocity>({"velocity", Type::vector3, Dimension::speed, "", "Velocity in world axes, in place of speed."}),
+    bound<&engine::Twist::w>({"angular_velocity", Type::vector3, Dimension::angular_speed, "",
+                              "Of the whole person about its centre of gravity, world axes."}),
+    bound<&Standing::height>({"height", Type::number, Dimension::length, "'0 m'", "Of the lowest point above the ground."}),
+    bound<&Standing::cg_height>(
+        {"cg_height", Type::number, Dimension::length, "", "Of the centre of gravity above z = 0, in place of height."}),
     {"rides", Type::text, Dimension::none, "''",
      "A vehicle with a saddle: the person sits on it in its pose, goes with it, and holds on with hands, feet and seat."},
-    {"grip_force", Type::number, Dimension::force, "'400 N'", "Above it a hand lets go (mean over 10 ms).", kPositive},
-    {"pedal_force", Type::number, Dimension::force, "'400 N'", "Above it a foot leaves its pedal or rest.", kPositive},
-    {"seat_force", Type::number, Dimension::force, "'1.5 kN'", "Above it the rider leaves the saddle.", kPositive},
+    bound<&Hold::hand>(
+        {"grip_force", Type::number, Dimension::force, "'400 N'", "Above it a hand lets go (mean over 10 ms).", kPositive}),
+    bound<&Hold::foot>(
+        {"pedal_force", Type::number, Dimension::force, "'400 N'", "Above it a foot leaves its pedal or rest.", kPositive}),
+    bound<&Hold::seat>(
+        {"seat_force", Type::number, Dimension::force, "'1.5 kN'", "Above it the rider leaves the saddle.", kPositive}),
     bound<&engine::Person::zero_condition>({"zero_condition", Type::boolean, Dimension::none, "true",
                                             "Keeps pose and velocity at no cost until something touches it."}),
-    {"appearance", Type::choice, Dimension::none, "'skin'", "Bare ellipsoids, the figure with its joints closed, or the wire grid.",
-     kAny, "segments|skin|raster"},
+    bound<&render::PersonActor::look>({"appearance", Type::choice, Dimension::none, "'skin'",
+                                       "Bare ellipsoids, the figure with its joints closed, or the wire grid.", kAny,
+                                       "segments|skin|raster"}),
     bound<&engine::Body::collision_model>({"collision", Type::choice, Dimension::none, "'default_auto'",
                                            "Collision model the person asks for.", kAny, "default_auto"}),
     CRASHREEL_SURFACE_KEYS,
@@ -106,12 +122,9 @@ void change_segments(Reader& r, Figure& figure, std::vector<engine::SurfacePrope
                                      : fmt::format("is no part of this person; did you mean \"{}\"?", guess));
       continue;
     }
-    if (const auto axes = change.vector_if("axes")) at->shape.semi_axes = *axes;
-    if (change.has("exponent")) at->shape.exponent = std::max(2.0, change.number("exponent"));
-    if (change.has("mass")) at->mass = change.number("mass");
-    if (change.has("colour")) at->material.colour = change.colour("colour");
+    change.fill(*at);
+    at->shape.exponent = std::max(2.0, at->shape.exponent);
     if (change.has("inertia")) {
-      at->inertia = change.inertia("inertia");
       check_inertia(change, "inertia", at->inertia);
     } else if (at->mass > 0 && (at->shape.semi_axes.array() > 0).all()) {
       at->inertia = engine::principal_inertia(at->shape, at->mass).asDiagonal();
@@ -152,14 +165,14 @@ void change_joints(Reader& r, Figure& figure) {
   }
 }
 
-void add_actor(Builder& builder, const std::string& name, int look, int first_body, const Figure& figure,
+void add_actor(Builder& builder, Reader& r, const engine::Person& person, const Figure& figure,
                const std::vector<engine::Pose>& X_WB) {
   render::PersonActor actor;
-  actor.name = name;
-  actor.look = static_cast<render::PersonLook>(look);
+  actor.name = person.name;
+  r.fill(actor);
   for (std::size_t i = 0; i < figure.segments.size(); ++i) {
     const Segment& s = figure.segments[i];
-    actor.segments.push_back({s.name, first_body + static_cast<int>(i), -1, engine::Vec3::Zero(), s.shape, X_WB[i], s.material});
+    actor.segments.push_back({s.name, person.bodies[i], -1, engine::Vec3::Zero(), s.shape, X_WB[i], s.material});
   }
   for (const FigureJoint& j : figure.joints) {
     auto& segment = actor.segments[static_cast<std::size_t>(j.child)];
@@ -169,50 +182,44 @@ void add_actor(Builder& builder, const std::string& name, int look, int first_bo
   builder.scene.stage.persons.push_back(std::move(actor));
 }
 
-}  // namespace
+/// Where a person's parts are at the start, and how the whole moves.
+struct Start {
+  std::vector<engine::Pose> X_WB;
+  engine::Twist V;  // of the centre of gravity
+};
 
-const Section kPersonSection{"person", "[[person]]",
-                             "A person: parts joined by joints. Angles in words, sizes by stature and mass.", kPersonKeys};
-
-void read_person(Builder& builder, Reader r) {
-  engine::Model& model = builder.scene.model;
-  engine::Person person;
-  person.name = r.text("name");
-  if (person.name.empty() || person.name.find('/') != std::string::npos) r.fail("name", "must be a name without a slash");
-  for (const engine::Person& other : model.persons)
-    if (other.name == person.name) r.fail("name", "this name is already used; every person needs a name of its own");
-  PersonSize size;
-  Figure figure = read_figure(builder, r, size);
-  if (figure.segments.empty()) return;
-
-  std::vector<engine::SurfaceProperties> surfaces(figure.segments.size(), read_surface(r, {}));
-  change_segments(r, figure, surfaces);
-  change_joints(r, figure);
-  const Pose pose = read_pose(builder, r, figure);
-  const int mount = find_mount(builder, r);
+/// Set down on the ground, or on the saddle of what it rides and as fast as that.
+Start start_of(Builder& builder, Reader& r, const Figure& figure, const Pose& pose, int mount) {
+  const engine::Model& model = builder.scene.model;
   const engine::Body* ridden = mount < 0 ? nullptr : &model.bodies[static_cast<std::size_t>(mount)];
-  const engine::Vec3 ahead = ridden ? engine::Vec3(ridden->X_WB.q * engine::Vec3::UnitX()) : engine::Vec3::UnitX();
-  const double heading = ridden ? engine::math::atan2(ahead.y(), ahead.x()) : r.number("heading");
+  Start out;
+  Placing placing;
+  r.fill(placing);
+  r.fill(out.V);
+  if (ridden) {
+    const engine::Vec3 ahead = ridden->X_WB.q * engine::Vec3::UnitX();
+    placing.heading = engine::math::atan2(ahead.y(), ahead.x());
+  }
   using engine::math::rotation;
-  const engine::Quat q_root = rotation(heading, engine::Vec3::UnitZ()) * rotation(pose.pitch, engine::Vec3::UnitY()) *
+  const engine::Quat q_root = rotation(placing.heading, engine::Vec3::UnitZ()) * rotation(pose.pitch, engine::Vec3::UnitY()) *
                               rotation(pose.roll, engine::Vec3::UnitX());
-  std::vector<engine::Pose> X_WB = placed(figure, pose, q_root);
+  out.X_WB = placed(figure, pose, q_root);
   if (ridden) {
     const engine::Vec3 seat = ridden->X_WB * builder.saddles.at(ridden->name);
-    for (engine::Pose& X : X_WB) X.p += seat;
+    for (engine::Pose& X : out.X_WB) X.p += seat;
+    out.V.v = ridden->V_WB.v;
   } else {
-    set_down(r, model.ground, figure, X_WB);
+    set_down(r, placing.position, model.ground, figure, out.X_WB);
+    out.V.v = placing.v(r);
   }
+  return out;
+}
 
-  if (r.has("velocity") && r.has("speed")) r.fail("velocity", "must not be given together with speed");
-  const engine::Vec3 v =
-      ridden ? ridden->V_WB.v
-             : r.vector_if("velocity")
-                   .value_or(r.number("speed") * engine::Vec3(engine::math::cos(heading), engine::math::sin(heading), 0));
-  const engine::Vec3 w = r.vector("angular_velocity");
-  const engine::Vec3 cg = centre_of_gravity(figure, X_WB);
-
-  const int first = static_cast<int>(model.bodies.size());
+/// A body for each part, which the person then knows.
+void add_bodies(Builder& builder, Reader& r, const Figure& figure, const std::vector<engine::SurfaceProperties>& surfaces,
+                const Start& start, engine::Person& person) {
+  engine::Model& model = builder.scene.model;
+  const engine::Vec3 cg = centre_of_gravity(figure, start.X_WB);
   for (std::size_t i = 0; i < figure.segments.size(); ++i) {
     const Segment& s = figure.segments[i];
     engine::Body body;
@@ -223,28 +230,58 @@ void read_person(Builder& builder, Reader r) {
     body.surface = surfaces[i];
     if (!surfaces[i].stiffness_given) body.surface.stiffness = s.stiffness;
     r.fill(body);
-    body.X_WB = X_WB[i];
-    body.V_WB = {v + w.cross(X_WB[i].p - cg), w};
+    body.X_WB = start.X_WB[i];
+    body.V_WB = {start.V.v + start.V.w.cross(start.X_WB[i].p - cg), start.V.w};
     body.person = static_cast<int>(model.persons.size());
-    const int index = first + static_cast<int>(i);
+    const int index = static_cast<int>(model.bodies.size());
     person.bodies.push_back(index);
     if (s.name == "head") person.head = index;
     if (s.name == "torso") person.torso = index;
     model.bodies.push_back(std::move(body));
   }
+  person.hips = person.bodies.front();
+}
+
+void add_joints(Builder& builder, const Figure& figure, const Pose& pose, const engine::Person& person) {
   for (std::size_t i = 0; i < figure.joints.size(); ++i) {
     engine::Joint joint = engine_joint(figure, figure.joints[i], pose.angles[i]);
     joint.name = person.name + "/" + joint.name;
-    joint.parent = first + figure.joints[i].parent;
-    joint.child = first + figure.joints[i].child;
-    model.joints.push_back(std::move(joint));
+    joint.parent = person.hips + figure.joints[i].parent;
+    joint.child = person.hips + figure.joints[i].child;
+    builder.scene.model.joints.push_back(std::move(joint));
   }
-  person.hips = first;
-  person.stature = size.stature;
+}
+
+}  // namespace
+
+const Section kPersonSection{"person", "[[person]]",
+                             "A person: parts joined by joints. Angles in words, sizes by stature and mass.", kPersonKeys};
+
+void read_person(Builder& builder, Reader r) {
+  engine::Model& model = builder.scene.model;
+  engine::Person person;
   r.fill(person);
-  if (mount >= 0) hold_on(builder, r, mount, person);
-  add_actor(builder, person.name, r.choice("appearance"), first, figure, X_WB);
-  builder.scene.stage.speeds.emplace_back(first, person.name);
+  if (person.name.empty() || person.name.find('/') != std::string::npos) r.fail("name", "must be a name without a slash");
+  for (const engine::Person& other : model.persons)
+    if (other.name == person.name) r.fail("name", "this name is already used; every person needs a name of its own");
+  PersonSize size;
+  Figure figure = read_figure(builder, r, size);
+  if (figure.segments.empty()) return;
+  person.stature = size.stature;
+
+  std::vector<engine::SurfaceProperties> surfaces(figure.segments.size(), read_surface(r, {}));
+  change_segments(r, figure, surfaces);
+  change_joints(r, figure);
+  const Pose pose = read_pose(builder, r, figure);
+  const int mount = find_mount(builder, r);
+  const Start start = start_of(builder, r, figure, pose, mount);
+  add_bodies(builder, r, figure, surfaces, start, person);
+  add_joints(builder, figure, pose, person);
+  Hold hold;
+  r.fill(hold);
+  if (mount >= 0) hold_on(builder, hold, mount, person);
+  add_actor(builder, r, person, figure, start.X_WB);
+  builder.scene.stage.speeds.emplace_back(person.hips, person.name);
   model.persons.push_back(std::move(person));
 }
 

@@ -52,13 +52,15 @@ engine::Vec3 centre_of_gravity(const Figure& figure, const std::vector<engine::P
   return sum / mass;
 }
 
-void set_down(Reader& r, const engine::Ground& ground, const Figure& figure, std::vector<engine::Pose>& X_WB) {
-  const engine::Vec3 position = r.vector("position");
+void set_down(Reader& r, const engine::Vec3& position, const engine::Ground& ground, const Figure& figure,
+              std::vector<engine::Pose>& X_WB) {
+  Standing given;
+  r.fill(given);
   for (engine::Pose& X : X_WB) X.p += position;
-  double up = r.number("height") - clearance(ground, figure, X_WB);
-  if (r.has("cg_height")) {
+  double up = given.height - clearance(ground, figure, X_WB);
+  if (given.cg_height) {
     if (r.has("height")) r.fail("cg_height", "must not be given together with height");
-    up = r.number("cg_height") - centre_of_gravity(figure, X_WB).z();
+    up = *given.cg_height - centre_of_gravity(figure, X_WB).z();
   }
   for (engine::Pose& X : X_WB) X.p.z() += up;
 }
@@ -77,7 +79,7 @@ int find_mount(Builder& builder, Reader& r) {
   return mount;
 }
 
-void hold_on(Builder& builder, Reader& r, int mount, engine::Person& person) {
+void hold_on(Builder& builder, const Hold& hold, int mount, engine::Person& person) {
   engine::Model& model = builder.scene.model;
   engine::Body& ridden = model.bodies[static_cast<std::size_t>(mount)];
   person.mount = mount;
@@ -88,12 +90,12 @@ void hold_on(Builder& builder, Reader& r, int mount, engine::Person& person) {
     const auto& shape = std::get<engine::HyperEllipsoid>(part.shape);
     engine::Joint joint;
     if (name.ends_with("forearm") || name.ends_with("lower_arm")) {
-      joint.breaking_force = r.number("grip_force");
+      joint.breaking_force = hold.hand;
       joint.X_CF.p.z() = -0.88 * shape.semi_axes.z();  // the palm
     } else if (name.ends_with("foot")) {
-      joint.breaking_force = r.number("pedal_force");
+      joint.breaking_force = hold.foot;
     } else if (index == person.bodies.front()) {
-      joint.breaking_force = r.number("seat_force");
+      joint.breaking_force = hold.seat;
       joint.X_CF.p.z() = -shape.semi_axes.z();
     } else {
       continue;

@@ -19,10 +19,10 @@ const Section kAnglesSection{"person.angles", "[person.angles]",
 namespace {
 
 const Key kPoseKeys[] = {
-    {"title", Type::text, Dimension::none, "''", "What it is."},
-    {"roll", Type::number, Dimension::angle, "'0 deg'", "Attitude of the hips: about the forward axis, first."},
-    {"pitch", Type::number, Dimension::angle, "'0 deg'",
-     "Attitude of the hips: about the axis to the left, second; 90 deg lies face down."},
+    bound<&Pose::title>({"title", Type::text, Dimension::none, "''", "What it is."}),
+    bound<&Pose::roll>({"roll", Type::number, Dimension::angle, "'0 deg'", "Attitude of the hips: about the forward axis, first."}),
+    bound<&Pose::pitch>({"pitch", Type::number, Dimension::angle, "'0 deg'",
+                         "Attitude of the hips: about the axis to the left, second; 90 deg lies face down."}),
     {"angles", Type::table, Dimension::none, "", "Joint angles.", kAny, {}, &kAnglesSection},
 };
 
@@ -112,8 +112,7 @@ Pose read_pose(Builder& builder, Reader& person, const Figure& figure) {
     person.fail("pose", not_in_library(builder, "poses", "pose", name));
   } else {
     Reader r(*tree, kPoseSection, name, builder.errors);
-    out.roll = r.number("roll");
-    out.pitch = r.number("pitch");
+    r.fill(out);
     if (auto angles = r.table("angles")) apply_angles(*angles, Source::pose, figure, out);
   }
   if (auto angles = person.table("angles")) apply_angles(*angles, Source::person, figure, out);

@@ -152,11 +152,6 @@ double Reader::number(std::string_view key) {
   return value ? read_number(*value, *line, path(key)) : 0;
 }
 
-std::optional<double> Reader::number_if(std::string_view key) {
-  if (!has(key) && (!section_->find(key) || !fallback_of(*section_->find(key)))) return std::nullopt;
-  return number(key);
-}
-
 int Reader::integer(std::string_view key) {
   const Key* line;
   const Value* value = get(key, line);
@@ -221,22 +216,17 @@ bool Reader::read_numbers(const Value& value, const Key& key, const std::string&
   return errors_->count() == before;
 }
 
-std::optional<engine::Vec3> Reader::vector_if(std::string_view key) {
+engine::Vec3 Reader::vector(std::string_view key) {
   const Key* line;
   const Value* value = get(key, line);
   std::vector<double> numbers;
-  if (!value) return std::nullopt;
-  if (!read_numbers(*value, *line, path(key), numbers)) return engine::Vec3::Zero();
+  if (!value || !read_numbers(*value, *line, path(key), numbers)) return engine::Vec3::Zero();
   const std::size_t wanted = line->type == Type::vector2 ? 2 : 3;
   if (numbers.size() != wanted) {
     bad(*value, path(key), fmt::format("must have {} components, has {}", wanted, numbers.size()));
     return engine::Vec3::Zero();
   }
-  return engine::Vec3{numbers[0], numbers[1], wanted == 3 ? numbers[2] : 0};
-}
-
-engine::Vec3 Reader::vector(std::string_view key) {
-  return vector_if(key).value_or(engine::Vec3::Zero());
+  return {numbers[0], numbers[1], wanted == 3 ? numbers[2] : 0};
 }
 
 std::vector<double> Reader::numbers(std::string_view key) {

@@ -47,12 +47,10 @@ class Reader {
   bool boolean(std::string_view key);
   int integer(std::string_view key);
   double number(std::string_view key);
-  std::optional<double> number_if(std::string_view key);
   std::string text(std::string_view key);
   /// Index of the chosen word in the key's list of choices.
   int choice(std::string_view key);
   engine::Vec3 vector(std::string_view key);  // of a vector2 the third is zero
-  std::optional<engine::Vec3> vector_if(std::string_view key);
   std::vector<double> numbers(std::string_view key);
   std::array<double, 2> range(std::string_view key);
   std::vector<std::string> texts(std::string_view key);
@@ -63,9 +61,10 @@ class Reader {
   /// Sets the fields of the object that keys of the section are bound to (bound.h); those with neither value nor default stay.
   template <class T>
   void fill(T& object);
-  /// One of them. Of a choice an enumeration takes its place in the list, a text the word, a truth whether it is the second.
+  /// One of them; false where it has neither. Of a choice an enumeration takes its place in the list, a text the word, a truth
+  /// whether it is the second.
   template <class T>
-  void read(std::string_view key, T& out);
+  bool read(std::string_view key, T& out);
 
   std::optional<Reader> table(std::string_view key);
   std::vector<Reader> tables(std::string_view key);

@@ -7,20 +7,27 @@
 namespace scenes {
 namespace {
 
+struct GroundPicturePlace {
+  engine::Vec3 corner = engine::Vec3::Zero();  // [m] world x, y
+};
+
 const Key kRoadKeys[] = {
-    {"kind", Type::choice, Dimension::none, "'plain'", "Asphalt with lane markings along x, or plain ground with a metre grid.",
-     kAny, "road|plain"},
+    bound_to_first_word<&render::RoadLook::road>({"kind", Type::choice, Dimension::none, "'plain'",
+                                                  "Asphalt with lane markings along x, or plain ground with a metre grid.", kAny,
+                                                  "road|plain"}),
     bound<&render::RoadLook::width>({"width", Type::number, Dimension::length, "'7 m'", "Kerb to kerb.", kPositive}),
     bound<&render::RoadLook::centre_y>({"centre_y", Type::number, Dimension::length, "'0 m'",
                                         "Where its middle runs. Traffic keeps right: lanes along +x lie at smaller y."}),
     bound<&render::RoadLook::lanes>({"lanes", Type::integer, Dimension::none, "2", "Lanes in all.", between(1, 12)}),
-    {"grid", Type::boolean, Dimension::none, "false", "A grid of metres on the road as well."},
+    bound<&render::RoadLook::metre_grid>(
+        {"grid", Type::boolean, Dimension::none, "false", "A grid of metres on the road as well."}),
     bound<&render::RoadLook::zebra_x>(
         {"zebra", Type::number, Dimension::length, "", "x of a pedestrian crossing; left out: none."}),
     {"picture", Type::path, Dimension::none, "", "A PNG that lies on the ground: an aerial photograph, a drawing to scale."},
     bound<&render::RoadLook::picture_width>(
         {"picture_width", Type::number, Dimension::length, "'50 m'", "How wide the picture is on the ground.", kPositive}),
-    {"picture_corner", Type::vector2, Dimension::length, "'0 0 m'", "Where its lower left corner lies."},
+    bound<&GroundPicturePlace::corner>(
+        {"picture_corner", Type::vector2, Dimension::length, "'0 0 m'", "Where its lower left corner lies."}),
     bound<&render::RoadLook::picture_turn>(
         {"picture_heading", Type::number, Dimension::angle, "'0 deg'", "Where its lower edge points, from +x towards +y."}),
 };
@@ -53,9 +60,10 @@ void read_ground_picture(Builder& builder, Reader& r, render::RoadLook& look) {
     return;
   }
   builder.assets += pixels_hash(*look.picture);
-  const engine::Vec3 corner = r.vector("picture_corner");
-  look.picture_x = corner.x();
-  look.picture_y = corner.y();
+  GroundPicturePlace place;
+  r.fill(place);
+  look.picture_x = place.corner.x();
+  look.picture_y = place.corner.y();
 }
 
 }  // namespace
@@ -66,11 +74,10 @@ const Section kSkySection{"sky", "[sky]", "Sun and air.", kSkyKeys};
 void read_road_and_sky(Builder& builder, Reader road, Reader sky) {
   render::RoadLook& look = builder.scene.stage.road;
   road.fill(look);
-  look.road = road.choice("kind") == 0;
   const engine::Ground& ground = builder.scene.model.ground;
   // the drawn plane hides what dips below it: where only a terrain is the ground, it lies under all of that
   look.height = ground.plane || !ground.terrain ? ground.height : ground.terrain->bounds().lower.z() - 0.02;
-  look.metre_grid = road.boolean("grid") || !look.road;
+  look.metre_grid = look.metre_grid || !look.road;
   look.zebra = road.has("zebra");
   if (road.has("picture")) read_ground_picture(builder, road, look);
   sky.fill(builder.scene.stage.sky);

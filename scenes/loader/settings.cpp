@@ -15,16 +15,25 @@ constexpr Key kEffectKeys[] = {
 const Section kEffectsSection{"simulation.effects", "[simulation.effects]", "Physical effects forced on or off. Normally none.",
                               kEffectKeys};
 
+/// What steps, tolerances and gravity follow from.
+enum class Profile { draft, standard, fine, reference };
+struct SettingsGiven {
+  Profile profile = Profile::standard;
+  double gravity = 0, slope = 0;  // [m/s^2], [rad]
+};
+
 constexpr double kRightAngle = 1.5707963267948966;
 
 const Key kSimulationKeys[] = {
     bound<&engine::Settings::duration>(
         {"duration", Type::number, Dimension::time, "'4 s'", "Simulated time.", Range{0, 600, true}}),
-    {"profile", Type::choice, Dimension::none, "'standard'",
-     "Step and solver tolerance where the scene does not give them: draft 4 ms and 0.1 mm/s, standard 1 ms and 0.01 mm/s, fine "
-     "0.25 ms and 0.001 mm/s, reference 0.0625 ms and 0.0001 mm/s.",
-     kAny, "draft|standard|fine|reference"},
-    {"step", Type::number, Dimension::time, "'1 ms'", "Time step.", Range{0, 0.1, true}, {}, nullptr, "1 ms is a good start"},
+    bound<&SettingsGiven::profile>(
+        {"profile", Type::choice, Dimension::none, "'standard'",
+         "Step and solver tolerance where the scene does not give them: draft 4 ms and 0.1 mm/s, standard 1 ms and 0.01 mm/s, fine "
+         "0.25 ms and 0.001 mm/s, reference 0.0625 ms and 0.0001 mm/s.",
+         kAny, "draft|standard|fine|reference"}),
+    bound<&engine::Settings::step>(
+        {"step", Type::number, Dimension::time, "'1 ms'", "Time step.", Range{0, 0.1, true}, {}, nullptr, "1 ms is a good start"}),
     bound<&engine::Settings::record_interval>({"record_interval", Type::number, Dimension::time, "'5 ms'",
                                                "Time between recorded instants, rounded to whole steps.", Range{0, 1, true}}),
     bound<&engine::Settings::scheme>(
@@ -43,11 +52,14 @@ const Key kSimulationKeys[] = {
          "of speeds. compliant: force = stiffness x depth while closing, restitution x stiffness x depth while parting, so that "
          "restitution is the share of energy that comes back.",
          kAny, "default_auto|compliant|persons_yield"}),
-    {"gravity", Type::number, Dimension::acceleration, "'9.81 m/s^2'", "Acceleration of gravity; 0 for none.", kNotNegative},
-    {"slope", Type::number, Dimension::angle, "'0 deg'",
-     "Tilts the whole world: the ground stays z = height and gravity turns, so that +x runs downhill at this angle.",
-     between(-kRightAngle, kRightAngle)},
-    {"solver_tolerance", Type::number, Dimension::speed, "'0.01 mm/s'", "Residual at which the contact solver stops.", kPositive},
+    bound<&SettingsGiven::gravity>(
+        {"gravity", Type::number, Dimension::acceleration, "'9.81 m/s^2'", "Acceleration of gravity; 0 for none.", kNotNegative}),
+    bound<&SettingsGiven::slope>(
+        {"slope", Type::number, Dimension::angle, "'0 deg'",
+         "Tilts the whole world: the ground stays z = height and gravity turns, so that +x runs downhill at this angle.",
+         between(-kRightAngle, kRightAngle)}),
+    bound<&engine::Settings::solver_tolerance>({"solver_tolerance", Type::number, Dimension::speed, "'0.01 mm/s'",
+                                                "Residual at which the contact solver stops.", kPositive}),
     bound<&engine::Settings::touch_distance>(
         {"touch_distance", Type::number, Dimension::length, "'0.02 mm'",
          "Rigid surfaces this near take part in an impact beside them; an impact itself acts at the surface.",
@@ -73,10 +85,10 @@ const Section kSimulationSection{"simulation", "[simulation]", "How the motion i
 namespace {
 
 /// What accuracy costs is told for each in scenes/README.md, from `crashreel study` of the shipped cases.
-struct Profile {
+struct Accuracy {
   double step, solver_tolerance;  // [s], [m/s]
 };
-constexpr Profile kProfiles[] = {{4e-3, 1e-4}, {1e-3, 1e-5}, {0.25e-3, 1e-6}, {0.0625e-3, 1e-7}};
+constexpr Accuracy kAccuracies[] = {{4e-3, 1e-4}, {1e-3, 1e-5}, {0.25e-3, 1e-6}, {0.0625e-3, 1e-7}};
 
 }  // namespace
 
@@ -84,14 +96,15 @@ void read_settings(Builder& builder, std::optional<Reader> reader) {
   // an absent section is an empty one: the defaults of the table apply
   Reader r = reader ? *reader : Reader(empty_table(), kSimulationSection, "simulation", builder.errors);
   engine::Settings& s = builder.scene.model.settings;
+  SettingsGiven given;
   r.fill(s);
-  const Profile& profile = kProfiles[r.choice("profile")];
-  s.step = r.has("step") ? r.number("step") : profile.step;
-  const double g = r.number("gravity");
-  const double slope = r.number("slope");
+  r.fill(given);
+  const Accuracy& accuracy = kAccuracies[static_cast<std::size_t>(given.profile)];
+  if (!r.has("step")) s.step = accuracy.step;
+  if (!r.has("solver_tolerance")) s.solver_tolerance = accuracy.solver_tolerance;
+  const double g = given.gravity, slope = given.slope;
   s.gravity = {g * engine::math::sin(slope), 0, -g * engine::math::cos(slope)};
   if (slope == 0) s.gravity = {0, 0, -g};
-  s.solver_tolerance = r.has("solver_tolerance") ? r.number("solver_tolerance") : profile.solver_tolerance;
   if (s.step > 0 && s.record_interval < s.step) r.fail("record_interval", "must not be shorter than the step");
   if (auto effects = r.table("effects")) {
     for (const Entry& entry : effects->value().entries)

@@ -22,8 +22,9 @@ const Section kCorrelationSection{"uncertain.correlation", "[uncertain.correlati
                                   "What is not known together: taller people are heavier.", kCorrelationKeys};
 
 const Key kUncertainKeys[] = {
-    {"key", Type::text, Dimension::none, kRequired,
-     "What is uncertain: a path as in --set, `\"vehicle.sedan.speed\"`, or a variable, `\"variables.speed\"`."},
+    bound<&Uncertain::key>({"key", Type::text, Dimension::none, kRequired,
+                            "What is uncertain: a path as in --set, `\"vehicle.sedan.speed\"`, or a variable, "
+                            "`\"variables.speed\"`."}),
     {"uniform", Type::any, Dimension::none, "", "All values between two are as likely: `\"38 52 km/h\"`."},
     {"normal", Type::any, Dimension::none, "", "Mean and standard deviation: `\"0.7 0.05\"`, `[\"78 kg\", \"8 kg\"]`."},
     {"triangular", Type::any, Dimension::none, "", "Least, likeliest and greatest: `\"0.6 0.7 0.85\"`."},
@@ -33,8 +34,8 @@ const Key kUncertainKeys[] = {
     {"table", Type::any, Dimension::none, "",
      "Values in rising order, each with its relative density, straight lines between: `[[\"30 km/h\", 0], [\"40 km/h\", 2], "
      "...]`."},
-    {"weights", Type::numbers, Dimension::none, "", "How likely each choice is, relative to the others; left out: all alike.",
-     kNotNegative},
+    bound<&Uncertain::weights>({"weights", Type::numbers, Dimension::none, "",
+                                "How likely each choice is, relative to the others; left out: all alike.", kNotNegative}),
     {"within", Type::any, Dimension::none, "", "Nothing outside of these two is possible (normal, log_normal): `\"0 1.2\"`."},
     {"correlation", Type::table, Dimension::none, "", "With other uncertain keys.", kAny, {}, &kCorrelationSection},
 };
@@ -106,7 +107,7 @@ struct UncertainReader {
     if (value->kind != Value::Kind::array || value->items.empty())
       return r.fail("choice", "must be a list with at least one value");
     for (const Value& item : value->items) out.choices.push_back(as_override(item));
-    out.weights = r.has("weights") ? r.numbers("weights") : std::vector<double>(out.choices.size(), 1.0);
+    if (!r.has("weights")) out.weights.assign(out.choices.size(), 1.0);
     const double sum = std::accumulate(out.weights.begin(), out.weights.end(), 0.0);
     if (out.weights.size() != out.choices.size() || !(sum > 0))
       return r.fail("weights", fmt::format("must be {} numbers, one for each choice, not all zero", out.choices.size()));
@@ -197,7 +198,7 @@ bool takes_a_number(const Key& key) {
 
 void read_one(Builder& builder, const Value& root, Reader& r) {
   Uncertain out;
-  out.key = r.text("key");
+  r.fill(out);
   out.place = r.place().text();
   if (out.key.empty()) return;
   const KeyOfPath found = key_of_path(root, out.key);

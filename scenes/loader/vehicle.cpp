@@ -14,44 +14,66 @@
 namespace scenes {
 namespace {
 
+enum class Coupling { ball, turntable };
+
+/// What the vehicle's body, place and actors follow from. Points in the mesh frame.
+struct VehicleGiven {
+  std::string title;
+  double mesh_tolerance = 0;                            // [m]
+  engine::Vec3 cg = engine::Vec3::Zero();               // [m]
+  std::optional<engine::Vec3> front;                    // [m] world x, y
+  double lift = 0;                                      // [m]
+  std::optional<engine::Vec3> hitch, coupling, saddle;  // [m]
+  Coupling coupling_kind = Coupling::ball;
+  std::optional<render::Colour> colour;
+};
+
 const Key kVehicleKeys[] = {
-    {"name", Type::text, Dimension::none, "''", "Name in every output. (Required in a scene; a library file has none.)"},
+    bound<&engine::Vehicle::name>(
+        {"name", Type::text, Dimension::none, "''", "Name in every output. (Required in a scene; a library file has none.)"}),
     {"model", Type::text, Dimension::none, "''",
      "A vehicle of the library or the scene's folder, whose keys are used where the scene gives none. Empty: all is given here."},
-    {"title", Type::text, Dimension::none, "''", "What the library's vehicle is and where its figures come from."},
+    bound<&VehicleGiven::title>(
+        {"title", Type::text, Dimension::none, "''", "What the library's vehicle is and where its figures come from."}),
     {"mesh", Type::path, Dimension::none, "",
      "The bodywork. Mesh frame: x forward, y left, z up, origin on the ground midway between the axles."},
     CRASHREEL_MESH_KEYS,
     {"collision_mesh", Type::path, Dimension::none, "", "A coarser mesh for contact in the same frame; left out: the bodywork."},
-    {"mesh_tolerance", Type::number, Dimension::length, "0",
-     "The mesh for contact is thinned out; no point of either surface is farther than this from the other. 0: as it is.",
-     kNotNegative},
+    bound<&VehicleGiven::mesh_tolerance>(
+        {"mesh_tolerance", Type::number, Dimension::length, "0",
+         "The mesh for contact is thinned out; no point of either surface is farther than this from the other. 0: as it is.",
+         kNotNegative}),
     {"wheel_mesh", Type::path, Dimension::none, "", "One wheel about its centre, axle along y, outside towards +y."},
     bound<&engine::Body::mass>({"mass", Type::number, Dimension::mass, "", "Mass with occupants.", kPositive}),
-    {"cg", Type::vector3, Dimension::length, "", "Centre of mass in the mesh frame."},
+    bound<&VehicleGiven::cg>({"cg", Type::vector3, Dimension::length, "", "Centre of mass in the mesh frame."}),
     bound<&engine::Body::inertia_B>(
         {"inertia", Type::inertia, Dimension::inertia, "", "Roll, pitch, yaw moments about the centre of mass, or a tensor."}),
-    {"position", Type::vector2, Dimension::length, "'0 0 m'", "World x, y of the mesh frame's origin."},
-    {"front", Type::vector2, Dimension::length, "", "World x, y of the middle of the front bumper, in place of position."},
-    {"heading", Type::number, Dimension::angle, "'0 deg'", "Where it points, from +x towards +y."},
-    {"speed", Type::number, Dimension::speed, "'0 m/s'", "Along the heading."},
-    {"velocity", Type::vector3, Dimension::speed, "", "Of the centre of mass in world axes, in place of speed."},
+    bound<&Placing::position>({"position", Type::vector2, Dimension::length, "'0 0 m'", "World x, y of the mesh frame's origin."}),
+    bound<&VehicleGiven::front>(
+        {"front", Type::vector2, Dimension::length, "", "World x, y of the middle of the front bumper, in place of position."}),
+    bound<&Placing::heading>({"heading", Type::number, Dimension::angle, "'0 deg'", "Where it points, from +x towards +y."}),
+    bound<&Placing::speed>({"speed", Type::number, Dimension::speed, "'0 m/s'", "Along the heading."}),
+    bound<&Placing::velocity>(
+        {"velocity", Type::vector3, Dimension::speed, "", "Of the centre of mass in world axes, in place of speed."}),
     bound<&engine::Body::V_WB, &engine::Twist::w>(
         {"angular_velocity", Type::vector3, Dimension::angular_speed, "'0 0 0 rad/s'", "In world axes."}),
-    {"lift", Type::number, Dimension::length, "'0 m'", "Height above its place on the wheels, for a vehicle in the air."},
-    {"attitude", Type::vector3, Dimension::angle, "'0 0 0 deg'", "Roll, pitch, yaw on top of the heading."},
-    {"quaternion", Type::numbers, Dimension::none, "", "The same as [w, x, y, z]."},
+    bound<&VehicleGiven::lift>(
+        {"lift", Type::number, Dimension::length, "'0 m'", "Height above its place on the wheels, for a vehicle in the air."}),
+    bound<&Attitude::roll_pitch_yaw>(
+        {"attitude", Type::vector3, Dimension::angle, "'0 0 0 deg'", "Roll, pitch, yaw on top of the heading."}),
+    bound<&Attitude::quaternion>({"quaternion", Type::numbers, Dimension::none, "", "The same as [w, x, y, z]."}),
     bound<&engine::Vehicle::drag>(
         {"drag", Type::vector3, Dimension::none, "[0.3, 0.8, 1]",
          "Drag coefficients of the air along its length, width and height, by the sides of the box round it.", kNotNegative}),
-    {"hitch", Type::vector3, Dimension::length, "", "Where it tows a trailer, in the mesh frame."},
-    {"coupling", Type::vector3, Dimension::length, "", "Where it is towed, in the mesh frame."},
-    {"coupling_kind", Type::choice, Dimension::none, "'ball'",
-     "A ball leaves all turns, a turntable only the turn about the vertical (the trailer on its steered front axle).", kAny,
-     "ball|turntable"},
+    bound<&VehicleGiven::hitch>({"hitch", Type::vector3, Dimension::length, "", "Where it tows a trailer, in the mesh frame."}),
+    bound<&VehicleGiven::coupling>({"coupling", Type::vector3, Dimension::length, "", "Where it is towed, in the mesh frame."}),
+    bound<&VehicleGiven::coupling_kind>(
+        {"coupling_kind", Type::choice, Dimension::none, "'ball'",
+         "A ball leaves all turns, a turntable only the turn about the vertical (the trailer on its steered front axle).", kAny,
+         "ball|turntable"}),
     {"towed_by", Type::text, Dimension::none, "''",
      "A vehicle above in the file: coupling is put on its hitch; place and speed are left out, heading is its own unless given."},
-    {"saddle", Type::vector3, Dimension::length, "", "Centre of a rider's hips, in the mesh frame."},
+    bound<&VehicleGiven::saddle>({"saddle", Type::vector3, Dimension::length, "", "Centre of a rider's hips, in the mesh frame."}),
     {"brake", Type::table, Dimension::none, "", "Braking.", kAny, {}, &kBrakeSection},
     {"driver", Type::tables, Dimension::none, "", "What the driver does, act by act.", kAny, {}, &kDriverSection},
     {"path", Type::table, Dimension::none, "", "A line to steer along.", kAny, {}, &kPathSection},
@@ -65,7 +87,7 @@ const Key kVehicleKeys[] = {
          "Collision model the vehicle asks for. Kudlich-Slibar acts between two meshes that both ask for it, Default-Auto in every "
          "other case.",
          kAny, "default_auto|kudlich_slibar"}),
-    {"colour", Type::colour, Dimension::none, "", "Of the paint, in place of the mesh's own."},
+    bound<&VehicleGiven::colour>({"colour", Type::colour, Dimension::none, "", "Of the paint, in place of the mesh's own."}),
     {"wheel", Type::tables, Dimension::none, "", "Wheels.", kAny, {}, &kWheelSection},
 };
 
@@ -118,14 +140,15 @@ Meshes read_meshes(Builder& builder, Reader& r, Origin origin) {
   return out;
 }
 
-void add_actors(Builder& builder, Reader& r, const engine::Vehicle& vehicle, const Meshes& meshes, const engine::Pose& X_BM) {
+void add_actors(Builder& builder, const VehicleGiven& given, const engine::Vehicle& vehicle, const Meshes& meshes,
+                const engine::Pose& X_BM) {
   render::Stage& stage = builder.scene.stage;
   std::vector<render::Material> repaint;
-  if (r.has("colour")) {
+  if (given.colour) {
     for (const render::Material& material : meshes.bodywork->look->materials) {
       if (material.kind != render::MaterialKind::paint) continue;
       repaint.push_back(material);
-      repaint.back().colour = r.colour("colour");
+      repaint.back().colour = *given.colour;
     }
   }
   stage.meshes.push_back({vehicle.name, vehicle.body, X_BM, meshes.bodywork->look, std::move(repaint)});
@@ -138,16 +161,24 @@ void add_actors(Builder& builder, Reader& r, const engine::Vehicle& vehicle, con
   stage.vehicles.push_back(vehicle.body);
 }
 
+/// The mesh for contact, thinned out, with its panels.
+engine::MeshShape collision_shape(Builder& builder, const Meshes& meshes, const engine::Pose& X_BM, double tolerance) {
+  auto& coarse = builder.shelf->coarse[{meshes.collision->solid, tolerance}];
+  if (!coarse) coarse = decimate(meshes.collision->solid, tolerance);
+  auto& panels = builder.shelf->panels[{coarse, meshes.bodywork->look}];
+  if (!panels) panels = panels_of(*coarse, *meshes.bodywork->look);
+  return {coarse, X_BM, tolerance, panels};
+}
+
 /// Where the mesh frame stands in the world.
-engine::Pose mesh_pose(Builder& builder, Reader& r, const Meshes& meshes, double heading) {
-  engine::Vec3 at = r.vector("position");
-  if (r.has("front")) {
+engine::Pose mesh_pose(Builder& builder, Reader& r, const VehicleGiven& given, const Placing& placing, const Meshes& meshes) {
+  engine::Vec3 at = placing.position;
+  if (given.front) {
     if (r.has("position")) r.fail("front", "must not be given together with position");
-    at = r.vector("front") -
-         meshes.bodywork->solid->bounds().upper.x() * engine::Vec3(engine::math::cos(heading), engine::math::sin(heading), 0);
+    at = *given.front - meshes.bodywork->solid->bounds().upper.x() * placing.ahead();
   }
-  at.z() = builder.scene.model.ground.height + r.number("lift");
-  return {at, engine::math::rotation(heading, engine::Vec3::UnitZ()) * read_attitude(r)};
+  at.z() = builder.scene.model.ground.height + given.lift;
+  return {at, engine::math::rotation(placing.heading, engine::Vec3::UnitZ()) * read_attitude(r)};
 }
 
 /// The vehicle that tows this one, -1: none; all that is wrong with it is told.
@@ -166,10 +197,10 @@ int find_tower(Builder& builder, Reader& r) {
 }
 
 /// Puts a towed vehicle on its hitch and joins the two.
-void couple(Builder& builder, Reader& r, int tower, const engine::Vec3& coupling_B, engine::Body& body) {
+void couple(Builder& builder, Reader& r, const VehicleGiven& given, int tower, engine::Body& body) {
   engine::Model& model = builder.scene.model;
   const engine::Body& front = model.bodies[static_cast<std::size_t>(tower)];
-  const engine::Vec3 hitch_B = builder.hitches.at(front.name);
+  const engine::Vec3 hitch_B = builder.hitches.at(front.name), coupling_B = *given.coupling - given.cg;
   const engine::Vec3 at = front.X_WB * hitch_B;
   if (!r.has("heading")) body.X_WB.q = front.X_WB.q;
   const double height = (body.X_WB * coupling_B).z();
@@ -184,8 +215,7 @@ void couple(Builder& builder, Reader& r, int tower, const engine::Vec3& coupling
   joint.parent = tower;
   joint.child = static_cast<int>(model.bodies.size());
   // a turntable turns about the joint frame's y, which is put upright
-  const bool turntable = r.choice("coupling_kind") == 1;
-  joint.kind = turntable ? engine::JointKind::revolute : engine::JointKind::spherical;
+  joint.kind = given.coupling_kind == Coupling::turntable ? engine::JointKind::revolute : engine::JointKind::spherical;
   const engine::Quat upright = engine::math::rotation(0.5 * std::numbers::pi, engine::Vec3::UnitX());
   joint.X_PF = {hitch_B, upright};
   joint.X_CF = {coupling_B, (body.X_WB.q.conjugate() * front.X_WB.q * upright).normalized()};
@@ -202,7 +232,7 @@ void read_vehicle(Builder& builder, Reader scene) {
   if (!tree) return;
   Reader r(*tree, kVehicleSection, scene.path(), builder.errors);
   engine::Vehicle vehicle;
-  vehicle.name = scene.text("name");
+  r.fill(vehicle);
   if (vehicle.name.empty()) scene.fail("name", "must be given; every vehicle needs a name");
   if (builder.body_index(vehicle.name) >= 0) scene.fail("name", "this name is already used; every body needs a name of its own");
   const std::size_t errors_before = builder.errors.count();
@@ -221,38 +251,31 @@ void read_vehicle(Builder& builder, Reader scene) {
     if (const int open = open_edges(*meshes.bodywork->solid); open > 0)
       r.warn("mesh", fmt::format("is open at {} edges; what comes from behind its faces goes through", open));
 
+  VehicleGiven given;
+  Placing placing;
   engine::Body body;
+  r.fill(given);
+  r.fill(placing);
   r.fill(body);
   body.name = vehicle.name;
   check_inertia(r, "inertia", body.inertia_B);
   body.surface = read_surface(r, {});
   body.vehicle = static_cast<int>(model.vehicles.size());
-  const engine::Vec3 cg = r.vector("cg");
-  read_wheels(r, cg, vehicle);
+  read_wheels(r, given.cg, vehicle);
   read_brake(r, body.mass, vehicle);
   read_driver(r, body.mass, vehicle);
-  r.fill(vehicle);
   if (!meshes.bodywork || !meshes.collision) return;
 
-  const engine::Pose X_BM{-cg, engine::Quat::Identity()};
-  const double heading = r.number("heading");
-  const engine::Pose X_WM = mesh_pose(builder, r, meshes, heading);
-  const double tolerance = r.number("mesh_tolerance");
-  auto& coarse = builder.shelf->coarse[{meshes.collision->solid, tolerance}];
-  if (!coarse) coarse = decimate(meshes.collision->solid, tolerance);
-  auto& panels = builder.shelf->panels[{coarse, meshes.bodywork->look}];
-  if (!panels) panels = panels_of(*coarse, *meshes.bodywork->look);
-  body.shape = engine::MeshShape{coarse, X_BM, tolerance, panels};
-  body.X_WB = {X_WM * cg, X_WM.q.normalized()};
-  if (r.has("velocity") && r.has("speed")) r.fail("velocity", "must not be given together with speed");
-  body.V_WB.v =
-      r.vector_if("velocity").value_or(r.number("speed") * engine::Vec3(engine::math::cos(heading), engine::math::sin(heading), 0));
-  if (const int tower = find_tower(builder, r); tower >= 0 && r.has("coupling"))
-    couple(builder, r, tower, r.vector("coupling") - cg, body);
-  if (r.has("saddle")) builder.saddles[vehicle.name] = r.vector("saddle") - cg;
-  if (r.has("hitch")) builder.hitches[vehicle.name] = r.vector("hitch") - cg;
+  const engine::Pose X_BM{-given.cg, engine::Quat::Identity()};
+  const engine::Pose X_WM = mesh_pose(builder, r, given, placing, meshes);
+  body.shape = collision_shape(builder, meshes, X_BM, given.mesh_tolerance);
+  body.X_WB = {X_WM * given.cg, X_WM.q.normalized()};
+  body.V_WB.v = placing.v(r);
+  if (const int tower = find_tower(builder, r); tower >= 0 && given.coupling) couple(builder, r, given, tower, body);
+  if (given.saddle) builder.saddles[vehicle.name] = *given.saddle - given.cg;
+  if (given.hitch) builder.hitches[vehicle.name] = *given.hitch - given.cg;
   vehicle.body = static_cast<int>(model.bodies.size());
-  add_actors(builder, r, vehicle, meshes, X_BM);
+  add_actors(builder, given, vehicle, meshes, X_BM);
   model.bodies.push_back(std::move(body));
   model.vehicles.push_back(std::move(vehicle));
 }

@@ -1,16 +1,21 @@
 // The scene format's table, its reference in the README, its JSON Schema, and every shipped scene against it.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "engine/effects/effect.h"
 #include "scene_file.h"
 #include "scenes/loader/sha256.h"
 #include "scenes/loader/table.h"
 
 namespace scenes {
 namespace {
+
+using ::testing::UnorderedElementsAre;
 
 const std::filesystem::path kSource = CRASHREEL_SOURCE_DIR;
 
@@ -42,6 +47,41 @@ TEST(Reference, SaysSomethingOfEveryKey) {
       EXPECT_EQ(key.type == Type::choice, !key.choices.empty()) << section->header << " " << key.name;
     }
   }
+}
+
+/// Keys that stand in one line with the field they go into, and those whose reader needs more than the value.
+TEST(Reference, BindsEveryKeyToAFieldUnlessItsValueNeedsTheSceneAround) {
+  const auto is_of_effect = [](const Section& section) {
+    const auto effects = engine::effect_table();
+    return std::any_of(effects.begin(), effects.end(), [&](const auto* effect) { return effect->section.name == section.name; });
+  };
+  std::vector<std::string> unbound;
+  int bound = 0;
+  for (const Section* section : all_sections()) {
+    if (is_of_effect(*section)) continue;  // go into Model::inputs by their names
+    for (const Key& key : section->keys) {
+      const bool holds_others = key.section != nullptr;
+      const bool is_any_name = key.name == "*";
+      if (key.fill) ++bound;
+      if (!key.fill && !holds_others && !is_any_name) unbound.push_back(std::string(section->name) + "." + std::string(key.name));
+    }
+  }
+  EXPECT_GT(bound, 290);
+  EXPECT_THAT(
+      unbound,
+      UnorderedElementsAre(
+          // a file that is read
+          "ground.terrain", "vehicle.mesh", "vehicle.collision_mesh", "vehicle.wheel_mesh", "vehicle.wheel.mesh", "body.mesh",
+          "road.picture",
+          // the name of another thing, or of a file of the library
+          "vehicle.model", "vehicle.towed_by", "person.figure", "person.pose", "person.rides", "joint.parent", "joint.child",
+          "impact.a", "impact.b", "overlays.dimension.body", "figure.joint.parent", "figure.joint.child",
+          // of the dimension of what they speak of
+          "uncertain.uniform", "uncertain.normal", "uncertain.triangular", "uncertain.log_normal", "uncertain.choice",
+          "uncertain.table", "uncertain.within", "evidence.mark", "evidence.value", "evidence.tolerance",
+          // limits by their names, where they are given
+          "snapshot.limits.share_above_2", "snapshot.limits.pixels_above_32", "snapshot.limits.rms", "snapshot.limits.psnr_dB",
+          "snapshot.limits.ssim", "snapshot.limits.perceptual_mean", "snapshot.limits.perceptual_worst"));
 }
 
 TEST(JsonSchema, KnowsTheKeysTheLoaderKnows) {
