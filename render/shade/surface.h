@@ -127,82 +127,103 @@ struct Weights {
   F of[3];
 };
 
-LANES Look look_of(const Scene& s, const float* materials, I triangle, F x, F y) {
-  constexpr int kWords = sizeof(Triangle) / sizeof(float);
-  F words[kLanes];
-  records_at(reinterpret_cast<const float*>(s.triangles), kWords, triangle, words);
-  const I v[3] = {reinterpret_cast<I>(words[0]), reinterpret_cast<I>(words[1]), reinterpret_cast<I>(words[2])};
-  const I row = reinterpret_cast<I>(words[3]);
-  const F side = words[5];
+enum class Reach { within, beyond };  // a middle of samples may lie a little beside its triangle; what changes from it on does
+
+/// The corners of each lane's triangle.
+struct TriangleCorners {
+  I v[3];
   F px[3], py[3], depth[3], w[3], scale[3];
   V3 normal[3];
-  for (int k = 0; k < 3; ++k) {
-    F record[kLanes];
-    records_at(s.corners.records, kLanes, v[k], record);
-    px[k] = record[0];
-    py[k] = record[1];
-    depth[k] = record[2];
-    w[k] = record[3];
-    scale[k] = record[4];
-    normal[k] = {record[5], record[6], record[7]};
+
+  LANES TriangleCorners(const Scene& s, const F* words) : v{} {
+    for (int k = 0; k < 3; ++k) {
+      v[k] = reinterpret_cast<const I&>(words[k]);
+      F record[kLanes];
+      records_at(s.corners.records, kLanes, v[k], record);
+      px[k] = record[0];
+      py[k] = record[1];
+      depth[k] = record[2];
+      w[k] = record[3];
+      scale[k] = record[4];
+      normal[k] = {record[5], record[6], record[7]};
+    }
   }
-  enum Reach { within, beyond };  // a middle of samples may lie a little beside its triangle; what changes from it on does
-  // of the scaled corners, not normalised: a point of the triangle is the sum of its corners by their weights, in clip space
-  const auto weigh = [&](F at_x, F at_y, Reach reach) {
+
+  /// Weights of the scaled corners at a place of the picture, not normalised: a point of the triangle is the sum of its corners by
+  /// their weights, in clip space.
+  LANES Weights weigh(F x, F y, Reach reach) const {
     F rx[3], ry[3];
     for (int k = 0; k < 3; ++k) {
-      rx[k] = px[k] - at_x * w[k];
-      ry[k] = py[k] - at_y * w[k];
+      rx[k] = px[k] - x * w[k];
+      ry[k] = py[k] - y * w[k];
     }
     Weights out{{rx[1] * ry[2] - ry[1] * rx[2], rx[2] * ry[0] - ry[2] * rx[0], rx[0] * ry[1] - ry[0] * rx[1]}};
     const I turned = (out.of[0] + out.of[1] + out.of[2]) < 0.0f;  // a back face runs the other way round
     for (F& each : out.of) {
       each = turned ? -each : each;
-      if (reach == within) each = max(each, 0.0f);
+      if (reach == Reach::within) each = max(each, 0.0f);
     }
     return out;
-  };
-  const auto place = [&](Weights weights) {
+  }
+
+  /// Those of the corners where they are on the body, which sum to one.
+  LANES Weights place(Weights weights) const {
     for (int k = 0; k < 3; ++k) weights.of[k] *= scale[k];
     const F per = 1.0f / max(weights.of[0] + weights.of[1] + weights.of[2], 1e-30f);
     for (F& each : weights.of) each = each * per;
     return weights;
-  };
-  const auto blend = [&](int number, const Weights& by) {
+  }
+
+  /// Mean of one of the numbers that stand beside the corners.
+  LANES F blend(const Scene& s, int number, const Weights& by) const {
     const float* values = s.corners.places + number;
     return gather(values, v[0] * 4) * by.of[0] + gather(values, v[1] * 4) * by.of[1] + gather(values, v[2] * 4) * by.of[2];
-  };
+  }
+};
+
+/// The normal of a lamp's reflector under clear plastic, the mean of the pixel's samples; sx, sy count samples.
+LANES V3 ribbed_normal(const Scene& s, const TriangleCorners& corners, const Weights& by, F sx, F sy, const V3& smooth) {
+  const auto point = [&](const Weights& weight) { return V2{corners.blend(s, 1, weight), corners.blend(s, 2, weight)}; };
+  const V2 p = point(by), right = point(corners.place(corners.weigh(sx + 1.0f, sy, Reach::beyond))),
+           up = point(corners.place(corners.weigh(sx, sy + 1.0f, Reach::beyond)));
+  const V2 dx = {right.x - p.x, right.y - p.y}, dy = {up.x - p.x, up.y - p.y};
+  const F change = 25.0f * (abs(dx.x) + abs(dy.x)) + 20.0f * (abs(dx.y) + abs(dy.y));
+  const F deep = 0.25f * (1.0f - smoothstep(0.2f, 0.8f, change));
+  F ribs_y = all(0.0f), ribs_z = all(0.0f);
+  const int many = s.samples > 1 ? 2 : 1;
+  for (int k = 0; k < many * many; ++k) {
+    const int across = k % many, down = k / many;
+    const float i = static_cast<float>(across) - 0.5f * static_cast<float>(many - 1),
+                j = static_cast<float>(down) - 0.5f * static_cast<float>(many - 1);
+    ribs_y += sine((p.x + dx.x * i + dy.x * j) * 160.0f);
+    ribs_z += sine((p.y + dx.y * i + dy.y * j) * 130.0f + 1.57079633f);
+  }
+  const F share = deep * (1 / static_cast<float>(many * many));
+  return normalize({smooth.x, smooth.y + share * ribs_y, smooth.z + share * ribs_z});
+}
+
+LANES Look look_of(const Scene& s, const float* materials, I triangle, F x, F y) {
+  constexpr int kWords = sizeof(Triangle) / sizeof(float);
+  F words[kLanes];
+  records_at(reinterpret_cast<const float*>(s.triangles), kWords, triangle, words);
+  const I row = reinterpret_cast<I>(words[3]);
+  const F side = words[5];
+  const TriangleCorners corners(s, words);
   const F sx = x * s.samples, sy = y * s.samples;
-  const Weights flat = weigh(sx, sy, within), by = place(flat);
-  const F z = depth[0] * flat.of[0] + depth[1] * flat.of[1] + depth[2] * flat.of[2];
-  Look out{z / max(w[0] * flat.of[0] + w[1] * flat.of[1] + w[2] * flat.of[2], 1e-30f),
-           normal[0] * by.of[0] + normal[1] * by.of[1] + normal[2] * by.of[2], all(0.5f), row >= 32768,
-           rows_of(materials, row & 32767)};
+  const Weights flat = corners.weigh(sx, sy, Reach::within), by = corners.place(flat);
+  const auto mean = [&flat](const F* of) { return of[0] * flat.of[0] + of[1] * flat.of[1] + of[2] * flat.of[2]; };
+  const V3* normal = corners.normal;
+  Look out{mean(corners.depth) / max(mean(corners.w), 1e-30f), normal[0] * by.of[0] + normal[1] * by.of[1] + normal[2] * by.of[2],
+           all(0.5f), row >= 32768, rows_of(materials, row & 32767)};
   const F length2 = dot(out.normal, out.normal);
   out.normal = out.normal * (side / sqrt(max(length2, 1e-20f)));
   const I ribbed = out.material.terrain<0.0f, woven = out.material.grain> 0.0f;
   if (any(woven)) {
-    const V3 p{blend(0, by), blend(1, by), blend(2, by)};
+    const V3 p{corners.blend(s, 0, by), corners.blend(s, 1, by), corners.blend(s, 2, by)};
     out.grain = woven ? weave(p) : out.grain;
   }
-  if (any(ribbed)) {  // of a reflector under clear plastic
-    const auto point = [&](const Weights& weight) { return V2{blend(1, weight), blend(2, weight)}; };
-    const V2 p = point(by), right = point(place(weigh(sx + 1.0f, sy, beyond))), up = point(place(weigh(sx, sy + 1.0f, beyond)));
-    const V2 dx = {right.x - p.x, right.y - p.y}, dy = {up.x - p.x, up.y - p.y};
-    const F change = 25.0f * (abs(dx.x) + abs(dy.x)) + 20.0f * (abs(dx.y) + abs(dy.y));
-    const F deep = 0.25f * (1.0f - smoothstep(0.2f, 0.8f, change));
-    // the mean of the pixel's samples
-    F ribs_y = all(0.0f), ribs_z = all(0.0f);
-    const int many = s.samples > 1 ? 2 : 1;
-    for (int k = 0; k < many * many; ++k) {
-      const int across = k % many, down = k / many;
-      const float i = static_cast<float>(across) - 0.5f * static_cast<float>(many - 1),
-                  j = static_cast<float>(down) - 0.5f * static_cast<float>(many - 1);
-      ribs_y += sine((p.x + dx.x * i + dy.x * j) * 160.0f);
-      ribs_z += sine((p.y + dx.y * i + dy.y * j) * 130.0f + 1.57079633f);
-    }
-    const F share = deep * (1 / static_cast<float>(many * many));
-    const V3 n = normalize({out.normal.x, out.normal.y + share * ribs_y, out.normal.z + share * ribs_z});
+  if (any(ribbed)) {
+    const V3 n = ribbed_normal(s, corners, by, sx, sy, out.normal);
     out.normal = {ribbed ? n.x : out.normal.x, ribbed ? n.y : out.normal.y, ribbed ? n.z : out.normal.z};
   }
   return out;
