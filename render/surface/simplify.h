@@ -1,4 +1,4 @@
-// Fewer triangles for a mesh that is seen small.
+// Fewer triangles for a mesh that is seen small, or touched often.
 #pragma once
 
 #include <cstdint>
@@ -18,5 +18,8 @@ std::vector<Mesh::Part> parts_of(const Mesh&);
 /// lies farther than a level's tolerance from the planes of the triangles it stands for; borders of parts, open edges and creases
 /// keep their lines. Edge collapse by quadric error, each vertex falling onto a neighbour (Garland & Heckbert 1997).
 std::vector<Mesh::Level> coarser_levels(const Mesh&);
+
+/// The triangles of such a level for one tolerance [m] > 0, of a mesh of any size.
+std::vector<std::uint32_t> collapsed(const Mesh&, double tolerance);
 
 }  // namespace render

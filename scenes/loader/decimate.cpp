@@ -1,11 +1,9 @@
-// Edges are collapsed by quadric error (M. Garland, P. Heckbert, SIGGRAPH 1997; meshoptimizer). That error is an average and no
-// bound, so every result is held against the given mesh: the distance to one triangle is a convex function, largest over another
-// triangle at one of its corners. If all corners are near enough to one and the same triangle, every point between them is. If
-// only some are, that part is cut off and the rest is asked again, nearer to another triangle; or it is halved. What is not
+// Edges are collapsed by quadric error (render/surface/simplify.h). It bounds how far corners are from planes, not how far surfaces
+// are apart, so every result is held against the given mesh: the distance to one triangle is a convex function, largest over
+// another triangle at one of its corners. If all corners are near enough to one and the same triangle, every point between them is.
+// If only some are, that part is cut off and the rest is asked again, nearer to another triangle; or it is halved. What is not
 // certain after many cuts is refused, and less is collapsed.
 #include "scenes/loader/decimate.h"
-
-#include <meshoptimizer.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +11,7 @@
 
 #include "engine/geometry/point_mesh.h"
 #include "engine/math/roots.h"
+#include "render/surface/simplify.h"
 
 namespace scenes {
 namespace {
@@ -90,18 +89,12 @@ class Certificate {
 };
 
 std::shared_ptr<const TriangleMesh> collapse(const TriangleMesh& mesh, double error) {
-  std::vector<float> positions;
+  render::Mesh shape;
   for (const Vec3& v : mesh.vertices())
-    for (int k = 0; k < 3; ++k) positions.push_back(static_cast<float>(v[k]));
-  std::vector<unsigned int> indices;
+    for (int k = 0; k < 3; ++k) shape.positions.push_back(static_cast<float>(v[k]));
   for (const Triangle& t : mesh.triangles())
-    for (const int i : t) indices.push_back(static_cast<unsigned int>(i));
-  constexpr std::size_t kStride = 3 * sizeof(float);
-  const std::size_t vertices = mesh.vertices().size();
-  const float scale = meshopt_simplifyScale(positions.data(), vertices, kStride);
-  std::vector<unsigned int> kept(indices.size());
-  kept.resize(meshopt_simplify(kept.data(), indices.data(), indices.size(), positions.data(), vertices, kStride, 0,
-                               static_cast<float>(error) / scale, meshopt_SimplifyLockBorder, nullptr));
+    for (const int i : t) shape.indices.push_back(static_cast<std::uint32_t>(i));
+  const std::vector<std::uint32_t> kept = render::collapsed(shape, error);
   std::vector<Triangle> triangles;
   for (std::size_t i = 0; i + 2 < kept.size(); i += 3)
     triangles.push_back({static_cast<int>(kept[i]), static_cast<int>(kept[i + 1]), static_cast<int>(kept[i + 2])});

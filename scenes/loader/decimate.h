@@ -7,7 +7,7 @@
 
 namespace scenes {
 
-/// The mesh itself where the bound leaves nothing to gain. Edges of sheets stay where they are.
+/// The mesh itself where the bound leaves nothing to gain. Edges of sheets keep their lines.
 std::shared_ptr<const engine::TriangleMesh> decimate(const std::shared_ptr<const engine::TriangleMesh>&, double tolerance);
 
 /// True if no point of `a` is farther than `tolerance` [m] from `b`: certain, by convexity. Some surfaces within it are not

@@ -48,7 +48,7 @@ const std::vector<Wall> kWalls = {
     {"render/overlays/",
      {"render/overlays/", "render/draw_list.h", "render/stage.h", "render/arrange.h", "render/matrix.h", "engine/recording.h",
       "engine/math/", "engine/geometry/"}},
-    {"scenes/", {"scenes/", "render/stage.h", "engine/"}},
+    {"scenes/", {"scenes/", "render/stage.h", "render/surface/simplify.h", "engine/"}},
     {"scenes/cage/", {"scenes/cage/"}},
     {"cli/", {"cli/", "scenes/", "render/", "engine/"}},
 };
@@ -70,7 +70,6 @@ const std::vector<Library> kLibraries = {
     {"cairo.*|pango.*|ft2build\\.h|freetype.*|fontconfig.*", {"render/text/", "render/figures/", "render/charts/"}},
     {"toml\\+\\+.*|toml\\.hpp", {"scenes/loader/toml.cpp"}},
     {"assimp/.*", {"scenes/cage/"}},
-    {"meshoptimizer\\.h", {"scenes/loader/"}},
     {"seccomp\\.h", {"scenes/cage/"}},
     {"execinfo\\.h", {"cli/process.cpp"}},
     {"CLI/.*", {"cli/command.cpp"}},
