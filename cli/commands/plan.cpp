@@ -47,19 +47,30 @@ const char* words_of_phase(const std::string& phase) {
   return "the step's own housekeeping and the start of the run";
 }
 
-constexpr std::size_t kWidest = 40;  // of a column; five of them fit on a terminal of 120
+constexpr std::size_t kTerminal = 80;  // columns
+constexpr std::size_t kWidest = 32;    // of a column of the table of phases
+constexpr std::size_t kEffect = 18, kState = 7;
 
-/// The text in lines of at most kWidest, broken at spaces.
-std::vector<std::string> broken(std::string text) {
+/// The text in lines of at most `widest`, broken at spaces.
+std::vector<std::string> broken(std::string text, std::size_t widest) {
   std::vector<std::string> out;
-  while (text.size() > kWidest) {
-    const std::size_t at = text.rfind(' ', kWidest);
+  while (text.size() > widest) {
+    const std::size_t at = text.rfind(' ', widest);
     if (at == std::string::npos || at == 0) break;
     out.push_back(text.substr(0, at));
     text.erase(0, at + 1);
   }
   out.push_back(text);
   return out;
+}
+
+/// Beside the name and the state, as wide as a terminal is.
+void print_paragraph(const std::string& name, const std::string& state, const std::string& text) {
+  std::string head = fmt::format("{:<{}}{:<{}}", name, kEffect, state, kState);
+  for (const std::string& line : broken(text, kTerminal - kEffect - kState)) {
+    fmt::print("{}{}\n", head, line);
+    head.assign(kEffect + kState, ' ');
+  }
 }
 
 void print_columns(const Rows& rows) {
@@ -69,7 +80,7 @@ void print_columns(const Rows& rows) {
     cells.emplace_back();
     for (std::size_t i = 0; i < row.size(); ++i) {
       if (i == widths.size()) widths.push_back(0);
-      cells.back().push_back(broken(row[i]));
+      cells.back().push_back(broken(row[i], kWidest));
       for (const std::string& line : cells.back().back()) widths[i] = std::max(widths[i], line.size());
     }
   }
@@ -88,10 +99,11 @@ std::vector<std::string> words_of(const Cost& cost) {
   return {fmt::format("{:>8}", cost.calls), fmt::format("{:>7.2f}", cost.us_per_step), fmt::format("{:>5.1f} %", 100 * cost.share)};
 }
 
-/// "on", or what a run has seen of it.
+/// "on", "waits" where it is proved that it cannot matter yet, and what a run has seen of it.
 std::string words_of_state(const engine::PlanLine& line) {
   if (!line.active) return "off";
-  return line.acted.told && line.acted.in_reach < 0 ? "waited" : "on";
+  if (line.acted.told) return line.acted.in_reach < 0 ? "waited" : "on";
+  return line.not_before > 0 ? "waits" : "on";
 }
 
 /// The proof before a run, and what the run saw.
@@ -105,22 +117,17 @@ std::string words_of_reason(const engine::PlanLine& line) {
 }
 
 void print_plan(const std::vector<engine::PlanLine>& lines, const engine::Recording* run) {
-  Rows rows = {{"effect", "", "", "why", "what is left out, and what that is worth"}};
-  const std::vector<std::string> head = {"   calls", "us/step", "  share"};
-  if (run) rows[0].insert(rows[0].begin() + 3, head.begin(), head.end());
   for (const engine::PlanLine& line : lines) {
-    std::vector<std::string> row = {line.effect, words_of_state(line), line.forced ? "forced" : "auto", words_of_reason(line),
-                                    line.left_out.empty() ? "nothing" : line.left_out};
-    if (run) {
-      const std::vector<std::string> cost = words_of(cost_of(*run, run->costs, line.effect));
-      row.insert(row.begin() + 3, cost.begin(), cost.end());
-    }
-    rows.push_back(row);
+    print_paragraph(line.effect, words_of_state(line), (line.forced ? "forced: " : "") + words_of_reason(line));
+    if (!line.left_out.empty()) print_paragraph("", "", "left out: " + line.left_out);
+    if (!run || !line.active) continue;
+    const Cost cost = cost_of(*run, run->costs, line.effect);
+    print_paragraph("", "",
+                    fmt::format("cost: {} calls, {:.2f} us/step, {:.1f} %", cost.calls, cost.us_per_step, 100 * cost.share));
   }
-  print_columns(rows);
   if (!run) return;
 
-  rows = {{"for all effects", head[0], head[1], head[2], ""}};
+  Rows rows = {{"for all effects", "   calls", "us/step", "  share", ""}};
   double all = 0;
   for (const engine::EffectCost& cost : run->costs) all += cost_of(*run, run->costs, cost.effect).us_per_step;
   for (const engine::EffectCost& phase : run->phases) {

@@ -114,6 +114,8 @@ nlohmann::ordered_json study_json(const scenes::Scene& scene, const Study& study
   out["version"] = CRASHREEL_VERSION;
   out["scene"] = {{"title", scene.title}, {"path", scene.path.string()}, {"sha256", scene.sha256}, {"overrides", scene.overrides}};
   out["main_quantity"] = main_quantity(study);
+  out["findings"] = Json::array();
+  if (const Judgement* j = study.find(main_quantity(study))) out["findings"] = findings(study, *j);
   for (const Judgement& j : study.judgements) out["quantities"].push_back(judgement_json(j));
   for (const SeriesResult& series : study.series) {
     const std::vector<std::string> letters = sequence_letters(series);

@@ -36,7 +36,7 @@ charts::Chart work_precision(const Study& study, const Judgement& j) {
                                                                 : "the finest step");
   chart.log_x = chart.log_y = true;
   for (const SeriesResult& series : study.series) {
-    if (series.series.other_law) continue;
+    if (series.series.other_law || series.series.varies == kStartsVary) continue;
     charts::Line line{series.series.name, {}, true, &series == &study.series.front()};
     for (std::size_t i = 0; i < series.settings.size(); ++i) {
       const Answer* a = answer_of(series.settings[i], j.quantity);
@@ -85,7 +85,8 @@ charts::Chart answer_against_step(const Study& study, const Judgement& j) {
   return chart;
 }
 
-/// Each quantity's share is told relative to its value, so that metres and seconds stand in one picture.
+/// Each quantity's share is told relative to its value, so that metres and seconds stand in one picture. More than all of it, as of
+/// a time that is nearly zero, would leave no room for the others.
 charts::Bars uncertainty_bars(const Study& study) {
   charts::Bars bars;
   bars.title = "Uncertainty of the scene as it stands (\u00b1), as a share of the answer";
@@ -96,7 +97,7 @@ charts::Bars uncertainty_bars(const Study& study) {
     const Answer* a = answer_of(*own, j.quantity);
     if (!a || is_defect(j.quantity)) continue;
     const double input = study.input_uncertainty(j.quantity), sensitivity = (a->high - a->low) / 2;
-    const double size = std::max(std::abs(a->value), 1e-9);
+    const double size = std::max({std::abs(a->value), a->uncertainty + sensitivity + input, 1e-9});
     const std::string unit = unit_of(j.quantity);
     bars.rows.push_back({words_of(j.quantity),
                          {a->uncertainty / size, sensitivity / size, input / size},

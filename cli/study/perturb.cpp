@@ -28,13 +28,33 @@ std::vector<int> clusters(const engine::Model& model) {
   return cluster;
 }
 
+/// In -1..1. Not std::uniform_real_distribution: its numbers are the library's, these are the same everywhere.
+class Chance {
+ public:
+  explicit Chance(int seed) : bits_(static_cast<std::uint64_t>(seed)) {}
+  double draw() { return static_cast<double>(bits_() >> 11) * 0x1p-52 - 1.0; }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
 }  // namespace
+
+void start_elsewhere(engine::Model& model, int draw) {
+  Chance chance(draw);
+  const auto shift = [&chance](engine::Vec3& p) {
+    p.x() += kStartGrid * chance.draw();
+    p.y() += kStartGrid * chance.draw();
+  };
+  for (engine::Body& body : model.bodies) shift(body.X_WB.p);
+  for (engine::Joint& joint : model.joints)
+    if (joint.parent < 0) shift(joint.X_PF.p);
+}
 
 void perturb(engine::Model& model, int member) {
   if (member == 0) return;
-  std::mt19937_64 chance(static_cast<std::uint64_t>(member));
-  // not std::uniform_real_distribution: its numbers are the library's, these are the same everywhere
-  const auto draw = [&chance] { return static_cast<double>(chance() >> 11) * 0x1p-52 - 1.0; };
+  Chance chance(member);
+  const auto draw = [&chance] { return chance.draw(); };
   model.settings.gravity *= 1 + kPerturbedSpeed * draw();
   const std::vector<int> cluster = clusters(model);
   for (int c = 0; c < static_cast<int>(model.bodies.size()); ++c) {

@@ -24,7 +24,8 @@ struct Batch {
     overrides.insert(overrides.end(), setting.overrides.begin(), setting.overrides.end());
     const scenes::Scene loaded = scenes::load(scene.file, overrides, meshes.get());
     for (int member = 0; member <= setting.members; ++member) {
-      Trial trial{scene.file, overrides, member, cost, timed, "", loaded.assets_sha256, meshes};
+      Trial trial{scene.file,           overrides, setting.start > 0 ? -setting.start : member, cost, timed, "",
+                  loaded.assets_sha256, meshes};
       trial.fingerprint = fingerprint_of(trial, loaded, program);
       trials.push_back(std::move(trial));
     }

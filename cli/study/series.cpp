@@ -238,6 +238,17 @@ Series recorded_instants(const scenes::Scene& scene, const StudyOptions&) {
   return series;
 }
 
+Series starts_on_the_grid(const scenes::Scene& scene, const StudyOptions&) {
+  const auto moves = [](const engine::Body& body) { return !body.fixed; };
+  if (std::count_if(scene.model.bodies.begin(), scene.model.bodies.end(), moves) < 2) return {};
+  Series series{"start", kStartsVary, "the grid that the start lies on", false, false, {}};
+  constexpr int kDraws = 4;
+  for (int draw = kDraws; draw >= 0; --draw)
+    series.settings.push_back({draw > 0 ? fmt::format("start {} within 15 nm", draw) : "own start", {}, 1, 0, false, draw});
+  series.own_fineness = 1;
+  return series;
+}
+
 Series other_contact_law(const scenes::Scene& scene, const StudyOptions&) {
   if (!has_contacts(scene)) return {};
   using engine::ContactLaw;
@@ -263,9 +274,9 @@ Series other_contact_law(const scenes::Scene& scene, const StudyOptions&) {
 }
 
 /// The table of series. One that does not mean anything for a scene comes back empty; one whose keys the scene refuses is left out.
-constexpr Make kSeries[] = {own_steps,       other_events,        stepping_steps,    rk4_steps,
-                            rk4_plain_steps, adaptive_tolerances, solver_tolerances, touch_distances,
-                            mesh_details,    contact_points,      recorded_instants, other_contact_law};
+constexpr Make kSeries[] = {own_steps,           other_events,       stepping_steps,   rk4_steps,    rk4_plain_steps,
+                            adaptive_tolerances, solver_tolerances,  touch_distances,  mesh_details, contact_points,
+                            recorded_instants,   starts_on_the_grid, other_contact_law};
 
 }  // namespace
 

@@ -17,6 +17,7 @@ struct Setting {
   double fineness = 0;                 // falls towards 0 along the series: step [s], tolerance ...
   int members = 0;                     // perturbed runs besides the plain one
   bool own = false;                    // what the scene says now
+  int start = 0;                       // draw of the start on its grid; 0: the scene's own
 };
 
 struct Series {
@@ -38,6 +39,7 @@ struct StudyOptions {
 using Accepts = std::function<bool(const std::vector<std::string>&)>;
 
 inline constexpr const char* kSolverSeries = "solver tolerance";
+inline constexpr const char* kStartsVary = "start";                 // what such a series varies
 inline constexpr const char* kNotLocated = ", events not located";  // after the name of a scheme
 
 /// True where the contact solver, with its tolerance, decides what contacts do.

@@ -90,7 +90,8 @@ TargetAnswer search(const Study& study, const Target& target) {
   const SettingResult* surest = nullptr;
   double spread = 0, best_wall = 0;
   for (const SeriesResult& series : study.series) {
-    if (series.series.other_law || series.series.varies == "interval") continue;  // another law; a matter of reading, not of cost
+    // another law; a matter of reading, or of the start, not of cost
+    if (series.series.other_law || series.series.varies == "interval" || series.series.varies == kStartsVary) continue;
     for (const SettingResult& r : series.settings) {
       const auto found = r.answers.find(judgement->quantity);
       if (found == r.answers.end() || !r.failure.empty()) continue;

@@ -45,7 +45,10 @@ Outcome run(const Trial& trial) {
   scenes::Scene scene = scenes::load(trial.scene, trial.overrides, trial.meshes.get());
   if (trial.assets != scene.assets_sha256)
     throw MachineError(fmt::format("a file that {} names was changed while the study ran", trial.scene.path.string()));
-  perturb(scene.model, trial.member);
+  if (trial.member < 0)
+    start_elsewhere(scene.model, -trial.member);
+  else
+    perturb(scene.model, trial.member);
   const engine::Plan plan = engine::compile(scene.model);
   InstructionCounter counter;
   Outcome out;

@@ -15,7 +15,7 @@ namespace cli::study {
 struct Trial {
   scenes::SceneFile scene;
   std::vector<std::string> overrides;
-  int member = 0;                                       // of the ensemble; 0: as it is
+  int member = 0;                                       // of the ensemble; 0: as it is; negative: a draw of the start on its grid
   double cost = 1;                                      // expected, in any unit: long trials go first
   bool timed = true;                                    // repeated until its time is known
   std::string fingerprint;                              // of scene, overrides, member and program

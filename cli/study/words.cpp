@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cli::study {
 namespace {
@@ -48,20 +49,18 @@ double worth_of_events(const Study& study, const Judgement& j) {
 /// How the numerical uncertainty is known.
 std::string grounds(const Judgement& j) {
   if (j.convergence.trust == Trust::exact) return "Every step gives this answer.";
-  if (j.cloud) return "That is how far the middle of the answers still moves from one step to finer ones.";
+  if (j.cloud) return "So far the middle of the answers still moves from this step to finer ones.";
   if (!j.second_scheme.empty() && !j.schemes_agree)
-    return fmt::format(
-        "Two ways of computing, the scene's own and {}, tend to different answers: the range holds both, and no finer claim is "
-        "made.",
-        j.second_scheme);
+    return fmt::format("A second way of computing, {}, tends to another answer. The range holds both, and no finer claim is made.",
+                       j.second_scheme);
   if (j.convergence.trust == Trust::steady)
     return fmt::format(
-        "With each halving of the step the answers close in on one value in a steady way, and a second way of computing, {}, tends "
-        "to the same value; this tells how far off they still are.",
+        "Each halving of the step brings the answer nearer to one value, steadily. "
+        "A second way of computing, {}, tends to the same value.",
         j.second_scheme);
   if (j.error_kind == "second_scheme")
     return fmt::format("A second way of computing, {}, settles on one value within that distance.", j.second_scheme);
-  return "The answers at finer steps stay within that range; they do not close in on a value regularly enough to claim less.";
+  return "Answers at finer steps stay within that range. They close in too unevenly to claim less.";
 }
 
 /// The first level whose band is half of the own one, or the time that the order asks for.
@@ -105,35 +104,94 @@ std::string with_unit(double value, const std::string& unit) {
 namespace {
 
 /// "0.3 s of computing buys ± 0.3 m, 3 s ± 0.1 m.": levels of the scene's own ladder, each twice as sure as the one before,
-/// down to what minute changes do.
+/// down to what minute changes do. A level that a surer one undercuts is no offer.
 std::string price_in_words(const Study& study, const Judgement& j) {
+  constexpr std::size_t kMostOffers = 4;
   const std::string unit = unit_of(j.quantity);
-  std::string out;
-  double last = 0;
+  std::vector<const SettingResult*> offers;
+  const auto uncertainty = [&](const SettingResult& r) { return answer_of(r, j.quantity)->uncertainty; };
+  double floor = 0;
   for (const SettingResult& r : study.series.front().settings) {
     const Answer* a = answer_of(r, j.quantity);
-    if (!a || (!out.empty() && a->uncertainty > last / 2)) continue;
-    last = a->uncertainty;
-    out += fmt::format("{}{}{} \u00b1 {}", out.empty() ? "" : ", ", with_unit(r.wall_s, "s"),
-                       out.empty() ? " of computing buys" : "", with_unit(last, unit));
-    if (last > spread_of(*a)) continue;
-    return out + fmt::format(". More buys nothing: minute changes move it by \u00b1 {}.", with_unit(spread_of(*a), unit));
+    if (!a || (!offers.empty() && a->uncertainty > uncertainty(*offers.back()) / 2)) continue;
+    while (!offers.empty() && offers.back()->wall_s >= r.wall_s) offers.pop_back();
+    if (offers.size() == kMostOffers) offers.pop_back();
+    offers.push_back(&r);
+    if (a->uncertainty <= spread_of(*a)) {
+      floor = spread_of(*a);
+      break;
+    }
   }
-  return out + ".";
+  std::string out;
+  for (const SettingResult* r : offers)
+    out += fmt::format("{}{}{} \u00b1 {}", out.empty() ? "" : ", ", with_unit(r->wall_s, "s"),
+                       out.empty() ? " of computing buys" : "", with_unit(uncertainty(*r), unit));
+  out += ".";
+  if (floor > 0) out += fmt::format(" More buys nothing: minute changes move it by \u00b1 {}.", with_unit(floor, unit));
+  return out;
 }
 
-/// What the answer of the scene as it stands hangs on, the largest share first.
-std::string shares_in_words(const Study& study, const Judgement& j, const Answer& own) {
-  std::vector<std::pair<double, std::string>> shares{{own.uncertainty, "numerics"}, {spread_of(own), "minute changes"}};
+/// What the answer hangs on, and by how much.
+struct Share {
+  double width = 0;
+  std::string source;
+};
+
+/// Of the scene as it stands, the largest first.
+std::vector<Share> shares_of(const Study& study, const Judgement& j, const Answer& own) {
+  std::vector<Share> shares{{own.uncertainty, "numerics"}, {spread_of(own), "minute changes"}};
   for (const InputRange& input : study.inputs)
     if (const auto found = input.half_width.find(j.quantity); found != input.half_width.end())
-      shares.emplace_back(found->second, fmt::format("{} from {} to {}", input.key, input.low, input.high));
-  std::stable_sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::string out = "What the answer hangs on:";
-  for (const auto& [width, source] : shares)
-    out +=
-        fmt::format("{} {} \u00b1 {}", &source == &shares.front().second ? "" : ",", source, with_unit(width, unit_of(j.quantity)));
-  return out + ".";
+      shares.push_back({found->second, fmt::format("{} from {} to {}", input.key, input.low, input.high)});
+  std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) { return a.width > b.width; });
+  return shares;
+}
+
+/// Two shares a sentence.
+std::string shares_in_words(const std::vector<Share>& shares, const std::string& unit, bool inputs_given) {
+  std::string out;
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    out += fmt::format("{}{} \u00b1 {}",
+                       i == 0       ? "Largest share first: "
+                       : i % 2 == 0 ? ". Then "
+                                    : ", ",
+                       shares[i].source, with_unit(shares[i].width, unit));
+  return out + (inputs_given ? "." : ". Uncertain inputs are not counted: give their ranges with --input.");
+}
+
+/// Whether a better answer is worth its time: not where something else than numerics decides.
+std::string worth_in_words(const Study& study, const Judgement& j, const Share& largest) {
+  const SettingResult* own = study.own();
+  const double mine = answer_of(*own, j.quantity)->uncertainty;
+  const std::string unit = unit_of(j.quantity);
+  if (j.convergence.trust == Trust::exact && j.besides.empty())
+    return "A finer step is not worth its time: it gives the same answer.";
+  if (largest.source != "numerics")
+    return fmt::format("A finer step is not worth its time: \u00b1 {} come from {} alone.", with_unit(largest.width, unit),
+                       largest.source);
+  const SettingResult* better = nullptr;
+  for (const SettingResult& r : study.series.front().settings)
+    if (const Answer* a = answer_of(r, j.quantity); a && a->uncertainty <= mine / 2 && (!better || r.wall_s < better->wall_s))
+      better = &r;
+  if (!better) return fmt::format("A finer step is not worth its time: none buys half of \u00b1 {}.", with_unit(mine, unit));
+  return fmt::format("A better answer is worth it where \u00b1 {} is too much: {} buys \u00b1 {}.", with_unit(mine, unit),
+                     with_unit(better->wall_s, "s"), with_unit(answer_of(*better, j.quantity)->uncertainty, unit));
+}
+
+/// What nobody can measure, and what it does to the answer.
+std::string minute_in_words(const Study& study, const Judgement& j, double spread) {
+  const std::string unit = unit_of(j.quantity), moved = with_unit(spread, unit);
+  if (!j.cloud) return fmt::format("They move it by \u00b1 {}: the answer does not hang on such details.", moved);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const SettingResult& r : study.series.front().settings)
+    if (const Answer* a = answer_of(r, j.quantity)) {
+      low = std::min({low, a->low, a->value});
+      high = std::max({high, a->high, a->value});
+    }
+  return fmt::format(
+      "They move it by \u00b1 {}, and no computer and no step takes this away. "
+      "With them all steps lie between {:.4g} and {:.4g} {}: quote that range.",
+      moved, low, high, unit);
 }
 
 }  // namespace
@@ -178,44 +236,24 @@ std::vector<std::string> findings(const Study& study, const Judgement& j) {
   if (!a) return {};
   const std::string unit = unit_of(j.quantity), words = words_of(j.quantity);
   const double spread = spread_of(*a);
-  std::vector<std::string> out{price_in_words(study, j), shares_in_words(study, j, *a)};
-  out.push_back(
-      fmt::format("The scene as it stands ({}, {} of computing) gives a {} of {} {}, numerically uncertain by about "
-                  "\u00b1 {}. {}",
-                  own->setting.label, with_unit(own->wall_s, "s"), words, with_digits(a->value, a->uncertainty), unit,
-                  with_unit(a->uncertainty, unit), grounds(j)));
+  const std::vector<Share> shares = shares_of(study, j, *a);
+  std::vector<std::string> out{price_in_words(study, j) + " " + worth_in_words(study, j, shares.front()),
+                               shares_in_words(shares, unit, !study.inputs.empty())};
+  out.push_back(fmt::format("The scene as it stands gives a {} of {} {}, \u00b1 {}. That is {}, and takes {}. {}", words,
+                            with_digits(a->value, a->uncertainty), unit, with_unit(a->uncertainty, unit), own->setting.label,
+                            with_unit(own->wall_s, "s"), grounds(j)));
   if (j.error_kind == "closed_form")
-    out.push_back(fmt::format("Here the exact answer is known from a formula, {:.8g} {}: this run is off by {}.", j.reference, unit,
+    out.push_back(fmt::format("A formula gives {:.8g} {} exactly: this run is off by {}.", j.reference, unit,
                               with_unit(std::abs(a->error), unit)));
-  const std::string minute = fmt::format(
-      "Changes far too small to be measured (a thousandth of a millimetre, a millionth of a speed) move it by \u00b1 {}",
-      with_unit(spread, unit));
-  if (j.cloud) {
-    double low = a->low, high = a->high;
-    for (const SettingResult& r : study.series.front().settings)
-      if (const Answer* other = answer_of(r, j.quantity)) {
-        low = std::min({low, other->low, other->value});
-        high = std::max({high, other->high, other->value});
-      }
-    out.push_back(minute +
-                  fmt::format(": the motion itself is that sensitive, and no computer and no step takes this away. With all "
-                              "steps and minute changes the answers lie between {:.4g} and {:.4g} {}: quote that range, not "
-                              "one number.",
-                              low, high, unit));
-  } else {
-    out.push_back(minute + ": the answer does not hang on such details.");
-  }
+  out.push_back("Minute changes are a thousandth of a millimetre and a millionth of a speed. " + minute_in_words(study, j, spread));
   if (const double worth = worth_of_events(study, j); worth >= 2)
-    out.push_back(
-        fmt::format("Placing each touch, turn and parting of surfaces inside its step leaves {:.0f} times less error than "
-                    "not doing so in the same computing time.",
-                    worth < 100 ? worth : std::round(worth / 100) * 100));
+    out.push_back(fmt::format("Events placed inside their step leave {:.0f} times less error in the same time.",
+                              worth < 100 ? worth : std::round(worth / 100) * 100));
   if (const SettingResult* cheap = cheapest_as_good(study, j); cheap && cheap != own)
-    out.push_back(fmt::format("The setting \"{}\" answers this question as well and takes {} instead of {}.", cheap->setting.label,
+    out.push_back(fmt::format("The setting \"{}\" does as well in {} instead of {}.", cheap->setting.label,
                               with_unit(cheap->wall_s, "s"), with_unit(own->wall_s, "s")));
   out.push_back(
-      "This page tells how well the scene was computed. Whether the scene is right (speeds, masses, friction) is another "
-      "question: column \"input\".");
+      "This page tells how well the scene was computed. Whether its speeds, masses and frictions are right is another question.");
   return out;
 }
 
