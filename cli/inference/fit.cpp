@@ -106,6 +106,12 @@ void find_best(const std::vector<Evidence>& evidence, Fit& fit) {
     fit.best_p = boost::math::cdf(boost::math::complement(boost::math::chi_squared(components), least));
 }
 
+/// As many more as there are too few effective ones, and a quarter besides: their share varies from fit to fit. In hundreds.
+long runs_that_should_do(const Fit& fit) {
+  const double runs = static_cast<double>(fit.table.rows.size()) * kEnoughRuns / std::max(1.0, fit.posterior.effective);
+  return 100 * static_cast<long>(std::ceil(1.25 * runs / 100));
+}
+
 void find_reasons(const Prior& prior, const std::vector<Evidence>& evidence, Fit& fit) {
   for (const Check& c : fit.checks)
     if (c.nearest > kTooFar)
@@ -123,8 +129,9 @@ void find_reasons(const Prior& prior, const std::vector<Evidence>& evidence, Fit
   else if (fit.contradiction && fit.reasons.empty())
     fit.reasons.push_back("the evidence contradicts what was held possible beforehand, or the model");
   if (fit.posterior.effective < kEnoughRuns)
-    fit.reasons.push_back(fmt::format("only {:.0f} effective runs carry the answer, {:.0f} are needed: give more runs (-n)",
-                                      fit.posterior.effective, kEnoughRuns));
+    fit.reasons.push_back(
+        fmt::format("only {:.0f} effective runs carry the answer, {:.0f} are needed: give more runs, -n {} should do",
+                    fit.posterior.effective, kEnoughRuns, runs_that_should_do(fit)));
   for (std::size_t i = 0; i < fit.inputs.size(); ++i) {
     const auto& input = prior.inputs()[i];
     if (fit.ends[i] != 0)

@@ -137,6 +137,8 @@ TEST(Fit, AnswersNoButForFromAHandfulOfRuns) {
   const Result result = fit(folder, kGallery + "fit_puck.toml", {"-n", "16", "--but-for", "body.puck.friction=0.35"});
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("With body.puck.friction=0.35: not answered, too few effective runs ("));
+  EXPECT_THAT(result.out, testing::ContainsRegex("only [0-9]+ effective runs carry the answer, 200 are needed: give more runs, "
+                                                 "-n [1-9][0-9]*00 should do"));
   EXPECT_THAT(fitted(folder)["but_for"][0]["unanswered"].get<std::string>(), StartsWith("too few effective runs"));
 }
 
