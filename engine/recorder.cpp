@@ -161,9 +161,11 @@ void Recorder::watch_events(const World& world, const Constraint& c, double time
 /// A part pressed in by all its thickness has slipped through: its law no longer knows from which side it came.
 void Recorder::watch_compression(const Constraint& c, double time, double duration) {
   const double depth = -c.gap;
-  if (duration <= 0 || c.impulse[0] < 0.5 * c.stiffness * depth * duration) return;  // slack: it springs back
-  compression_ = std::max(compression_, depth);
+  if (duration <= 0) return;
+  // whatever it carries: what is pressed deeper than it is thick is told
   if (depth > c.thickness) too_deep_.note(depth, time, c);
+  if (c.impulse[0] < 0.5 * c.stiffness * depth * duration) return;  // slack: it springs back
+  compression_ = std::max(compression_, depth);
 }
 
 /// What rigid contacts and joints promise to keep. What overlaps at the start is told by itself, and takes its time to part.
