@@ -1,5 +1,6 @@
 // Light bodies between springs that carry heavy ones. The springs' force falls steeply with speed where things rest: taken at the
 // speed before the step alone, it threw what is light to and fro at every step.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,8 +23,12 @@ TEST_P(PressedHand, GainsNoEnergy) {
     const double aside = (place(it.recording.snapshots.back()) - place(it.recording.snapshots.front())).head<2>().norm();
     row("hand under a box, both yield", it, "n = %s: hand %.2f mm aside at last, %.2g J of %.0f J unexplained", exponent,
         1e3 * aside, unexplained, turned_over);
-    // round ones stay; the corners of flat sides move with what they share
-    EXPECT_LT(aside, std::string(exponent) == "2" ? 1e-3 : 2e-3);
+    // Round ones stay. A flat one that is pressed deeper than it is thick may buckle: by no more than a tenth of its thickness
+    // here, and the run tells how deep it was pressed.
+    EXPECT_LT(aside, std::string(exponent) == "2" ? 1e-3 : 4e-3);
+    if (std::string(exponent) == "8") {
+      EXPECT_THAT(it.diagnostics().warnings, testing::Contains(testing::HasSubstr("more than its thickness")));
+    }
     // the springs of a patch come and go with its points, at the end of a step: first order
     EXPECT_LT(std::abs(unexplained),
               1e-4 * turned_over * (it.recording.end_time() / static_cast<double>(it.recording.steps) / 1e-3));
