@@ -42,10 +42,13 @@ constexpr Places kBelow[] = {{0, -1, -1, -1}, {0, 0, -1, -1}, {0, 0, 0, -1}};  /
 struct Panel {
   double *p0, *p1, *p2, *p3;  // its columns
   std::size_t first, end;     // its rows, which are those of its columns
-
-  Panel(double* A, std::size_t n, std::size_t at)
-      : p0(A + at * n), p1(p0 + n), p2(p1 + n), p3(p2 + n), first(at), end(at + kPanel) {}
 };
+
+// no constructor: clang++ leaves one of those out that a function of two variants calls
+PART_OF_BOTH Panel panel_at(double* A, std::size_t n, std::size_t at) {
+  double* p0 = A + at * n;
+  return {p0, p0 + n, p0 + 2 * n, p0 + 3 * n, at, at + kPanel};
+}
 
 /// Of a band most is zero: rows beyond the panel's last are left alone, and so are columns its rows have no part in.
 PART_OF_BOTH std::size_t last_row(const Panel& panel, std::size_t n) {
@@ -171,7 +174,7 @@ __attribute__((target_clones("avx2", "default")))
 bool factor_in_place(double* A, std::size_t n, std::size_t* pivots, std::size_t* reach) {
   const double* past = A + n * n;
   for (std::size_t first = 0; first < n; first += kPanel) {
-    const Panel panel(A, n, first);
+    const Panel panel = panel_at(A, n, first);
     const std::size_t last = last_row(panel, n);
     reach[first / kPanel] = last;
     for (std::size_t k = first; k < panel.end; ++k) {
