@@ -63,16 +63,13 @@ std::string grounds(const Judgement& j) {
   return "Answers at finer steps stay within that range. They close in too unevenly to claim less.";
 }
 
-/// The first level whose band is half of the own one, or the time that the order asks for.
-double cost_of_half(const SeriesResult& ladder, const Judgement& j, std::size_t own) {
+/// The first level whose band is half of the own one or less; none: null.
+const SettingResult* level_of_half(const SeriesResult& ladder, const Judgement& j, std::size_t own) {
   const Answer* wanted = answer_of(ladder.settings[own], j.quantity);
-  for (std::size_t i = own + 1; i < ladder.settings.size(); ++i) {
-    const Answer* a = answer_of(ladder.settings[i], j.quantity);
-    if (!a || a->uncertainty > wanted->uncertainty / 2) continue;
-    const double gain = std::log(wanted->uncertainty / a->uncertainty) / std::log(2.0);
-    return std::pow(ladder.settings[i].wall_s / ladder.settings[own].wall_s, 1 / gain);
-  }
-  return 0;
+  for (std::size_t i = own + 1; i < ladder.settings.size(); ++i)
+    if (const Answer* a = answer_of(ladder.settings[i], j.quantity); a && a->uncertainty <= wanted->uncertainty / 2)
+      return &ladder.settings[i];
+  return nullptr;
 }
 
 }  // namespace
@@ -222,9 +219,10 @@ std::string cost_in_words(const Study& study, const std::string& quantity) {
   if (j->cloud && spread_of(*a) > a->uncertainty)
     return fmt::format("no time buys less than \u00b1 {}: minute changes move the answer that far", with_unit(spread_of(*a), unit));
   const char* width = j->convergence.trust == Trust::steady ? "band" : "range";
-  if (const double ratio = cost_of_half(ladder, *j, own); ratio > 0)
-    return fmt::format("halving its {} from \u00b1 {} to \u00b1 {} costs {:.1f} times the time", width,
-                       with_unit(a->uncertainty, unit), with_unit(a->uncertainty / 2, unit), ratio);
+  if (const SettingResult* half = level_of_half(ladder, *j, own))
+    return fmt::format("a {} of \u00b1 {} in place of \u00b1 {} costs {:.1f} times the time", width,
+                       with_unit(answer_of(*half, quantity)->uncertainty, unit), with_unit(a->uncertainty, unit),
+                       half->wall_s / ladder.settings[own].wall_s);
   if (j->beside_the_step() > a->uncertainty / 2)
     return fmt::format("\u00b1 {}, limited by {}, not by the step", with_unit(a->uncertainty, unit), j->besides.front().source);
   return fmt::format("\u00b1 {}; no finer step that was tried halves this", with_unit(a->uncertainty, unit));

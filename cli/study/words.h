@@ -9,7 +9,7 @@
 
 namespace cli::study {
 
-/// "halving the band from 6 to 3 mm costs 2.0 times the time", or what stands in the way of a better answer.
+/// "a band of ± 3 mm in place of ± 6 mm costs 2.0 times the time", or what stands in the way of a better answer.
 std::string cost_in_words(const Study&, const std::string& quantity);
 
 /// How good the scene's own answer is, whether minute changes matter, and whether a cheaper setting would do.
