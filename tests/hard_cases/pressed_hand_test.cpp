@@ -23,9 +23,10 @@ TEST_P(PressedHand, GainsNoEnergy) {
     const double aside = (place(it.recording.snapshots.back()) - place(it.recording.snapshots.front())).head<2>().norm();
     row("hand under a box, both yield", it, "n = %s: hand %.2f mm aside at last, %.2g J of %.0f J unexplained", exponent,
         1e3 * aside, unexplained, turned_over);
-    // Round ones stay. A flat one that is pressed deeper than it is thick may buckle: by no more than a tenth of its thickness
-    // here, and the run tells how deep it was pressed.
-    EXPECT_LT(aside, std::string(exponent) == "2" ? 1e-3 : 4e-3);
+    // Round ones stay; the corners of flat sides move with what they share. Pressed deeper than it is thick the flat one buckles at
+    // 1 ms, by less than a tenth of its thickness, and the run tells how deep it was pressed.
+    const double most = std::string(GetParam()) == "1 ms" ? 4e-3 : 2e-3;
+    EXPECT_LT(aside, std::string(exponent) == "2" ? 1e-3 : most);
     if (std::string(exponent) == "8") {
       EXPECT_THAT(it.diagnostics().warnings, testing::Contains(testing::HasSubstr("more than its thickness")));
     }
