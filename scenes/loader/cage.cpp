@@ -98,7 +98,9 @@ class Shelf {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  char* const environment[] = {nullptr};
+  // the importer clears buffers of 16 MB for the smallest file: with pages of 2 MB a fifth of the time (older glibc ignores it)
+  char pages[] = "GLIBC_TUNABLES=glibc.malloc.hugetlb=1";
+  char* const environment[] = {pages, nullptr};
   execve(program, arguments, environment);
   _exit(127);
 }
