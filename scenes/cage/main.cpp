@@ -1,5 +1,5 @@
 // crashreel-cage NAME CPU_SECONDS MEMORY: reads one foreign mesh behind walls, and tells the parent what
-// stands in it. Started by import_in_cage with a socket as descriptor 3 and an empty environment; by hand it does nothing.
+// stands in it. Started by import_in_cage with a socket as descriptor 3 and a word to the allocator; by hand it does nothing.
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
   int kind = 0;
   socklen_t size = sizeof kind;
   if (argc != 4 || getsockopt(kSocket, SOL_SOCKET, SO_TYPE, &kind, &size) != 0) return 2;
+  clearenv();  // the allocator has read its word
   // at the first refusal: an importer may swallow the exception, or throw it where none may pass
   std::set_new_handler([] { _exit(kNoMemory); });
   const std::uint32_t walls = raise_walls({std::strtoul(argv[2], nullptr, 10), std::strtoul(argv[3], nullptr, 10)});
