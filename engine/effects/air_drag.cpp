@@ -6,9 +6,9 @@
 // H. Heisler, Advanced Vehicle Technology, 2nd ed. 2002, chapter 14) on 85 % of the box, as much as a car fills of it; from the
 // side and from above those of blocks with rounded and with sharp edges, 0.8 and 1.0 (Hoerner: a cube 1.05).
 //
-// A scene without [air] has still air of the usual density round its vehicles and persons, unless what it is worth is below kShare.
-// Its free bodies have none: nobody knows what they are meant to be. What that leaves out is told as the speed that drag would
-// take: 1/2 rho A v^2/m in a unit of time. Before the run v is bounded by the energy there is, after it v is that of the run.
+// A scene without [air] has still air of the usual density around its vehicles and persons, unless what it is worth is below
+// kShare. Its free bodies have none: nobody knows what they are meant to be. What that leaves out is told as the speed that drag
+// would take: 1/2 rho A v^2/m in a unit of time. Before the run v is bounded by the energy there is, after it v is that of the run.
 #include <algorithm>
 #include <cmath>
 
@@ -187,7 +187,7 @@ Finding look_at_usual(const Model& model) {
   const std::vector<Group> groups = groups_of(model);
   const bool usual = std::any_of(groups.begin(), groups.end(), [](const Group& group) { return group.usual; });
   const bool free = std::any_of(groups.begin(), groups.end(), [](const Group& group) { return !group.usual; });
-  const std::string air = "usual air of " + number(kDensity) + " kg/m^3, still, round ", how = kHow;
+  const std::string air = "still air of " + number(kDensity) + " kg/m^3, the usual, around ", how = kHow;
   const std::string source = source_of_energy(model);
   const Loss loss = loss_before(model, groups);
   const bool matters = !source.empty() || loss.share > kShare;
@@ -267,8 +267,8 @@ class AirDrag final : public Effect {
   static constexpr const char* kName = "air_drag";
   static constexpr SceneSection kSection{
       "air",
-      "The air, where its resistance or the wind counts. Without this section there is still air round "
-      "vehicles and persons, and none round free bodies; `crashreel plan` tells what that leaves "
+      "The air, where its resistance or the wind counts. Without this section there is still air around "
+      "vehicles and persons, and none around free bodies; `crashreel plan` tells what that leaves "
       "out.",
       kKeys};
   static Finding look(const Model& model) { return look_for_air_drag(model); }

@@ -10,7 +10,7 @@ Finding look_for_body_contact(const Model& model) {
   const std::size_t count = count_pairs_between_bodies(model);
   if (count > 0)
     return {true, counted(count, "pair") + " of segments or free bodies that are not one person's: " + round_bodies(model),
-            "no pairs but those farther apart than a step can bring them"};
+            "only pairs farther apart than a step can bring them together"};
   const std::string round = round_bodies(model);
   if (round.empty()) return {false, "no person and no free body", ""};
   return {false,

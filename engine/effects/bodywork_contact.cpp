@@ -15,8 +15,8 @@ std::string with_law(const Model& model, int body_a, int body_b) {
   if (coupled(model, body_a, body_b)) return a.name + " with " + b.name + " (default_auto: coupled)";
   const bool from_a = a.collision_model == CollisionModel::kudlich_slibar,
              from_b = b.collision_model == CollisionModel::kudlich_slibar;
-  const std::string who = from_a ? b.name + " does" : from_b ? a.name + " does" : "both do";
-  return a.name + " with " + b.name + " (default_auto: " + who + " not ask for kudlich_slibar)";
+  const std::string who = from_a ? b.name + " does not ask" : from_b ? a.name + " does not ask" : "neither asks";
+  return a.name + " with " + b.name + " (default_auto: " + who + " for kudlich_slibar)";
 }
 
 Finding look_for_bodywork_contact(const Model& model) {
@@ -38,7 +38,7 @@ Finding look_for_bodywork_contact(const Model& model) {
     for (int b = a + 1; b < n; ++b)
       if (is_mesh(model.bodies[a]) && is_mesh(model.bodies[b]) && model.bodies[a].person < 0 && jointed(model, a, b))
         (coupled(model, a, b) ? towing : held).push_back(model.bodies[a].name + " with " + model.bodies[b].name);
-  std::string left_out = "no meshes but those whose boxes a step cannot bring together";
+  std::string left_out = "only meshes whose boxes a step cannot bring together";
   if (!held.empty()) left_out += "; " + listed(held) + ", which a joint holds";
   if (!towing.empty())
     left_out += "; of " + listed(towing) + " what stands within 5 cm of the other at the start, about the coupling";

@@ -17,7 +17,7 @@ Finding look_for_ground_contact(const Model& model) {
     if (is_round(body) && !body.fixed)
       lowest = std::min(lowest, body.X_WB.p.z() - aabb_half_widths(std::get<HyperEllipsoid>(body.shape), body.X_WB.q).z());
   return {true, round + " over the plane; the lowest point starts " + height_in_words(lowest - model.ground.height),
-          "no bodies but those higher than a step can bring them down"};
+          "only bodies higher than a step can bring them down"};
 }
 
 }  // namespace

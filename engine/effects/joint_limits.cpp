@@ -32,8 +32,12 @@ Finding look_for_joint_limits(const Model& model) {
   if (joints == 0) return {false, counted(model.joints.size(), "joint") + ", none with a range of motion", ""};
   const std::string what = (angles > 0 ? counted(angles, "articulation angle") : "") + (angles > 0 && slides > 0 ? " and " : "") +
                            (slides > 0 ? counted(slides, "slide") : "");
-  return {true, what + " of " + counted(joints, "joint") + " with an end to the range of motion",
-          "ends out of reach of a step; one passed by more than 0.4 deg has the step taken again in halves"};
+  std::string left_out = "ends out of reach of a step";
+  if (model.settings.contact_law != ContactLaw::compliant) {  // whose stops are springs
+    const std::string bound = angles == 0 ? "0.9 mm" : slides == 0 ? "0.4 deg" : "0.4 deg or 0.9 mm";
+    left_out += "; one passed by more than " + bound + " has the step taken again in halves";
+  }
+  return {true, what + " of " + counted(joints, "joint") + " with an end to the range of motion", left_out};
 }
 
 /// Response [1/kg] or [1/(kg m^2)] of a row if its bodies were free of joints.

@@ -52,7 +52,7 @@ Finding look_for_kudlich_slibar(const Model& model) {
   for (const ImpactPair& pair : pairs_of(model))
     pairs.push_back(model.bodies[pair.a].name + " with " + model.bodies[pair.b].name + " (exchange " +
                     number(1e3 * pair.settings.penetration_time) + " ms after the touch)");
-  if (!pairs.empty()) return {true, "both ask for it: " + listed(pairs), "no meshes but those whose spheres are apart"};
+  if (!pairs.empty()) return {true, "both ask for it: " + listed(pairs), "only meshes whose spheres are apart"};
   const auto meshes = std::count_if(model.bodies.begin(), model.bodies.end(), is_mesh);
   if (meshes == 0) return {false, "no vehicle and no other mesh", ""};
   if (meshes == 1) return {false, "one mesh alone", ""};
@@ -60,7 +60,7 @@ Finding look_for_kudlich_slibar(const Model& model) {
     return is_mesh(b) && b.collision_model == CollisionModel::kudlich_slibar;
   }));
   return {false,
-          counted(asking, "mesh asks", "meshes ask") + " for it, it takes two that can meet; others meet by bodywork_contact", ""};
+          counted(asking, "mesh asks", "meshes ask") + " for it; it takes two that can meet, others meet by bodywork_contact", ""};
 }
 
 const MeshShape& mesh_of(const World& world, int body) {

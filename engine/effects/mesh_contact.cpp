@@ -36,7 +36,7 @@ Finding look_for_mesh_contact(const Model& model) {
     return {true, counted(tyres, "pair") + " of a segment or free body and a wheel", ""};
   if (meshes == 0) return {false, "no vehicle and no other mesh", ""};
   if (pairs == 0) return {false, "no mesh but what the person rides", ""};
-  std::string left_out = "no pairs but those farther apart than a step can bring them";
+  std::string left_out = "only pairs farther apart than a step can bring them together";
   if (riding > 0) left_out += "; " + counted(riding, "pair") + " of a rider and its mount, whose joints hold them apart";
   const bool gives_way = !model.persons.empty() && yields(model.settings.contact_law, true);
   return {true, counted(pairs, "pair") + " of a segment or free body and " + listed(names) + (gives_way ? "; persons yield" : ""),

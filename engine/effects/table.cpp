@@ -49,9 +49,8 @@ void prove_needless(const Model& model, const EffectKind& effect, const Reach& r
   line.not_before = effect.not_before(reach);
   if (line.forced || line.not_before < model.settings.duration) return;
   line.active = line.called_for = false;
-  const std::string touch = reach.who.empty() ? "nothing to touch" : reach.who + " at the nearest";
-  line.reason =
-      "cannot matter within " + number(model.settings.duration) + " s: no two things can touch, " + touch + "; " + line.reason;
+  const std::string why = reach.who.empty() ? "nothing can touch anything" : "nothing can touch before, nearest are " + reach.who;
+  line.reason = "cannot matter within " + number(model.settings.duration) + " s (" + why + "); " + line.reason;
   line.left_out = "nothing: the bound on every speed is that of energy and drive";
 }
 

@@ -14,7 +14,7 @@ Finding look_for_terrain_contact(const Model& model) {
   if (!model.ground.terrain) return {false, "no terrain mesh", ""};
   if (round.empty()) return {false, "no person and no free body; vehicles meet the terrain by tyres and bodywork_contact", ""};
   return {true, round + " over a terrain of " + counted(model.ground.terrain->triangles().size(), "triangle"),
-          "no bodies but those farther from it than a step can bring them"};
+          "only bodies farther from it than a step can bring them"};
 }
 
 }  // namespace

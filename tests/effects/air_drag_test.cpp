@@ -134,7 +134,7 @@ TEST(AirDrag, IsThereRoundPersonsAndVehiclesWithoutASection) {
   model.settings.duration = 0.4;
   const PlanLine line = air_line(compile(model).lines);
   EXPECT_TRUE(line.active);
-  EXPECT_EQ(line.reason, "usual air of 1.2 kg/m^3, still, round vehicles and persons");
+  EXPECT_EQ(line.reason, "still air of 1.2 kg/m^3, the usual, around vehicles and persons");
   const Recording usual = simulate(model);
   add_air(model, {0, 0, 0});
   model.inputs["air.drag"] = {1.2, 0, 0};

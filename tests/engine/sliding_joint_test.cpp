@@ -127,6 +127,21 @@ TEST_P(Prismatic, TheStopIsADampedSpringWithTheCompliantLaw) {
   EXPECT_NEAR(deepest, exact, 0.015 * exact);
 }
 
+TEST(Prismatic, ThePlanTellsHowFarItsStopMayBePassed) {
+  const auto left_out = [](const Model& model) {
+    for (const PlanLine& line : compile(model).lines)
+      if (std::string(line.effect) == "joint_limits") return line.left_out;
+    return std::string();
+  };
+  Model model = on_a_rail(Scheme::stepping, 1, 1e-3);
+  model.joints[0].slide.upper = 0.4;
+  EXPECT_NE(left_out(model).find("passed by more than 0.9 mm has the step taken again"), std::string::npos) << left_out(model);
+  model.joints[0].angles[0].upper = 1;
+  EXPECT_NE(left_out(model).find("0.4 deg or 0.9 mm"), std::string::npos) << left_out(model);
+  model.settings.contact_law = ContactLaw::compliant;
+  EXPECT_EQ(left_out(model), "ends out of reach of a step");
+}
+
 TEST(Cylindrical, SlidesAndSpinsEachForItself) {
   for (const Scheme scheme : {Scheme::stepping, Scheme::rk4}) {
     constexpr double kSpin = 30, kThrust = 4, kDamping = 0.02;
