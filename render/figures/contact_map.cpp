@@ -23,15 +23,28 @@ struct Touch {
   double time = 0, impulse = 0;
 };
 
-std::vector<Touch> touches(const engine::Recording& recording, const std::vector<Point2>& tape, int body) {
-  std::vector<Touch> out;
+/// The touches the map shows, and between which times others are not on it.
+struct Touches {
+  std::vector<Touch> marks;
+  double first_below = 1e300, last_below = -1e300;  // [s]
+};
+
+Touches touches(const engine::Recording& recording, const std::vector<Point2>& tape, int body) {
+  Touches all;
+  std::vector<Touch>& out = all.marks;
   for (const engine::Snapshot& s : recording.snapshots)
     for (const engine::ContactRecord& c : s.contacts) {
       if (!c.shapes.on_vehicle() || c.body_b != body || c.impulse.norm() < kLeast) continue;
       const Pose& X = s.bodies[static_cast<std::size_t>(body)].X_WB;
       const Vec3 p = X.q.conjugate() * (c.point - X.p);
-      const Touch touch{part_of(recording.body_names[static_cast<std::size_t>(c.body_a)]), on_tape(tape, {p.x(), p.z()}).along,
-                        p.y(), s.time, c.impulse.norm()};
+      const OnTape place = on_tape(tape, {p.x(), p.z()});
+      if (!lies_above(c, X, place.off)) {
+        all.first_below = std::min(all.first_below, s.time);
+        all.last_below = std::max(all.last_below, s.time);
+        continue;
+      }
+      const Touch touch{part_of(recording.body_names[static_cast<std::size_t>(c.body_a)]), place.along, p.y(), s.time,
+                        c.impulse.norm()};
       const auto same = std::find_if(out.begin(), out.end(), [&](const Touch& t) {
         return t.part == touch.part && std::hypot(t.along - touch.along, t.across - touch.across) < kSpread;
       });
@@ -42,7 +55,7 @@ std::vector<Touch> touches(const engine::Recording& recording, const std::vector
     }
   // the largest first, so that small ones are not covered
   std::stable_sort(out.begin(), out.end(), [](const Touch& a, const Touch& b) { return a.impulse > b.impulse; });
-  return out;
+  return all;
 }
 
 struct Scales {
@@ -119,7 +132,8 @@ void draw_grid(cairo_t* c, const Scales& s) {
     grey(c, 0);
     draw_text(c, s.x(0) - 2, s.y(v) + 1, fmt::format("{:.1f}", v), 2.9, Align::right);
   }
-  draw_text(c, s.x(s.length / 2), s.y(-s.half_width) + 10, "along the vehicle, tape from the ground over its front, m", 3.2,
+  draw_text(c, s.x(s.length / 2), s.y(-s.half_width) + 10,
+            "along the vehicle, tape over its side view, m (a wrap-around distance is of the section at its place)", 3.2,
             Align::centre);
   cairo_save(c);
   cairo_translate(c, s.x(0) - 14, s.y(0));
@@ -169,7 +183,8 @@ std::vector<std::string> contact_map(const Stage& stage, const engine::Recording
   const double ground = stage.road.height - recording.snapshots.front().bodies[static_cast<std::size_t>(body)].X_WB.p.z();
   const std::vector<Point2> tape = tape_of(stage, body, ground);
   if (tape.size() < 3) return {};
-  const std::vector<Touch> marks = touches(recording, tape, body);
+  const Touches all = touches(recording, tape, body);
+  const std::vector<Touch>& marks = all.marks;
   if (marks.empty()) return {};
   double half_width = 0.5, first = 1e9, last = 0, farthest = 0;
   for (const MeshActor& actor : stage.meshes)
@@ -199,6 +214,12 @@ std::vector<std::string> contact_map(const Stage& stage, const engine::Recording
       draw_mark(c, t.part, scales.x(t.along), scales.y(t.across), 0.6 + 0.42 * std::sqrt(std::min(t.impulse, 60.0)));
     }
     draw_key(c, marks, first, last);
+    if (all.first_below > all.last_below) return;
+    grey(c, 0);
+    draw_text(c, scales.x(scales.length / 2), scales.y(-scales.half_width) + 15,
+              fmt::format("Not on this map: touches of the underside and the wheels, {:.3f} to {:.3f} s.", all.first_below,
+                          all.last_below),
+              2.9, Align::centre);
   });
 }
 

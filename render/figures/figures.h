@@ -51,6 +51,10 @@ std::vector<std::string> time_histories(const Stage&, const engine::Recording&, 
 std::vector<std::string> stroboscopic_still(const Stage&, const engine::Recording&, const FigureJob&);
 std::vector<std::string> contact_sheet(const Stage&, const engine::Recording&, const FigureJob&);
 
+/// The nine instants of a contact sheet, in order: six from first touch to landing, three from there to the end; nine evenly where
+/// nobody lands.
+std::vector<double> times_of_sheet(const engine::Recording&, const FigureJob&);
+
 /// Centre of mass of a person at a time.
 Vec3 centre_of_mass(const PersonFacts&, const engine::Recording&, double time);
 

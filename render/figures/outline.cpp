@@ -35,27 +35,37 @@ std::vector<Point2> convex_hull(std::vector<Point2> p) {
 }
 
 std::vector<Point2> seen_from_above(const Mesh& mesh, const Pose& X) {
-  // the widest points of each slice across the length, sampled along the edges: mirrors stay small, hollows behind them too
-  std::map<long, std::array<Vec3, 2>> slices;
+  // the widest points of each slice across the level length, sampled along the edges: mirrors stay small, hollows behind them too;
+  // level, as a two-wheeler may lie on its side
+  Point2 ahead = (X.q * Vec3::UnitX()).head<2>();
+  if (ahead.norm() < 0.1) ahead = (X.q * Vec3::UnitY()).head<2>();  // it stands on end
+  ahead.normalize();
+  const Point2 left(-ahead.y(), ahead.x());
+  std::map<long, std::array<Point2, 2>> slices;
   auto vertex = [&mesh](std::uint32_t i) {
     const float* p = &mesh.positions[3 * static_cast<std::size_t>(i)];
     return Vec3(p[0], p[1], p[2]);
   };
-  auto take = [&slices](const Vec3& p) {
-    const auto [slice, fresh] = slices.try_emplace(std::lround(p.x() / kSlice), std::array<Vec3, 2>{p, p});
+  const auto seen = [&](std::uint32_t i) {  // along and across, from the mesh's origin
+    const Point2 p = (X.q * vertex(i)).head<2>();
+    return Point2(p.dot(ahead), p.dot(left));
+  };
+  auto take = [&slices](const Point2& p) {
+    const auto [slice, fresh] = slices.try_emplace(std::lround(p.x() / kSlice), std::array<Point2, 2>{p, p});
     auto& [lowest, highest] = slice->second;
     if (p.y() < lowest.y()) lowest = p;
     if (p.y() > highest.y()) highest = p;
   };
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 a = vertex(mesh.indices[i + k]), b = vertex(mesh.indices[i + (k + 1) % 3]);
+      const Point2 a = seen(mesh.indices[i + k]), b = seen(mesh.indices[i + (k + 1) % 3]);
       const int pieces = 1 + static_cast<int>(std::abs(b.x() - a.x()) / (0.5 * kSlice));
       for (int j = 0; j < pieces; ++j) take(a + (b - a) * j / pieces);
     }
   std::vector<Point2> outline;
-  for (const auto& [number, ends] : slices) outline.push_back((X * ends[0]).head<2>());
-  for (auto at = slices.rbegin(); at != slices.rend(); ++at) outline.push_back((X * at->second[1]).head<2>());
+  const auto placed = [&](const Point2& p) -> Point2 { return X.p.head<2>() + p.x() * ahead + p.y() * left; };
+  for (const auto& [number, ends] : slices) outline.push_back(placed(ends[0]));
+  for (auto at = slices.rbegin(); at != slices.rend(); ++at) outline.push_back(placed(at->second[1]));
   return outline;
 }
 

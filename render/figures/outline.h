@@ -13,7 +13,7 @@ using Point2 = Eigen::Vector2d;
 /// Counter-clockwise convex hull (monotone chain, Andrew 1979), without its collinear points.
 std::vector<Point2> convex_hull(std::vector<Point2> points);
 
-/// Outline of a mesh seen along -z of a vehicle that stands about upright: its widest points across each slice of its length.
+/// Outline of a mesh seen along -z, however it lies: its widest points across each slice of its level length.
 std::vector<Point2> seen_from_above(const Mesh&, const Pose& X_WM);
 
 /// Outline of a hyper-ellipsoid seen along -z: its support points in level directions.

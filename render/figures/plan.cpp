@@ -25,13 +25,14 @@ void fill(cairo_t* c, const Tint& tint) {
 
 }  // namespace
 
-Plan plan_for(const Point2& lower, const Point2& upper) {
+Plan plan_for(const Point2& lower, const Point2& upper, double top) {
   constexpr std::array kScales{20, 25, 50, 75, 100, 125, 150, 200, 250, 300, 400, 500, 750, 1000, 1500, 2000, 5000};
   Plan plan;
   plan.middle = 0.5 * (lower + upper);
+  plan.top = top;
   for (const int scale : kScales) {
     plan.denominator = scale;
-    if (1000 * (upper.x() - lower.x()) / scale <= kRight - kLeft && 1000 * (upper.y() - lower.y()) / scale <= kBottom - kTop) break;
+    if (1000 * (upper.x() - lower.x()) / scale <= kRight - kLeft && 1000 * (upper.y() - lower.y()) / scale <= kBottom - top) break;
   }
   return plan;
 }
@@ -43,7 +44,7 @@ void draw_road(cairo_t* c, const Stage& stage, const Plan& plan) {
   for (int lane = 0; lane <= road.lanes; ++lane) {
     const bool edge = lane == 0 || lane == road.lanes;
     const double y = plan.y(lower + lane * road.width / road.lanes);
-    if (y < kTop || y > kBottom) continue;
+    if (y < plan.top || y > kBottom) continue;
     grey(c, 0.55);
     cairo_set_line_width(c, edge ? 0.5 : 0.35);
     const double dash[] = {1000 * 3 / plan.denominator, 1000 * 6 / plan.denominator};
@@ -79,6 +80,18 @@ void draw_person(cairo_t* c, const Stage& stage, const Plan& plan, const std::st
       cairo_stroke(c);
       set_dashes(c, 0);
     }
+  }
+}
+
+void draw_bodies(cairo_t* c, const Stage& stage, const Plan& plan, const engine::Snapshot& s, const Tint& tint) {
+  for (const EllipsoidActor& actor : stage.ellipsoids) {
+    path(c, seen_from_above(actor.shape, pose(s, actor.body)), plan);
+    fill(c, tint);
+    grey(c, 0.25);
+    cairo_set_line_width(c, 0.3);
+    set_dashes(c, tint.dashes);
+    cairo_stroke(c);
+    set_dashes(c, 0);
   }
 }
 

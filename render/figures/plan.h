@@ -14,13 +14,14 @@ constexpr double kLeft = kMargin, kTop = 28, kRight = kSheetWidth - kMargin, kBo
 struct Plan {
   double denominator = 100;  // of the scale
   Point2 middle{0, 0};
+  double top = kTop;  // [mm] below what is written above it
   double x(double wx) const { return (kLeft + kRight) / 2 + 1000 * (wx - middle.x()) / denominator; }
-  double y(double wy) const { return (kTop + kBottom) / 2 - 1000 * (wy - middle.y()) / denominator; }
+  double y(double wy) const { return (top + kBottom) / 2 - 1000 * (wy - middle.y()) / denominator; }
   Point2 at(const Vec3& p) const { return {x(p.x()), y(p.y())}; }
 };
 
-/// The largest usual scale at which the box [m] fits the sheet.
-Plan plan_for(const Point2& lower, const Point2& upper);
+/// The largest usual scale at which the box [m] fits the sheet below `top` [mm].
+Plan plan_for(const Point2& lower, const Point2& upper, double top = kTop);
 
 /// How an outline is filled and edged.
 struct Tint {
@@ -30,6 +31,8 @@ struct Tint {
 void draw_road(cairo_t*, const Stage&, const Plan&);
 void draw_vehicles(cairo_t*, const Stage&, const Plan&, const engine::Snapshot&, const Tint&);
 void draw_person(cairo_t*, const Stage&, const Plan&, const std::string& name, const engine::Snapshot&, const Tint&);
+/// Free bodies that are nobody's.
+void draw_bodies(cairo_t*, const Stage&, const Plan&, const engine::Snapshot&, const Tint&);
 /// Scale bar, and north or the x axis.
 void draw_scale(cairo_t*, const Stage&, const Plan&);
 

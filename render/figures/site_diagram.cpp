@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/figures/figures.h"
 #include "render/figures/outline.h"
@@ -140,29 +141,55 @@ void draw_numbers(cairo_t* c, const Site& site, const PersonFacts& facts) {
   }
 }
 
-void draw_key(cairo_t* c, const Site& site) {
-  double y = kMargin + 3;
-  const double x = kSheetWidth - kMargin;
-  grey(c, 0);
-  for (const PersonFacts& facts : site.job.persons) {
-    const std::vector<double> times = times_of_interest(facts, site.recording);
+constexpr double kKeyTop = kMargin + 3, kKeyLine = 4.4;  // [mm]
+
+/// What stands above the plan: of each person when and how far, then the impacts; in lines that leave the title its place.
+std::vector<std::string> key_of(const engine::Recording& recording, const FigureJob& job) {
+  constexpr std::size_t kLongest = 80;  // letters: 125 mm
+  std::vector<std::string> out;
+  for (const PersonFacts& facts : job.persons) {
+    const std::vector<double> times = times_of_interest(facts, recording);
     std::string text = facts.name + ":";
     for (std::size_t i = 0; i < times.size(); ++i) {
       const bool last = i + 1 == times.size();
       const char* what = last ? (facts.rest ? "rest" : "end of run") : i == 0 && facts.hit ? "struck" : "on the ground";
-      text += fmt::format("  {} {} {:.2f} s", i + 1, what, times[i]);
+      text += fmt::format("  {} {} {:.3f} s", i + 1, what, times[i]);
     }
-    draw_text(c, x, y, text, 2.9, Align::right);
-    y += 4.4;
+    out.push_back(text);
     text.clear();
-    for (const auto& [name, value] : facts.dimensions) text += fmt::format("{}{} {:.2f} m", text.empty() ? "" : ", ", name, value);
-    draw_text(c, x, y, text, 2.9, Align::right);
-    y += 4.4;
+    for (const auto& [name, value] : facts.dimensions) {
+      const std::string next = fmt::format("{} {:.2f} m", name, value);
+      if (!text.empty() && text.size() + next.size() > kLongest) out.push_back(std::exchange(text, "") + ",");
+      text += (text.empty() ? "" : ", ") + next;
+    }
+    if (!text.empty()) out.push_back(text);
   }
-  for (const std::string& impact : site.job.impacts) {
-    draw_text(c, x, y, impact, 2.9, Align::right);
-    y += 4.4;
+  out.insert(out.end(), job.impacts.begin(), job.impacts.end());
+  return out;
+}
+
+void draw_key(cairo_t* c, const std::vector<std::string>& lines) {
+  double y = kKeyTop;
+  grey(c, 0);
+  for (const std::string& line : lines) {
+    draw_text(c, kSheetWidth - kMargin, y, line, 2.9, Align::right);
+    y += kKeyLine;
   }
+}
+
+/// The ways of free bodies.
+void draw_body_paths(cairo_t* c, const Site& site) {
+  grey(c, 0);
+  cairo_set_line_width(c, 0.35);
+  set_dashes(c, 4);
+  for (const EllipsoidActor& actor : site.stage.ellipsoids) {
+    for (const engine::Snapshot& s : site.recording.snapshots) {
+      const Point2 p = site.plan.at(pose(s, actor.body).p);
+      cairo_line_to(c, p.x(), p.y());
+    }
+    cairo_stroke(c);
+  }
+  set_dashes(c, 0);
 }
 
 }  // namespace
@@ -198,16 +225,21 @@ std::vector<std::string> site_diagram(const Stage& stage, const engine::Recordin
     for (const engine::Snapshot& s : recording.snapshots) take(pose(s, actor.body).p.head<2>());
   if (lower.x() > upper.x()) return {};
   const Point2 around(kAround, kAround);
-  const Site site{stage, recording, job, plan_for(lower - around, upper + around)};
+  const std::vector<std::string> key = key_of(recording, job);
+  const double below = std::max(kTop, kKeyTop + kKeyLine * static_cast<double>(key.size()));
+  const Site site{stage, recording, job, plan_for(lower - around, upper + around, below)};
   return write_sheets(job.folder, "site_diagram", "Site diagram: " + stage.title, [&](cairo_t* c) {
     draw_frame_of_sheet(c, stage, "Site diagram");
     cairo_save(c);
-    cairo_rectangle(c, kLeft, kTop, kRight - kLeft, kBottom - kTop);
+    cairo_rectangle(c, kLeft, below, kRight - kLeft, kBottom - below);
     cairo_clip(c);
     draw_road(c, stage, site.plan);
     draw_skids(c, site);
     draw_vehicles(c, stage, site.plan, recording.at(hit), {0.97, 1});
     draw_vehicles(c, stage, site.plan, recording.at(recording.end_time()), {0.90, 0});
+    draw_bodies(c, stage, site.plan, recording.at(hit), {0.97, 1});
+    draw_bodies(c, stage, site.plan, recording.at(recording.end_time()), {0.90, 0});
+    draw_body_paths(c, site);
     for (const PersonFacts& p : job.persons) {
       const std::vector<double> times = times_of_interest(p, recording);
       for (std::size_t i = 0; i < times.size(); ++i)
@@ -218,7 +250,7 @@ std::vector<std::string> site_diagram(const Stage& stage, const engine::Recordin
       draw_numbers(c, site, p);
     }
     cairo_restore(c);
-    draw_key(c, site);
+    draw_key(c, key);
     draw_scale(c, stage, site.plan);
   });
 }

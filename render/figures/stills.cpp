@@ -131,18 +131,25 @@ std::vector<std::string> rest_ghosts(const Stage& stage, const engine::Recording
   return write(job, "rest_ghosts.png", image);
 }
 
-std::vector<std::string> contact_sheet(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
-  // dense where something happens: half of the instants between first touch and landing
-  double hit = 0, landed = recording.end_time();
+std::vector<double> times_of_sheet(const engine::Recording& recording, const FigureJob& job) {
+  std::optional<double> hit, landed;
   for (const PersonFacts& p : job.persons) {
-    hit = p.hit.value_or(hit);
-    landed = p.landed.value_or(landed);
+    hit = p.hit ? p.hit : hit;
+    landed = p.landed ? p.landed : landed;
   }
   std::vector<double> times;
-  for (int i = 0; i < 6; ++i) times.push_back(hit + (landed - hit) * i / 5.0);
-  for (int i = 1; i <= 3; ++i) times.push_back(landed + (recording.end_time() - landed) * i / 3.0);
-  std::sort(times.begin(), times.end());
+  const double end = recording.end_time();
+  if (!landed || !hit || !(*hit < *landed)) {
+    for (int i = 0; i < 9; ++i) times.push_back(hit.value_or(0) + (end - hit.value_or(0)) * i / 8.0);
+    return times;
+  }
+  for (int i = 0; i < 6; ++i) times.push_back(*hit + (*landed - *hit) * i / 5.0);
+  for (int i = 1; i <= 3; ++i) times.push_back(*landed + (end - *landed) * i / 3.0);
+  return times;
+}
 
+std::vector<std::string> contact_sheet(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
+  const std::vector<double> times = times_of_sheet(recording, job);
   const int w = job.width / kColumns, h = static_cast<int>(std::lround(w / kAspectOfFilm));
   Stage scene = stage;
   if (!job.persons.empty()) scene.cameras.insert(scene.cameras.begin(), beside_person(job.persons.front(), recording));

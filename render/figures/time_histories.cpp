@@ -5,17 +5,18 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 #include "render/figures/figures.h"
 #include "render/figures/sheet.h"
-#include "render/overlays/overlay.h"
+#include "render/video/story.h"
 
 namespace render {
 namespace {
 
 constexpr double kLeft = 30, kRight = 222, kTop = 30, kBottom = kSheetHeight - 24, kGap = 9;  // [mm]
 
-constexpr double kEventLine = 4.2;  // [mm]
+constexpr double kEventLine = 3.8;  // [mm]
 
 struct Curve {
   std::string name;
@@ -100,19 +101,25 @@ Panel of_vehicles(const std::string& title, const Stage& stage, const engine::Re
 }
 
 Panel distances(const Stage& stage, const engine::Recording& recording) {
-  return of_vehicles("distance, m", stage, recording, [](const auto& from, const auto& to, double, double so_far) {
-    return so_far + (to.X_WB.p - from.X_WB.p).norm();
+  // level, as path_m of the summary: who rolls over rises and falls besides
+  return of_vehicles("level distance, m", stage, recording, [](const auto& from, const auto& to, double, double so_far) {
+    return so_far + (to.X_WB.p - from.X_WB.p).template head<2>().norm();
   });
 }
 
-constexpr double kPedals = 15;  // [m/s^2] more than tyres can do: impacts leave the panel
+constexpr double kPedals = 15;  // [m/s^2] more than tyres can do: impacts leave the panel, and the title says so
 
 Panel accelerations(const Stage& stage, const engine::Recording& recording) {
   Panel panel = of_vehicles("acceleration, m/s^2", stage, recording, [](const auto& from, const auto& to, double dt, double last) {
     return dt > 0 ? (to.V_WB.v.norm() - from.V_WB.v.norm()) / dt : last;
   });
+  bool cut = false;
   for (Curve& k : panel.curves)
-    for (double& v : k.values) v = std::clamp(v, -kPedals, kPedals);
+    for (double& v : k.values) {
+      cut = cut || std::abs(v) > kPedals;
+      v = std::clamp(v, -kPedals, kPedals);
+    }
+  if (cut) panel.title += fmt::format(", cut at {:g}", kPedals);
   return panel;
 }
 
@@ -172,14 +179,47 @@ void draw_panel(cairo_t* c, const Panel& panel, const Box& box, const engine::Re
   }
 }
 
-/// What happened when: an upright line through all panels and its number in the list at the right, from `key` down to `lowest`.
-void draw_events(cairo_t* c, const engine::Recording& recording, double end, double key, double lowest) {
+/// A text of the list in lines that end before the margin.
+std::vector<std::string> broken(cairo_t* c, const std::string& text) {
+  constexpr double kRoom = kSheetWidth - kMargin - kRight - 5;  // [mm]
+  std::vector<std::string> out{""};
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    // a number at the start keeps its two spaces; what goes on stands to the right of it
+    const std::string longer = out.back() +
+                               (out.back().empty()                         ? ""
+                                : out.size() == 1 && out.back().size() < 3 ? "  "
+                                                                           : " ") +
+                               word;
+    if (text_width(c, longer, 2.5) < kRoom || out.back().empty())
+      out.back() = longer;
+    else
+      out.push_back("     " + word);
+  }
+  return out;
+}
+
+/// Room at the right of the panels [mm], from above.
+struct Room {
+  double from, to;
+};
+
+/// What happened when: an upright line through all panels, and its number in the list at the right, which fills one room after the
+/// other.
+void draw_events(cairo_t* c, const engine::Recording& recording, double end, std::vector<Room> rooms) {
   const Box box{kTop, kBottom, end, 1};
   double taken = -10;
   int number = 0;
-  for (const engine::Event& e : recording.events) {
-    if (e.kind == "release" || key > lowest) continue;
+  for (const Told& e : told(recording)) {
     ++number;
+    const std::vector<std::string> lines = broken(c, fmt::format("{}  {:.3f} s {}", number, e.time, e.text));
+    while (!rooms.empty() && rooms[0].from + kEventLine * static_cast<double>(lines.size() - 1) > rooms[0].to)
+      rooms.erase(rooms.begin());
+    if (rooms.empty()) {
+      grey(c, 0);
+      draw_text(c, kRight + 5, kBottom + kEventLine, "and later ones: summary.json", 2.5);
+      break;
+    }
     grey(c, 0.45);
     cairo_set_line_width(c, 0.2);
     set_dashes(c, 2);
@@ -189,11 +229,10 @@ void draw_events(cairo_t* c, const engine::Recording& recording, double end, dou
     // numbers of events close in time stand side by side
     taken = std::max(taken + 3.4, box.x(e.time));
     draw_text(c, taken, kTop - 1.5, fmt::format("{}", number), 3, Align::centre);
-    std::string text = fmt::format("{}  {:.3f} s {}", number, e.time, e.kind);
-    std::replace(text.begin(), text.end(), '_', ' ');
-    if (e.body_a >= 0) text += ", " + readable(recording.body_names[static_cast<std::size_t>(e.body_a)]);
-    draw_text(c, kRight + 5, key, text, 2.5);
-    key += kEventLine;
+    for (const std::string& line : lines) {
+      draw_text(c, kRight + 5, rooms[0].from, line, 2.5);
+      rooms[0].from += kEventLine;
+    }
   }
 }
 
@@ -219,8 +258,12 @@ std::vector<std::string> sheet_of(std::vector<Panel> panels, const std::string& 
                  {top, top + height, end, std::ceil(highest / step - 1e-9) * step, -std::ceil(deepest / step - 1e-9) * step},
                  recording, i + 1 == panels.size());
     }
-    const double key = kTop + 3 + 5 * static_cast<double>(panels[0].curves.size()) + 4;
-    draw_events(c, recording, end, key, (panels.size() > 1 ? kTop + height + kGap : kBottom) - 2);
+    std::vector<Room> rooms;
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      const double top = kTop + static_cast<double>(i) * (height + kGap);
+      rooms.push_back({top + 3 + 5 * static_cast<double>(panels[i].curves.size()) + 4, top + height + kGap - 3});
+    }
+    draw_events(c, recording, end, rooms);
   });
 }
 

@@ -96,6 +96,13 @@ OnTape on_tape(const std::vector<Point2>& tape, const Point2& p) {
   return best;
 }
 
+bool lies_above(const engine::ContactRecord& touch, const Pose& X_WB, double off) {
+  constexpr double kUnderside = -0.5;  // [-] of the normal out of the vehicle: within 60 degrees of straight down
+  constexpr double kEdge = 0.2;        // [m] a bumper's lower edge is so near the tape, a floor is not
+  if (touch.shapes.b == engine::ShapeKind::tyre) return false;
+  return off < kEdge || (X_WB.q.conjugate() * touch.normal).z() > kUnderside;
+}
+
 UnrolledPicture::Surface UnrolledPicture::at(int along, int across) const {
   if (along < 0 || across < 0 || along >= length || across >= width) return nothing;
   return cells[static_cast<std::size_t>(across) * static_cast<std::size_t>(length) + static_cast<std::size_t>(along)];

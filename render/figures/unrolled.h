@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/recording.h"
 #include "render/figures/outline.h"
 
 namespace render {
@@ -19,6 +20,10 @@ struct OnTape {
   double along = 0, off = 0;  // [m]
 };
 OnTape on_tape(const std::vector<Point2>& tape, const Point2& p);
+
+/// Whether a touch of a vehicle that stands at `X_WB`, so far `off` the tape [m], is of what the tape lies on or passes: front with
+/// its lower edge, bonnet, roof, the flanks beside them; not of the wheels or of the underside, which lies below all of them.
+bool lies_above(const engine::ContactRecord&, const Pose& X_WB, double off);
 
 /// What lies outermost in each cell of the unrolled vehicle.
 struct UnrolledPicture {

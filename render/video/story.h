@@ -21,6 +21,15 @@ struct Story {
   std::vector<Passage> subtitles;  // what happens when, never two at a time
 };
 
+/// Something that happened, in a reader's words: "collision: sedan and motorcycle, 13.9 m/s".
+struct Told {
+  double time = 0;  // [s]
+  std::string text;
+};
+
+/// The recorded events but the release of who stood or rode. What a rider loses hold of within 50 ms is one of them.
+std::vector<Told> told(const engine::Recording&);
+
 /// The story of these frames: a chapter where the shot changes, a subtitle where a recorded event is passed.
 Story story_of(const Stage&, const engine::Recording&, const Film&, double fps);
 

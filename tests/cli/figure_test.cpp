@@ -38,7 +38,7 @@ TEST(Figure, OfAScenePersonsAreNotInLeavesOutWhatItCannotShow) {
   EXPECT_FALSE(std::filesystem::exists(folder / "fig/contact_map.pdf"));
   EXPECT_THAT(result.err, HasSubstr("contact_map: the run has nothing to show there"));
   EXPECT_TRUE(std::filesystem::exists(folder / "fig/time_histories.pdf"));
-  EXPECT_TRUE(std::filesystem::exists(folder / "fig/site_diagram.svg"));
+  EXPECT_THAT(contents(folder / "fig/site_diagram.svg"), HasSubstr("stroke-dasharray")) << "where the ball began, and its way";
 }
 
 TEST(Figure, RefusesToReplaceUnlessAsked) {

@@ -5,6 +5,7 @@
 
 #include "render/arrange.h"
 #include "render/cameras.h"
+#include "render/figures/figures.h"
 #include "render/matrix.h"
 #include "render/overlays/overlay.h"
 #include "render/painter.h"
@@ -129,7 +130,42 @@ TEST(StoryOfAFilm, HasAChapterAShotAndASubtitleWhereAnEventIsPassed) {
   ASSERT_EQ(story.subtitles.size(), 2u) << "once a shot";
   EXPECT_NEAR(story.subtitles[0].from, 0.5, 0.1 + 1e-9) << "a frame at most from the event";
   EXPECT_LE(story.subtitles[0].to, story.subtitles[1].from);
-  EXPECT_NE(story.subtitles[0].text.find("first contact: hips and car, 2.0 m/s"), std::string::npos);
+  EXPECT_NE(story.subtitles[0].text.find("first contact: ann's hips and car, 2.0 m/s"), std::string::npos);
+}
+
+TEST(StoryOfAFilm, ARiderLosesItsHoldAndBreaksNoJoint) {
+  engine::Recording r;
+  r.body_names = {"car", "bike", "ann/hips", "ann/left_foot", "bob/hips", "trailer"};
+  r.events = {{0.1, "release", 2, 0, Vec3::Zero(), 0},
+              {0.1, "collision", 0, 1, Vec3::Zero(), 13.9},
+              {0.12, "joint_broken", 3, 1, Vec3::Zero(), 700},
+              {0.13, "joint_broken", 2, 1, Vec3::Zero(), 5000},
+              {0.13, "joint_broken", 4, 1, Vec3::Zero(), 900},
+              {0.5, "joint_broken", 5, 0, Vec3::Zero(), 1e5},
+              {2.0, "rest", 2, -1, Vec3::Zero(), 0}};
+  const std::vector<Told> all = told(r);
+  ASSERT_EQ(all.size(), 5u);
+  EXPECT_EQ(all[0].text, "collision: car and bike, 13.9 m/s");
+  EXPECT_EQ(all[1].text, "ann loses hold of bike until 0.130 s: left foot, hips");
+  EXPECT_EQ(all[2].text, "bob loses hold of bike: hips");
+  EXPECT_EQ(all[3].text, "joint broken: trailer and car");
+  EXPECT_EQ(all[4].text, "rest: ann");
+}
+
+TEST(ContactSheet, ShowsNineInstantsAndNoneTwice) {
+  FigureJob job;
+  for (const bool struck : {false, true}) {
+    if (struck) {
+      job.persons.resize(1);
+      job.persons[0].hit = 0.2;
+      job.persons[0].landed = 0.7;
+    }
+    const std::vector<double> times = times_of_sheet(run(), job);
+    ASSERT_EQ(times.size(), 9u);
+    EXPECT_EQ(times.front(), struck ? 0.2 : 0.0);
+    EXPECT_NEAR(times.back(), run().end_time(), 1e-12);
+    for (std::size_t i = 1; i < times.size(); ++i) EXPECT_GT(times[i], times[i - 1]);
+  }
 }
 
 TEST(StoryOfAFilm, OfMillionsOfFramesKnowsItsEvents) {

@@ -49,5 +49,20 @@ TEST(Outline, OfAMeshFollowsItsHollowsAndItsPose) {
   EXPECT_NEAR(area(seen_from_above(mesh, X)), 3, 0.06);
 }
 
+TEST(Outline, OfATwoWheelerThatLiesIsWhatCoversTheRoad) {
+  // a plate 2 m long and 1 m high, thin across: upright a line, on its side a rectangle, whichever way it heads
+  Mesh mesh;
+  mesh.positions = {0, 0, 0, 2, 0, 0, 2, 0, 1, 0, 0, 1};
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  EXPECT_NEAR(std::abs(area(seen_from_above(mesh, Pose{}))), 0, 1e-6);
+  for (const double heading : {0.0, 1.0, 2.5}) {
+    Pose lying;
+    lying.p = Vec3(7, -3, 0.2);
+    lying.q = engine::Quat(Eigen::AngleAxisd(heading, Vec3::UnitZ())) * engine::Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()));
+    // slices of 6 cm at both ends hold half of their length
+    EXPECT_NEAR(std::abs(area(seen_from_above(mesh, lying))), 2, 0.07) << heading;
+  }
+}
+
 }  // namespace
 }  // namespace render

@@ -42,6 +42,27 @@ TEST(Unrolled, TapeRunsTautFromTheGroundOverTheFrontToTheEndOfTheRoof) {
   EXPECT_TRUE(tape_of(wedge(), 1, 0).empty()) << "another body";
 }
 
+TEST(Unrolled, TouchesOfTheUndersideAndTheWheelsAreNotOnTheTape) {
+  engine::ContactRecord touch;
+  touch.shapes = {engine::ShapeKind::round, engine::ShapeKind::mesh};
+  // somebody under the vehicle would stand on the windscreen above
+  for (const auto& [normal, above] : {std::pair(Vec3(0, 0, 1), true),
+                                      {Vec3(1, 0, 0), true},
+                                      {Vec3(0, 1, 0), true},
+                                      {Vec3(0, 0, -1), false},
+                                      {Vec3(0.29, 0, -0.957), false}}) {
+    touch.normal = normal;
+    EXPECT_EQ(lies_above(touch, Pose{}, 0.5), above) << normal.transpose();
+  }
+  EXPECT_TRUE(lies_above(touch, Pose{}, 0.1)) << "the lower edge of a bumper is of the front";
+  Pose turned_over;
+  turned_over.q = engine::Quat(Eigen::AngleAxisd(M_PI, Vec3::UnitX()));
+  touch.normal = Vec3(0, 0, 1);
+  EXPECT_FALSE(lies_above(touch, turned_over, 0.5)) << "who falls on the floor of an overturned car";
+  touch.shapes.b = engine::ShapeKind::tyre;
+  EXPECT_FALSE(lies_above(touch, Pose{}, 0.5));
+}
+
 TEST(Unrolled, ShowsEachPanelWhereTheTapeMeetsIt) {
   const Stage stage = wedge();
   const std::vector<Point2> tape = tape_of(stage, 0, 0);
