@@ -73,6 +73,21 @@ render::PersonFacts facts_of(const engine::Model& model, const engine::Recording
   return facts;
 }
 
+/// The first collision phase of every pair; later ones of two that rub against each other would fill the sheet.
+std::vector<std::string> impact_lines(const std::vector<engine::Impact>& impacts) {
+  std::vector<std::string> out;
+  std::size_t later = 0;
+  for (const engine::Impact& i : impacts) {
+    if (i.phase > 1)
+      ++later;
+    else
+      out.push_back(fmt::format("{} / {}  {:.3f} s: closing {:.2f} m/s, delta-v {:.2f} / {:.2f} m/s", i.a.name, i.b.name, i.time,
+                                i.closing_speed, i.a.delta_v.norm(), i.b.delta_v.norm()));
+  }
+  if (later > 0) out.push_back(fmt::format("and {} later {} of the same: impacts.csv", later, later == 1 ? "phase" : "phases"));
+  return out;
+}
+
 int draw_figures(const FigureWish& wish) {
   scenes::Scene scene = load_scene(wish.scene);
   render::FigureJob job;
@@ -90,12 +105,11 @@ int draw_figures(const FigureWish& wish) {
   for (const Figure& figure : kFigures)
     for (const char* extension : kExtensions) refuse_existing(job.folder / (std::string(figure.name) + extension), wish.overwrite);
 
-  const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
+  engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
+  recording.events = engine::told_events(scene.model, recording);
   if (recording.failure) scene.stage.warnings.push_back(fmt::format("the model diverged at {:.3f} s", recording.failure->time));
   const std::vector<engine::Metric> metrics = engine::measure(scene.model, recording);
-  for (const engine::Impact& i : engine::impacts_of(scene.model, recording))
-    job.impacts.push_back(fmt::format("{} / {}  {:.3f} s: closing {:.2f} m/s, delta-v {:.2f} / {:.2f} m/s", i.a.name, i.b.name,
-                                      i.time, i.closing_speed, i.a.delta_v.norm(), i.b.delta_v.norm()));
+  job.impacts = impact_lines(engine::impacts_of(scene.model, recording));
   for (int p = 0; p < static_cast<int>(scene.model.persons.size()); ++p)
     job.persons.push_back(facts_of(scene.model, recording, p, metrics));
 

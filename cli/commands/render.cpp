@@ -18,6 +18,7 @@
 #include "cli/resume.h"
 #include "cli/scene_run.h"
 #include "cli/timings.h"
+#include "engine/measure/impacts.h"
 #include "render/renderer.h"
 
 namespace cli {
@@ -249,7 +250,8 @@ int render_scene(const RenderWish& wish, const Arguments& arguments) {
   tell_when_stopped(kept_of(views.front().plan));
   if (!wish.scene.quiet) tell_room(views, scene.model.settings.duration);
 
-  const engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
+  engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
+  recording.events = engine::told_events(scene.model, recording);
   mark_with_fingerprints(views, scene, arguments, recording);
   const Drawn drawn = draw_views(views, recording, progress_of(wish.scene));
   tell_drawn(wish, views.front().plan.job, drawn, recording, clock_seconds() - start);

@@ -66,9 +66,15 @@ Json settings_json(const engine::Model& model) {
           {"stop_at_rest", s.stop_at_rest}};
 }
 
-Json events_json(const engine::Recording& recording) {
+/// What the value of an event is in; null where it has none.
+Json unit_of(const engine::Event& e) {
+  if (e.kind == "joint_broken") return "N";
+  return e.kind == "rest" || e.kind == "release" ? Json(nullptr) : Json("m/s");
+}
+
+Json events_json(const engine::Model& model, const engine::Recording& recording) {
   Json out = Json::array();
-  for (const engine::Event& e : recording.events) {
+  for (const engine::Event& e : engine::told_events(model, recording)) {
     Json line = {{"time_s", e.time}, {"kind", e.kind}};
     line["a"] = e.body_a < 0 ? Json(nullptr) : Json(body_name(recording, e.body_a));
     // an event between a body and nothing (rest) has no partner; one that touches has the ground
@@ -76,6 +82,7 @@ Json events_json(const engine::Recording& recording) {
     line["b"] = e.body_b >= 0 || touches ? Json(body_name(recording, e.body_b)) : Json(nullptr);
     line["point_m"] = vector_json(e.point);
     line["value"] = e.value;
+    line["unit"] = unit_of(e);
     out.push_back(line);
   }
   return out;
@@ -244,7 +251,7 @@ Json summary_json(const scenes::Scene& scene, const engine::Recording& recording
   out["scene"] = {{"title", scene.title}, {"path", scene.path.string()}, {"sha256", scene.sha256}, {"overrides", scene.overrides}};
   out["settings"] = settings_json(scene.model);
   out["plan"] = plan_json(recording.plan);
-  out["events"] = events_json(recording);
+  out["events"] = events_json(scene.model, recording);
   out["metrics"] = metrics_json(metrics);
   const auto absent = engine::absent_metrics(scene.model, recording, metrics);
   if (!absent.empty()) out["absent"] = absent_json(absent, metrics);
@@ -285,6 +292,17 @@ const char* scattered(const engine::Metric& metric, const std::vector<engine::Me
   return metric.key == "hic15" && by_vehicle ? "" : ", of the road: scatters widely";
 }
 
+/// Beside the way of who came down and was taken along again: no friction follows from it.
+const char* dragged(const engine::Metric& metric, const scenes::Scene& scene, const engine::Recording& recording) {
+  if (metric.key != "slide_m") return "";
+  for (int p = 0; p < static_cast<int>(scene.model.persons.size()); ++p) {
+    if (scene.model.persons[static_cast<std::size_t>(p)].name != metric.object) continue;
+    const auto thrown = engine::throw_of_person(scene.model, recording, p);
+    if (thrown && thrown->dragged) return ", pushed by a vehicle on the way";
+  }
+  return "";
+}
+
 /// Beside a way to rest of who does not rest yet: a longer run gives another number.
 const char* unfinished(const engine::Metric& metric, const std::vector<engine::AbsentMetric>& absent) {
   const bool to_rest = metric.key == "throw_distance_m" || metric.key == "slide_m";
@@ -309,7 +327,9 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
     const engine::Definition* known = engine::definition_of(metric.key);
     if (known && !known->main) continue;
     line(metric.object.empty() ? metric.key : metric.key + " " + metric.object,
-         metric.text.empty() ? digits_of(metric, known) + scattered(metric, metrics) + unfinished(metric, absent) : metric.text);
+         metric.text.empty() ? digits_of(metric, known) + scattered(metric, metrics) + unfinished(metric, absent) +
+                                   dragged(metric, scene, recording)
+                             : metric.text);
   }
   // whose it is, where another has it
   std::vector<std::string> missing_names;

@@ -1,6 +1,7 @@
 // Which measures a run does not define, and why.
 #include <algorithm>
 
+#include "engine/measure/impacts.h"
 #include "engine/measure/metrics.h"
 #include "engine/measure/phases.h"
 
@@ -59,6 +60,22 @@ void absent_head(const Model& model, const Recording& recording, int p, Absences
   if (!law.empty()) absent.note("peak_acceleration_mps2", person.name, law);
 }
 
+/// What the hardest impact of a vehicle does not tell of it.
+void absent_at_worst(const Vehicle& v, const std::vector<Impact>& impacts, Absences& absent) {
+  const Impact* worst = nullptr;
+  double most = -1;
+  for (const Impact& i : impacts)
+    for (const ImpactSide* side : {&i.a, &i.b})
+      if (side->party.bodies.front() == v.body && side->delta_v.norm() > most) most = side->delta_v.norm(), worst = &i;
+  if (!worst) return;
+  const bool person = worst->a.party.person >= 0 || worst->b.party.person >= 0;
+  const char* of_a_pair = worst->energy_lost > 0 ? "its hardest impact was that of a two-wheeler and a car, and the scene does not "
+                                                   "tell their stiffnesses apart: the rule of masses is that of cars"
+                                                 : "its hardest impact cost no energy";
+  absent.note("ees_mps", v.name, person ? "its hardest impact was with a person, who deforms no car" : of_a_pair);
+  absent.note("pdof_deg", v.name, most > 0 ? "it lay on its side or roof" : "its velocity did not change");
+}
+
 }  // namespace
 
 std::vector<AbsentMetric> absent_metrics(const Model& model, const Recording& recording, const std::vector<Metric>& there) {
@@ -67,14 +84,15 @@ std::vector<AbsentMetric> absent_metrics(const Model& model, const Recording& re
     absent_throw(model, recording, p, absent);
     absent_head(model, recording, p, absent);
   }
+  const std::vector<Impact> impacts = impacts_of(model, recording);
   for (const Vehicle& v : model.vehicles) {
     absent.note("rest_x_m", v.name, "still moving when the run ends");
-    absent.note("delta_v_mps", v.name, "no impact");
     const bool struck =
         std::any_of(there.begin(), there.end(), [&](const Metric& m) { return m.key == "delta_v_mps" && m.object == v.name; });
-    if (struck)
-      absent.note("ees_mps", v.name,
-                  "no collision with a vehicle or object; or one with or of a two-wheeler, and nobody told the stiffnesses apart");
+    if (!struck)
+      absent.note("delta_v_mps", v.name, model.bodies[v.body].fixed ? "it is fixed" : "it touched no person, vehicle or object");
+    else
+      absent_at_worst(v, impacts, absent);
   }
   return absent.out;
 }

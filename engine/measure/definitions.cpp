@@ -17,8 +17,8 @@ constexpr const char* kHic =
     "bottoms out";
 constexpr const char* kPhase =
     "measured along the line from first touch to rest, so that the distances of all phases sum to throw_distance_m";
-constexpr const char* kNoImpact = "the vehicle touched no person, vehicle or object";
 constexpr const char* kMoving = "still moving when the run ends";
+constexpr const char* kNoDeltaV = "the vehicle touched no person, vehicle or object, or is fixed";
 
 constexpr Definition kDefinitions[] = {
     {"throw_distance_m", "m", "throw distance",
@@ -51,7 +51,7 @@ constexpr Definition kDefinitions[] = {
      kNotLanded, kPhase},
     {"slide_m", "m", "slide",
      "Distance of the phase slide: from the end of the bounces to rest, or the end of the run; a vehicle that comes over the "
-     "person may push or drag it meanwhile.",
+     "person may push or drag it meanwhile: reports say so, and no friction follows from such a way.",
      kNotLanded, kPhase, true},
     {"landing_s", "s", "landing",
      "Time at which hips, head or what joins them first touch the ground, or a body fixed to it that they can lie on, after the "
@@ -69,8 +69,10 @@ constexpr Definition kDefinitions[] = {
      "no wheel stood on the person", "exact to the step", true},
     {"run_over_part", "", "run over", "The part it stands on, and whose wheel it is.", "as run_over_s", "exact to the step", true},
     {"rest_s", "s", "rest",
-     "Time from which nothing of it moves faster than 0.05 m/s or 0.3 rad/s until the run ends, for 0.25 s or more; of a person "
-     "its trunk: hips, head and what joins them. A hand or a foot may settle later. Of rider and mount each its own.",
+     "Time from which nothing of it moves faster than 0.05 m/s or 0.3 rad/s until the run ends, for 0.25 s or more; of what slides "
+     "to a halt then, and no longer moves at all, the halt. Of a person its trunk: hips, head and what joins them. A hand or a "
+     "foot "
+     "may settle later. Of rider and mount each its own.",
      kMoving, "to the recorded interval", true},
     {"travel_m", "m", "way", "Level distance from start to end of who or what no vehicle touched.", "a person that was struck",
      kPath, true},
@@ -100,7 +102,9 @@ constexpr Definition kDefinitions[] = {
      "below the foremost part over front and bonnet to that place (Euro NCAP, Pedestrian Testing Protocol, wrap around distance).",
      "the head met no vehicle that came with its front, as they went before the first touch; or a place no tape from the front "
      "reaches (flank, side window, underside)",
-     "multibody persons wrap farther than finite-element ones (Fahlstedt et al. 2016)", true},
+     "in 14 cases of Fahlstedt, Halldin and Kleiven, Traffic Inj. Prev. 17, 2016, a multibody person always wrapped farther than a "
+     "finite-element one",
+     true},
     {"hic15", "", "HIC15",
      "Head injury criterion of the resultant acceleration of the head's centre over windows of 15 ms at most, from the head's "
      "first touch of vehicle or ground on, whatever it touches (49 CFR 571.208 S6.2).",
@@ -110,30 +114,34 @@ constexpr Definition kDefinitions[] = {
      kNoForce, kHic},
     {"hic15_vehicle", "", "HIC15 vehicle",
      "HIC15 of the head's touches of vehicles alone, each from 5 ms before to 5 ms after by itself; the worst of them. While "
-     "vehicle "
-     "and ground push at once, the blow is of the one that pushes harder.",
+     "vehicle and ground push at once, the blow is of the one that pushes harder.",
      kNoForce, kHic, true},
     {"three_ms_vehicle_g", "g", "3 ms clip, vehicle", "3 ms clip of the same.", kNoForce, kHic},
     {"hic15_ground", "", "HIC15 ground", "The same of its touches of the ground and of bodies fixed to it alone.", kNoForce,
-     "head against ground is highly variable (Simms and Wood 2005): a cloud, no number", true},
+     "one fall of many that could have been: head against ground is highly variable (Simms and Wood, IRCOBI 2005); see the band of "
+     "`crashreel study`",
+     true},
     {"three_ms_ground_g", "g", "3 ms clip, ground", "3 ms clip of the same.", kNoForce, "as hic15_ground"},
     {"peak_acceleration_mps2", "m/s^2", "peak acceleration",
      "Largest acceleration of a part's centre, mean over a step; free fall counts one g.", kNoForce, "grows with stiffness"},
     {"delta_v_mps", "m/s", "delta-v",
      "Change of the velocity of the centre of mass in the plane of the road over the collision phase, less what tyres and "
-     "gravity did meanwhile; of several phases the largest. Begin and end of the phase as 49 CFR 563.5 says: exchange of more "
-     "than 0.8 km/h of the lighter mass within 20 ms, 250 ms at most.",
-     kNoImpact, "published limits of a single delta-v are 9 to 25 % (Smith and Noga)", true},
+     "gravity did meanwhile; of several phases the largest. What a rider or a third one does in the same time is part of it. Begin "
+     "and end of the phase as 49 CFR 563.5 says: exchange of more than 0.8 km/h of the lighter mass within 20 ms, 250 ms at most.",
+     kNoDeltaV,
+     "no staged collisions are compared; for a delta-v that CRASH works out from damage the 95 % limits are 9 to 25 % (Smith and "
+     "Noga 1982)",
+     true},
     {"pdof_deg", "deg", "PDOF",
-     "Direction that delta-v's force came from in the vehicle's axes just before the phase: 0 from the front, 90 from the right, "
-     "-90 from the left, 180 from behind.",
-     kNoImpact, "with delta-v", true},
+     "Direction in the plane of the road that delta-v's force came from, against the vehicle's heading just before the phase: 0 "
+     "from the front, 90 from the right, -90 from the left, 180 from behind.",
+     "as delta_v_mps; or the vehicle leant by 45 degrees or more: on its side or roof", "with delta-v", true},
     {"ees_mps", "m/s", "EES",
      "Energy equivalent speed: speed at which the vehicle has as much kinetic energy as its share of the energy lost in that "
      "phase. Two under the same force share it in inverse proportion to stiffness where the scene tells the stiffnesses apart, "
      "else to mass; what is fixed has none. impacts.csv names the rule.",
-     "no collision with another vehicle or object; or one of a two-wheeler with a car whose stiffnesses nobody told apart: the "
-     "rule of masses is that of cars",
+     "as delta_v_mps; or the hardest phase was with a person, or of a two-wheeler with a car whose stiffnesses nobody told apart: "
+     "the rule of masses is that of cars",
      "the energy contains what friction between the two took", true},
     {"rest_x_m", "m", "rest x", "Place of the vehicle's centre of mass at rest, world x.", kMoving, "to the recorded interval",
      true},

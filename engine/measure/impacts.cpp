@@ -93,11 +93,40 @@ std::vector<Stretch> stretches(const Recording& recording, const std::vector<Vec
   return out;
 }
 
-/// Velocity [m/s] of the party's point at `p`, or of its centre of mass where it has many parts.
-Vec3 velocity_at(const Model& model, const Party& party, const Snapshot& s, const Vec3& p) {
-  if (party.bodies.size() > 1) return velocity_of(model, party, s);
-  const BodyState& body = s.bodies[party.bodies.front()];
+/// Velocity [m/s] of the body's point at `p`.
+Vec3 velocity_of_point(int b, const Snapshot& s, const Vec3& p) {
+  const BodyState& body = s.bodies[b];
   return body.V_WB.v + body.V_WB.w.cross(p - body.X_WB.p);
+}
+
+/// How fast [m/s] a person and a vehicle close where they first touch, of the part that does. Over a phase in which somebody wraps
+/// round a front the mean plane leans by half a right angle: nobody closes along that.
+double first_closing(const Recording& recording, const Pair& pair, const Stretch& span) {
+  const Snapshot &before = recording.snapshots[span.first > 0 ? span.first - 1 : 0], &first = recording.snapshots[span.first];
+  const ContactRecord* earliest = nullptr;
+  for (const ContactRecord& c : first.contacts)
+    if (between(pair, c) && !c.impulse.isZero(0) && (!earliest || c.begun < earliest->begun)) earliest = &c;
+  if (!earliest) return kUnknown;
+  // one value for one thing: the recorder saw that touch in its step
+  for (const Event& e : recording.events)
+    if (e.kind == "first_contact" && e.body_b == earliest->body_b && (holds(pair.a, e.body_a) || holds(pair.b, e.body_a)) &&
+        e.time >= before.time && e.time <= first.time)
+      return e.value;
+  const Vec3& p = earliest->point;
+  return -(velocity_of_point(earliest->body_a, before, p) - velocity_of_point(earliest->body_b, before, p)).dot(earliest->normal);
+}
+
+/// Direction [deg] a level push came from, seen from a vehicle's heading. One that lies on its side or roof has no front, right and
+/// left in the plane of the road.
+double pdof_of(const Quat& q_WB, const Vec3& push) {
+  constexpr double kUpright = 0.7;  // [-] leans by less than 45 degrees
+  Vec3 ahead = q_WB * Vec3::UnitX();
+  ahead.z() = 0;
+  if (push.norm() < 1e-9 || (q_WB * Vec3::UnitZ()).z() < kUpright) return kUnknown;
+  ahead.normalize();
+  double left = push.dot(Vec3::UnitZ().cross(ahead));
+  if (std::abs(left) < 1e-6 * push.norm()) left = 0;  // square from behind is 180 deg, not now and then -180
+  return math::atan2(left, -push.dot(ahead)) * 180 / std::numbers::pi;
 }
 
 ImpactSide side_of(const Model& model, const Recording& recording, const Party& party, const Stretch& span) {
@@ -119,10 +148,7 @@ ImpactSide side_of(const Model& model, const Recording& recording, const Party& 
     if (party.vehicle < static_cast<int>(all[i].tyre_impulse.size()))
       side.delta_v -= all[i].tyre_impulse[party.vehicle] / model.bodies[root].mass;
   side.delta_v.z() = 0;  // as the field counts it: in the plane of the road
-  Vec3 push = before.bodies[root].X_WB.q.conjugate() * side.delta_v;
-  if (push.norm() < 1e-9) return side;
-  if (std::abs(push.y()) < 1e-6 * push.norm()) push.y() = 0;  // square from behind is 180 deg, not now and then -180
-  side.pdof = math::atan2(push.y(), -push.x()) * 180 / std::numbers::pi;
+  side.pdof = pdof_of(before.bodies[root].X_WB.q, side.delta_v);
   return side;
 }
 
@@ -181,15 +207,30 @@ const char* law_of(const Model& model, const Pair& pair, const ContactRecord& c)
   return yields(model.settings.contact_law, person) ? "compliant" : "default_auto";
 }
 
+/// To the end of the phase; exchanges at instants last from the first to the last of them.
+double duration_of(const Recording& recording, const Pair& pair, const Stretch& span, double from) {
+  double last = from;
+  for (std::size_t i = span.first; i <= span.last; ++i)
+    for (const ContactRecord& c : recording.snapshots[i].contacts) {
+      if (!between(pair, c) || c.impulse.isZero(0)) continue;
+      if (!c.exchange) return recording.snapshots[span.last].time - from;
+      last = std::max(last, c.begun);
+    }
+  return last - from;
+}
+
 Impact impact_of(const Model& model, const Recording& recording, const Pair& pair, const Stretch& span) {
   Impact out;
   out.time = sum_contacts(recording, pair, span, out);
-  const Snapshot &before = recording.snapshots[span.first > 0 ? span.first - 1 : 0], &after = recording.snapshots[span.last];
-  out.duration = after.time - out.time;
+  const Snapshot& before = recording.snapshots[span.first > 0 ? span.first - 1 : 0];
+  out.duration = duration_of(recording, pair, span, out.time);
   out.a = side_of(model, recording, pair.a, span);
   out.b = side_of(model, recording, pair.b, span);
-  const Vec3 u = velocity_at(model, pair.a, before, out.point) - velocity_at(model, pair.b, before, out.point);
-  out.closing_speed = -u.dot(out.normal);
+  const bool person = pair.a.person >= 0 || pair.b.person >= 0;
+  out.closing_speed = person ? first_closing(recording, pair, span)
+                             : -(velocity_of_point(pair.a.bodies.front(), before, out.point) -
+                                 velocity_of_point(pair.b.bodies.front(), before, out.point))
+                                    .dot(out.normal);
   for (const ContactRecord& c : recording.snapshots[span.first].contacts) {
     if (!between(pair, c) || c.impulse.isZero(0)) continue;
     out.law = law_of(model, pair, c);
@@ -214,6 +255,20 @@ std::vector<Impact> impacts_of(const Model& model, const Recording& recording) {
     }
   }
   std::stable_sort(out.begin(), out.end(), [](const Impact& a, const Impact& b) { return a.time < b.time; });
+  return out;
+}
+
+std::vector<Event> told_events(const Model& model, const Recording& recording) {
+  std::vector<Event> out = recording.events;
+  for (const Impact& i : impacts_of(model, recording)) {
+    const int a = i.a.party.bodies.front(), b = i.b.party.bodies.front();
+    const bool told = std::any_of(recording.events.begin(), recording.events.end(), [&](const Event& e) {
+      return e.kind == "impact" && std::minmax(e.body_a, e.body_b) == std::minmax(a, b);
+    });
+    if (i.phase > 1 || i.a.party.person >= 0 || i.b.party.person >= 0 || told) continue;
+    out.push_back({i.time, "collision", a, b, i.point, i.closing_speed, i.normal, Vec3::Zero()});
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Event& a, const Event& b) { return a.time < b.time; });
   return out;
 }
 

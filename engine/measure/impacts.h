@@ -18,7 +18,7 @@ struct ImpactSide {
   double speed_before = kUnknown, speed_after = kUnknown;        // [m/s] of the centre of mass
   double yaw_rate_before = kUnknown, yaw_rate_after = kUnknown;  // [rad/s] about the vertical
   Vec3 delta_v = Vec3::Zero();  // [m/s] world: change of velocity in the phase less what tyres and gravity did meanwhile
-  double pdof = kUnknown;       // [deg] vehicles only
+  double pdof = kUnknown;       // [deg] vehicles only, and only of one that stands on its wheels
   double ees = kUnknown;        // [m/s] vehicles only
 };
 
@@ -27,13 +27,13 @@ struct ImpactSide {
 /// delta-v of event data recorders so). Two that never exchange as much have one phase of a tenth of the most they do.
 struct Impact {
   int phase = 1;        // of this pair, from 1
-  double time = 0;      // [s] first touch
-  double duration = 0;  // [s]
+  double time = 0;      // [s] first touch; of Kudlich-Slibar the instant of the exchange, later by its compression time
+  double duration = 0;  // [s] 0 of an exchange at one instant
   ImpactSide a, b;
   const char* law = "";              // "kudlich_slibar", "default_auto", "compliant"
   Vec3 point = Vec3::Zero();         // [m] world, mean by impulse
   Vec3 normal = Vec3::UnitZ();       // unit, from b to a: of the contact plane, mean by impulse
-  double closing_speed = kUnknown;   // [m/s] along the normal at the point, before
+  double closing_speed = kUnknown;   // [m/s] along the normal at the point, before; with a person those of the first touch
   Vec3 impulse = Vec3::Zero();       // [N s] on a, world
   double friction_used = kUnknown;   // [-] tangential over normal impulse, each contact along its own surface
   double friction_limit = kUnknown;  // [-] most it could have been: coefficient of the surfaces and what a dent adds
@@ -43,5 +43,9 @@ struct Impact {
 
 /// In order of time.
 std::vector<Impact> impacts_of(const Model&, const Recording&);
+
+/// The recorded events, and a "collision" where two vehicles, or a vehicle and an object, have their first phase: what is rigid
+/// has no event of its own. `value` is the closing speed. In order of time.
+std::vector<Event> told_events(const Model&, const Recording&);
 
 }  // namespace engine

@@ -165,10 +165,14 @@ std::optional<Throw> throw_of_person(const Model& model, const Recording& record
   Throw t = thrown_from(model, recording, party, *touch, person.mount);
   for (const Event& e : recording.events)
     if (e.kind == "ground_contact" && !t.landed && holds(party, e.body_a) && e.time >= t.hit && e.time <= t.end) t.landed = e.time;
+  bool came_down = false;
   for (const Snapshot& s : recording.snapshots) {
     if (s.time < t.hit) continue;
-    if (pushed_by_vehicle(model, party, s, t.vehicle)) t.separated = std::min(s.time, t.landed.value_or(t.end));
-    if (s.time >= t.landed.value_or(t.end)) break;
+    const bool pushed = pushed_by_vehicle(model, party, s, t.vehicle), down = s.time >= t.landed.value_or(t.end);
+    // the push of the interval in which it landed may be older than that
+    if (s.time - recording.interval >= t.landed.value_or(t.end) && s.time <= t.end && pushed) t.dragged = true;
+    if (pushed && !came_down) t.separated = std::min(s.time, t.landed.value_or(t.end));
+    came_down = down;
   }
   // a rider that nothing but its mount was struck with leaves with that blow
   if (!t.separated && t.landed) t.separated = t.hit;

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "cli/output/recording_file.h"
 #include "cli/output/summary.h"
@@ -68,6 +69,10 @@ std::string first_line(const std::string& text) {
 
 std::string gallery(const std::string& name) {
   return std::string(CRASHREEL_SOURCE_DIR) + "/scenes/gallery/" + name;
+}
+
+std::string cases(const std::string& name) {
+  return std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/" + name;
 }
 
 TEST(Explain, EveryMeasureOfTheReadmeIsAsTheProgramDefinesIt) {
@@ -303,6 +308,34 @@ TEST(Simulate, EventsNameTheirBodies) {
   EXPECT_TRUE(rest->at("b").is_null()) << "rest has no partner";
   // v/(mu g); rest is looked for once an interval, at a speed just above zero
   EXPECT_NEAR(rest->at("time_s").get<double>(), 13.4112 / (0.6 * kGravity), 0.02);
+}
+
+TEST(Simulate, ARiderRunningIntoACarTellsTheCollisionWithItsUnit) {
+  const Folder folder;
+  const Result result =
+      run(folder, {"simulate", cases("motorcycle.toml"), "--set", "simulation.duration=0.4 s", "-o", "out", "--json"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json events = Json::parse(result.out).at("events");
+  const auto hit = std::find_if(events.begin(), events.end(), [](const Json& event) { return event.at("kind") == "collision"; });
+  ASSERT_NE(hit, events.end());
+  EXPECT_EQ(hit->at("a"), "sedan");
+  EXPECT_EQ(hit->at("b"), "motorcycle");
+  EXPECT_EQ(hit->at("unit"), "m/s");
+  // 50 km/h square on a flank that moves along itself
+  EXPECT_NEAR(hit->at("value").get<double>(), 50 / 3.6, 0.1);
+  for (const Json& event : events)
+    if (event.at("kind") == "joint_broken") {
+      EXPECT_EQ(event.at("unit"), "N");
+    } else if (event.at("kind") == "release") {
+      EXPECT_TRUE(event.at("unit").is_null());
+    }
+}
+
+TEST(Simulate, WhoIsPushedAlongAfterTheLandingIsNotSaidToSlide) {
+  const Folder folder;
+  const Result result = run(folder, {"simulate", cases("suv_child_fit.toml"), "-o", "out"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(std::regex_search(result.out, std::regex("slide_m child +[0-9.]+, pushed by a vehicle on the way\n"))) << result.out;
 }
 
 TEST(Simulate, TheSameRunHasTheSameHashEveryTime) {

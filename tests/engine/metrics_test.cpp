@@ -182,6 +182,17 @@ TEST(ThrowMetrics, AVehicleOverWhoLiesIsToldWithoutAWheel) {
   EXPECT_FALSE(value_of(out, "passed_over_s"));
 }
 
+TEST(ThrowMetrics, WhoIsPushedAgainAfterComingDownDoesNotSlideByItself) {
+  const Model model = person_and_car();
+  Recording run = struck_along_y();  // down at 4 s, at rest at 6 s
+  EXPECT_FALSE(throw_of_person(model, run, 0)->dragged);
+  const double separated = *throw_of_person(model, run, 0)->separated;
+  run.snapshots[6].contacts.push_back(push(kHips, kCar, kOnVehicle, {0, 1, 0}));
+  const auto again = throw_of_person(model, run, 0);
+  EXPECT_TRUE(again->dragged);
+  EXPECT_EQ(*again->separated, separated) << "the flight began where it did";
+}
+
 TEST(ThrowMetrics, WhoIsRunOverIsToldByTheFirstWheelThatStandsOnIt) {
   Model model = person_and_car();
   model.bodies[kHips].name = "pedestrian/hips";

@@ -1,6 +1,7 @@
 // What is measured of vehicles, and the table of impacts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/measure/phases.h"
@@ -161,6 +162,118 @@ TEST(ImpactTable, ARowHasTheCollisionFromBothSides) {
   EXPECT_NEAR(i.friction_used, 0, kAlmost);
   EXPECT_NEAR(i.friction_limit, 0.3, kAlmost);
   EXPECT_STREQ(i.law, "default_auto");
+}
+
+/// A car at 10 m/s along x is stopped by a push of 10 m/s within the fifth hundredth of a second, turned as said.
+std::vector<Impact> stopped_car(const Quat& attitude) {
+  Model model = person_and_car();
+  model.settings.gravity.setZero();
+  Recording run;
+  run.interval = 0.01;
+  for (int i = 0; i < 10; ++i) {
+    run.snapshots.push_back(still(0.01 * i));
+    run.snapshots.back().bodies.own()[kCar].X_WB.q = attitude;
+    run.snapshots.back().bodies.own()[kCar].V_WB.v = i < 5 ? Vec3(10, 0, 0) : Vec3(Vec3::Zero());
+  }
+  model.bodies[kHips].person = -1;
+  run.snapshots[5].contacts = {push(kCar, kHips, kVehicles, {-10000, 0, 0})};
+  return impacts_of(model, run);
+}
+
+TEST(ImpactTable, AVehicleOnItsSideOrRoofHasNoDirectionOfForce) {
+  const auto pdof = [](const Vec3& axis, double degrees) {
+    return stopped_car(Quat(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis))).at(0).a.pdof;
+  };
+  EXPECT_NEAR(pdof(Vec3::UnitZ(), 30), 30, 1e-9) << "it heads to the left of the way it goes: struck from its right";
+  // a car that dives or leans is struck from where it would be standing level: the direction lies in the plane of the road
+  EXPECT_NEAR(pdof(Vec3::UnitX(), 30), 0, 1e-9);
+  EXPECT_NEAR(pdof(Vec3::UnitY(), 30), 0, 1e-9);
+  for (const double lying : {90.0, -90.0, 180.0}) EXPECT_TRUE(std::isnan(pdof(Vec3::UnitX(), lying))) << lying;
+}
+
+TEST(ImpactTable, WhoIsStruckClosesAlongTheFirstTouchAndNotAlongTheMeanOfTheWrap) {
+  const Model model = person_and_car();
+  Recording run;
+  run.interval = 0.01;
+  for (int i = 0; i < 8; ++i) {
+    run.snapshots.push_back(still(0.01 * i));
+    run.snapshots.back().bodies.own()[kCar].V_WB.v = {11, 0, 0};
+    run.snapshots.back().bodies.own()[kHips].V_WB.v = {0, 4, 0};
+  }
+  // struck by the front, then laid on the bonnet: the normal turns from level to upright
+  for (int i = 2; i < 6; ++i) {
+    ContactRecord c = push(kHips, kCar, kOnVehicle, i == 2 ? Vec3(100, 0, 0) : Vec3(0, 0, 200));
+    c.normal = i == 2 ? Vec3::UnitX() : Vec3::UnitZ();
+    c.begun = run.snapshots[static_cast<std::size_t>(i - 1)].time;
+    run.snapshots[static_cast<std::size_t>(i)].contacts = {c};
+  }
+  const std::vector<Impact> all = impacts_of(model, run);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_LT(all[0].normal.z(), -0.9) << "from the person to the car, by impulse: nobody came from above";
+  EXPECT_NEAR(all[0].closing_speed, 11, kAlmost);
+  run.events = {{run.snapshots[1].time, "first_contact", kHips, kCar, Vec3::Zero(), 10.9}};
+  EXPECT_EQ(impacts_of(model, run).at(0).closing_speed, 10.9) << "as the event of that touch says";
+}
+
+TEST(ImpactTable, AnExchangeAtAnInstantHasItsTimeAndLastsNone) {
+  Model model = person_and_car();
+  model.bodies[kHips].person = -1;
+  Recording run;
+  run.interval = 0.01;
+  for (int i = 0; i < 8; ++i) run.snapshots.push_back(still(0.01 * i));
+  ContactRecord c = push(kCar, kHips, kVehicles, {-6000, 0, 0});
+  c.exchange = true;
+  c.begun = 0.0437;
+  run.snapshots[5].contacts = {c};
+  const std::vector<Impact> all = impacts_of(model, run);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].time, 0.0437);
+  EXPECT_EQ(all[0].duration, 0.0) << "not the rest of the recorded interval";
+}
+
+TEST(ToldEvents, ARigidCollisionIsToldOnceAPair) {
+  Model model = person_and_car();
+  model.bodies[kHips].person = -1;
+  Recording run;
+  run.interval = 0.01;
+  for (int i = 0; i < 80; ++i) run.snapshots.push_back(still(0.01 * i));
+  for (const std::size_t i : {5u, 60u}) {  // two phases of the same pair
+    run.snapshots[i].contacts = {push(kCar, kHips, kVehicles, {-6000, 0, 0})};
+    run.snapshots[i].contacts[0].begun = run.snapshots[i - 1].time;
+  }
+  run.events = {{0.3, "rest", kCar, -1, Vec3::Zero(), 0}};
+  const std::vector<Event> told = told_events(model, run);
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_EQ(told[0].kind, "collision");
+  EXPECT_EQ(told[0].time, run.snapshots[4].time);
+  EXPECT_EQ(std::minmax(told[0].body_a, told[0].body_b), std::minmax(kCar, kHips));
+  run.events.push_back({0.04, "impact", kCar, kHips, Vec3::Zero(), 10});
+  EXPECT_EQ(told_events(model, run).size(), 2u) << "Kudlich-Slibar tells its own";
+  model.bodies[kHips].person = 0;
+  run.events.clear();
+  EXPECT_TRUE(told_events(model, run).empty()) << "a person has its first contact";
+}
+
+TEST(AbsentMetrics, AVehicleSaysWhichOfTheReasonsIsItsOwn) {
+  Model model = person_and_car();
+  Recording run;
+  run.interval = 0.01;
+  for (int i = 0; i < 8; ++i) run.snapshots.push_back(still(0.01 * i));
+  const auto reason = [&](const char* key) {
+    std::vector<Metric> there;
+    measure_vehicle(model, run, impacts_of(model, run), 0, there);
+    for (const AbsentMetric& a : absent_metrics(model, run, there))
+      if (a.key == key && a.object == "car") return a.reason;
+    return std::string();
+  };
+  EXPECT_EQ(reason("delta_v_mps"), "it touched no person, vehicle or object");
+  EXPECT_EQ(reason("ees_mps"), "");
+  run.snapshots[5].contacts = {push(kHips, kCar, kOnVehicle, {100, 0, 0})};
+  for (std::size_t i = 5; i < 8; ++i) run.snapshots[i].bodies.own()[kCar].V_WB.v = {-0.1, 0, 0};
+  EXPECT_EQ(reason("ees_mps"), "its hardest impact was with a person, who deforms no car");
+  EXPECT_EQ(reason("pdof_deg"), "");
+  model.bodies[kCar].fixed = true;
+  EXPECT_EQ(reason("delta_v_mps"), "it is fixed");
 }
 
 }  // namespace
