@@ -32,6 +32,19 @@ void warn_of_idle_impacts(const World& world, std::vector<std::string>& warnings
   }
 }
 
+/// Whether a tree stands from `time` on. What rocks on its springs or edges is slow there, and goes on: it has no halt.
+bool halts(const World& world, const Recording& recording, std::size_t tree, double time) {
+  constexpr double kStands = 5e-3;  // [m/s] and [rad/s]
+  const auto& all = recording.snapshots;
+  if (time > all.back().time) return false;
+  for (auto s = all.rbegin(); s != all.rend() && s->time > time; ++s)
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      const Twist& V = s->bodies[static_cast<std::size_t>(world.topology.links[l].body)].V_WB;
+      if (V.v.norm() > kStands || V.w.norm() > kStands) return false;
+    }
+  return true;
+}
+
 }  // namespace
 
 void Recorder::warn_of_shortfalls(const World& world, std::vector<std::string>& warnings) const {
@@ -46,7 +59,7 @@ void Recorder::warn_of_shortfalls(const World& world, std::vector<std::string>& 
   if (too_deep_.amount > 0)
     warnings.push_back(name(too_deep_.body_a) + " was pressed " + told(1e3 * too_deep_.amount) + " mm into " +
                        name(too_deep_.body_b) + at(too_deep_) +
-                       ", more than its thickness: too soft for this blow; give them more stiffness");
+                       ", more than its thickness: what this part does from there on is not to be relied on" + kCompare);
   if (world.log.unsettled.amount > kToldUnsettled)
     warnings.push_back("the forces between " + name(world.log.unsettled.body_a) + " and " + name(world.log.unsettled.body_b) +
                        at(world.log.unsettled) + " were solved to " + told(world.log.unsettled.amount) +
@@ -69,7 +82,7 @@ void Recorder::finish(const World& world, const State& state, Recording& recordi
     const int root = world.topology.links[world.topology.trees[t].end - 1].body;
     const int person = world.model.bodies[root].person;
     if (person >= 0 && !state.released[person]) continue;
-    const double time = std::min(halted_[t], state.time);
+    const double time = halts(world, recording, t, halted_[t]) ? halted_[t] : rest_since_[t];
     events_.push_back({time, "rest", root, -1, recording.at(time).bodies[root].X_WB.p, 0});
   }
   recording.events = world.log.events;

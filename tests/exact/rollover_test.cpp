@@ -54,6 +54,24 @@ TEST(Rollover, OfASedanTrippedAtSixtyRunsToRestWithoutGainingEnergy) {
   EXPECT_LT(unexplained, 2e-3 * initial);
 }
 
+/// What rocks on its springs has no halt that its slowing would foretell: rest is the first instant from which it is slow.
+TEST(Rollover, RestIsWhenItIsSlowForGood) {
+  const engine::Recording run = engine::simulate(scenes::load(kCasesFolder + "rollover.toml").model);
+  const auto rest = std::find_if(run.events.begin(), run.events.end(), [](const engine::Event& e) { return e.kind == "rest"; });
+  ASSERT_NE(rest, run.events.end());
+  EXPECT_LE(rest->time, run.end_time() - 0.25 + 1e-9) << "as long as a run must see it at rest";
+  const auto moves = [](const engine::Snapshot& s) {
+    return std::max(s.bodies[0].V_WB.v.norm() / 0.05, s.bodies[0].V_WB.w.norm() / 0.3);
+  };
+  for (const engine::Snapshot& s : run.snapshots) {
+    if (s.time >= rest->time) {
+      EXPECT_LT(moves(s), 1) << s.time;
+    } else if (s.time > rest->time - 1.5 * run.interval) {
+      EXPECT_GE(moves(s), 1) << s.time;
+    }
+  }
+}
+
 /// The sedan dropped on its roof or side.
 class Dropped : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Attitudes, Dropped, testing::Values(90.0, 150.0, 180.0, 265.0));
