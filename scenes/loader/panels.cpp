@@ -79,7 +79,11 @@ Panel panel_of(const Vec3& p, const Vec3& n, bool glass, const engine::Aabb& scr
     if (p.z() > screen.upper.z() - 0.02 && std::abs(p.y()) < edge) return Panel::roof_edge;
     return std::abs(p.y()) > edge ? Panel::a_pillar : Panel::windscreen;
   }
-  return by_normal(n);
+  const Panel by_itself = by_normal(n);
+  // what faces up below the middle of the windscreen is no roof: the wings beside its foot, and behind it the lid of a boot
+  const bool low = p.z() < (screen.lower.z() + screen.upper.z()) / 2;
+  if (by_itself != Panel::roof || !low) return by_itself;
+  return p.x() > screen.lower.x() ? Panel::bonnet : Panel::rear;
 }
 
 }  // namespace

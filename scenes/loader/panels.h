@@ -9,7 +9,8 @@
 namespace scenes {
 
 /// `look` and `solid` share a frame: x forward, z up. Glass that faces forwards is the windscreen; before it what faces up is the
-/// bonnet; beside it the pillars, above it the edge of the roof. Without glass normals alone tell front, side, rear and roof.
+/// bonnet, with the wings beside its foot; beside it the pillars, above it the edge of the roof; low behind it the lid of a boot is
+/// rear. Without glass normals alone tell front, side, rear and roof.
 std::shared_ptr<const engine::Panels> panels_of(const engine::TriangleMesh& solid, const render::Mesh& look);
 
 }  // namespace scenes

@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <variant>
 
 #include "scene_file.h"
 #include "scenes/loader/mesh.h"
@@ -262,6 +264,38 @@ TEST(MeshAudit, TakesSecondsForMillionsOfTriangles) {
   const auto found = audit({part}, "m");
   EXPECT_LT(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC, 6);
   EXPECT_THAT(found, Contains("m has 1999998 duplicate triangles; they are left out of contact"));
+}
+
+TEST(Panels, NothingBelowTheMiddleOfTheWindscreenIsARoof) {
+  for (const std::string model : {"sedan", "suv", "van"}) {
+    const Scene scene = scenes::testing::folder().load("[[vehicle]]\nname = \"car\"\nmodel = \"" + model +
+                                                       "\"\nfront = \"0 0 m\"\nspeed = \"10 km/h\"\n");
+    const auto& shape = std::get<engine::MeshShape>(scene.model.bodies[0].shape);
+    ASSERT_TRUE(shape.panels) << model;
+    const auto& mesh = *shape.mesh;
+    const auto centre = [&](std::size_t t) {
+      engine::Vec3 sum = engine::Vec3::Zero();
+      for (const int v : mesh.triangles()[t]) sum += mesh.vertices()[static_cast<std::size_t>(v)] / 3;
+      return sum;
+    };
+    double low = 1e9, high = -1e9;
+    for (std::size_t t = 0; t < shape.panels->size(); ++t)
+      if ((*shape.panels)[t] == engine::Panel::windscreen) low = std::min(low, centre(t).z()), high = std::max(high, centre(t).z());
+    ASSERT_LT(low, high) << model;
+    int wings = 0, roofs = 0;
+    for (std::size_t t = 0; t < shape.panels->size(); ++t) {
+      const engine::Vec3 p = centre(t);
+      const bool up = mesh.face_normals()[t].z() > 0.6;
+      // the frame of the pane is of it, and moves its middle by some centimetres
+      if ((*shape.panels)[t] == engine::Panel::roof) {
+        ++roofs;
+        EXPECT_GT(p.z(), 0.5 * (low + high) - 0.1) << model << " " << p.transpose();
+      }
+      if ((*shape.panels)[t] == engine::Panel::bonnet && up && std::abs(p.y()) > 0.7) ++wings;
+    }
+    EXPECT_GT(roofs, 0) << model;
+    EXPECT_GT(wings, 0) << model << ": the wings beside the bonnet count as bonnet";
+  }
 }
 
 TEST(MeshKinds, OutsideTheListAreRefused) {
