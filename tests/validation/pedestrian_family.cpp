@@ -106,7 +106,8 @@ std::string text(const Spread& s, double scale, const char* unit) {
   return fmt::format("{:.3g} ({:.3g} to {:.3g}){}", scale * s.median, scale * s.least, scale * s.most, unit);
 }
 
-/// Head against a vehicle: Elliott, Simms, Wood 2012 and Euro NCAP TB024 for the times, Fahlstedt et al. 2016 for the place.
+/// Head against a vehicle, in bands of this project's own: near the times that Euro NCAP TB024 certifies human models for, which
+/// are not compared.
 void head_of_sedan(int offsets) {
   const std::vector<Outcome> all = family({}, offsets);
   const Spread after = spread(all, [](const Outcome& o) { return o.after; });

@@ -1,6 +1,6 @@
-// The set-up of E. Song et al., Reference PMHS tests to assess whole-body pedestrian impact using a simplified generic vehicle
-// front-end, IRCOBI 2017: three steel tubes for bonnet edge, bumper and spoiler of a mid-size sedan strike four subjects from the
-// side, in mid gait, at 8 m/s. So much the abstract says. The corridors and measures of the tubes stand in the paper and are not
+// The set-up of E. Song et al. 2017, reference tests of post-mortem human subjects for whole-body pedestrian impact: a generic buck
+// of three steel tubes for bonnet edge, bumper and spoiler of a mid-size sedan strikes four subjects from the side, in mid gait, at
+// 8 m/s. So much the abstract says. The corridors and measures of the tubes stand in the paper and are not
 // compared here: the tubes lie where the library's sedan has its front (tube_buck.toml). What is held is the purpose of the buck,
 // to move a person as such a front does until its bonnet would meet the head. How near that has to be: M. Fahlstedt, P. Halldin, S.
 // Kleiven, Comparison of multibody and finite element human body models in pedestrian accidents, Traffic Inj. Prev. 17, 2016, found
