@@ -340,8 +340,9 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
   }
   const std::string missing = fmt::format("{}", fmt::join(missing_names, ", "));
   if (!missing.empty()) line("absent", missing + " (summary.json has the reasons)");
-  line("energy", fmt::format("{:.6g} J at first, {:.6g} J at last, unexplained {:.3g} J", initial, last.kinetic + last.potential,
-                             last.residual));
+  // what is left when all is at rest is height over the world's origin, and springs
+  line("energy", fmt::format("{:.6g} J at first, {:.6g} J at last ({:.2g} J in motion), unexplained {:.3g} J", initial,
+                             last.kinetic + last.potential, last.kinetic, last.residual));
   line("largest joint gap", fmt::format("{:.3g} m", d.max_joint_gap));
   line("penetration", fmt::format("{:.3g} m at most, {:.3g} m at the end", d.max_penetration, d.rest_penetration));
   if (d.max_compression > 0) line("compression", fmt::format("{:.3g} m at most", d.max_compression));

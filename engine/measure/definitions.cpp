@@ -89,7 +89,8 @@ constexpr Definition kDefinitions[] = {
      "as the speed"},
     {"head_impact_tangential_mps", "m/s", "tangential", "Part of that velocity along the surface.", kNoHead, "as the speed"},
     {"head_impact_panel", "", "panel",
-     "What of the vehicle the head touches first: bonnet, windscreen, a_pillar, roof_edge, roof, front, side, side_window, rear, "
+     "What of the vehicle the head touches first: bonnet (with the tops of the wings and the scuttle before the windscreen), "
+     "windscreen (with the frame of the pane), a_pillar, roof_edge, roof, front, side, side_window, rear (with the lid of a boot), "
      "rear_window, underside; from the material drawn nearest and the place (scenes/loader/panels.h).",
      "no vehicle touched the head, or the mesh tells no panels", "on an edge either of two", true},
     {"head_impact_vehicle_x_m", "m", "x on the vehicle", "Place of that touch in the axes of the vehicle's mesh, forward.", kNoHead,
