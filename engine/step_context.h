@@ -27,7 +27,7 @@ struct Resistance {
 struct Islands {
   std::vector<std::vector<int>> members;  // per tree: indices of conditions
   std::vector<int> of_tree;               // a tree of the same island, or itself at its root
-  std::vector<char> has_impact;           // per tree
+  std::vector<char> by_whole;             // per tree: all impulses displace by their whole
   std::vector<double> rise;               // [J] per tree
   std::vector<int> line, place;           // trees of one island side by side, and per tree where
 };

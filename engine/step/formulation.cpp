@@ -34,10 +34,10 @@ double formulate_rigid(Constraint& c, double h, bool impact) {
 }
 
 /// A stop that gives way: torque k depth + c rate, never a pull, damped critically for the two bodies were they free.
-double formulate_compliant_stop(Constraint& c, double h) {
+double formulate_compliant_stop(Constraint& c, double h, bool whole) {
   const double k = c.stiffness, inertia = 1 / c.free_response;
   const double damping = c.gap < 0 ? 2 * std::sqrt(k * inertia) : 0;  // nothing brakes before it is reached
-  const bool followed = h * h * k < 0.5 * inertia;
+  const bool followed = !whole && h * h * k < 0.5 * inertia;
   // at the mean of both ends, L = -h (k (gap + h (u_before + u_after) / 4) + damping (u_before + u_after) / 2); a step too long
   // for that: at its end, which is stable however stiff, L = -h (k (gap + h u_after) + damping u_after)
   const double slope = followed ? h * k / 4 + damping / 2 : h * k + damping;
@@ -54,20 +54,28 @@ double weight_of_wheel(const Constraint& c) {
   return followed ? 0.5 : 1;
 }
 
-/// How fast the resting law falls with the separating speed [N s/m].
-double resting_slope(const Constraint& c, double share, double smoothing) {
-  const double tanh = math::tanh(c.u_before[0] / smoothing);
+/// A wheel that stands on somebody who yields. There all impulses of the island displace by their whole: a limb that the wheel
+/// displaces by its whole and the road by half sinks by half of what the wheel gives it in a step.
+bool stands_on_what_yields(const Constraint& c, const Model& model) {
+  return c.kind == ConstraintKind::wheel && c.body_b >= 0 && yields_between(model, c.record_b, -1);
+}
+
+/// How fast the resting law falls with the separating speed [N s/m], at a speed.
+double resting_slope(const Constraint& c, double at, double share, double smoothing) {
+  const double tanh = math::tanh(at / smoothing);
   return c.stiffness * -c.gap * (1 - share) * 0.5 * (1 - tanh * tanh) / smoothing;
 }
 
 /// Between loading and unloading the spring's force falls with speed, steeply where things rest. Taken at the speed before the step
-/// alone it would throw a light limb under a heavy body to and fro. What `rests` takes it at the speed after it, by its slope.
-double formulate_compliant_contact(Constraint& c, double h, double gravity, bool rests) {
+/// alone it would throw a light limb under a heavy body to and fro. What `rests` takes it at the speed after it, by its slope at
+/// `speed`. Under a wheel (`whole`) a limb that comes up faster than the law is wide would have neither force nor slope, and the
+/// wheel would press it in unhindered: there the slope is taken where the law still has one.
+double formulate_compliant_contact(Constraint& c, double h, double gravity, double speed, bool rests, bool whole) {
   const double smoothing = std::max(1e-3, h * gravity), share = std::max(c.hysteresis, 1e-3);
   const bool pressed = c.gap < 0;
-  const double S =
-      pressed ? compliant_normal_force(c.stiffness, share, 1, c.u_before[0], ContactPhase::resting, smoothing) : c.stiffness;
-  const double damping = rests && pressed ? resting_slope(c, share, smoothing) : 0;
+  const double at = whole && rests ? std::clamp(speed, -smoothing, smoothing) : speed;
+  const double S = pressed ? compliant_normal_force(c.stiffness, share, 1, at, ContactPhase::resting, smoothing) : c.stiffness;
+  const double damping = rests && pressed ? resting_slope(c, at, share, smoothing) : 0;
   // no more than stops what it stops within the step
   const double closing = std::max(0.0, -c.u_before[0]);
   const double extra =
@@ -75,10 +83,10 @@ double formulate_compliant_contact(Constraint& c, double h, double gravity, bool
   // the spring at the mean of its depths at both ends, which neither gains nor loses energy of itself:
   // L = -h (S (gap + h (u_before + u_after) / 4) + damping (u_after - u_before)); a step too long to follow it: at its end, which
   // is stable however stiff, L = -h (S (gap + h u_after) + damping (u_after - u_before))
-  const bool followed = h * h * S * c.free_response < 1;
+  const bool followed = !whole && h * h * S * c.free_response < 1;
   const double slope = (followed ? h * S / 4 : h * S) + damping;
   c.softness = 1 / (h * slope);
-  c.target = (damping * c.u_before[0] - S * c.gap - (followed ? S * h * c.u_before[0] / 4 : 0)) / slope + h * extra * c.softness;
+  c.target = (damping * at - S * c.gap - (followed ? S * h * c.u_before[0] / 4 : 0)) / slope + h * extra * c.softness;
   return followed ? 0.5 : 1;
 }
 
@@ -114,26 +122,28 @@ void take_mean_friction(StepContext& s) {
 }
 
 void formulate(StepContext& s) {
-  const double v_impact = impact_speed(s), h = s.length;
+  const double v_impact = impact_speed(s), h = s.length, gravity = s.world.model.settings.gravity.norm();
   Islands& islands = s.buffers.islands;
   s.buffers.weight.assign(s.constraints.size(), 0.5);
-  islands.has_impact.assign(islands.members.size(), 0);
+  islands.by_whole.assign(islands.members.size(), 0);
   for (std::size_t k = 0; k < islands.members.size(); ++k) {
     const std::vector<int>& island = islands.members[k];
     if (island.empty()) continue;
     const bool impact = std::any_of(island.begin(), island.end(), [&](int i) { return strikes(s.constraints[i], h, v_impact); });
-    islands.has_impact[k] = impact;
+    const bool whole =
+        std::any_of(island.begin(), island.end(), [&](int i) { return stands_on_what_yields(s.constraints[i], s.world.model); });
+    islands.by_whole[k] = whole;
     for (const int i : island) {
       Constraint& c = s.constraints[i];
-      if (c.kind == ConstraintKind::wheel) s.buffers.weight[i] = weight_of_wheel(c);
-      if (is_formulated(c)) continue;
-      if (!is_compliant(c))
-        s.buffers.weight[i] = formulate_rigid(c, h, impact);
+      double& weight = s.buffers.weight[i];
+      if (is_formulated(c))
+        weight = whole ? 1 : c.kind == ConstraintKind::wheel ? weight_of_wheel(c) : 0.5;
+      else if (!is_compliant(c))
+        weight = formulate_rigid(c, h, impact || whole);
       else if (c.kind == ConstraintKind::limit)
-        s.buffers.weight[i] = formulate_compliant_stop(c, h);
+        weight = formulate_compliant_stop(c, h, whole);
       else
-        s.buffers.weight[i] =
-            formulate_compliant_contact(c, h, s.world.model.settings.gravity.norm(), std::abs(c.u_before[0]) < 2 * v_impact);
+        weight = formulate_compliant_contact(c, h, gravity, c.u_before[0], std::abs(c.u_before[0]) < 2 * v_impact, whole);
     }
   }
 }
@@ -149,12 +159,17 @@ bool may_turn(const Constraint& c, double slow) {
 
 bool wake_struck_springs(StepContext& s) {
   const double slow = 2 * impact_speed(s);
+  const double gravity = s.world.model.settings.gravity.norm();
+  const Islands& islands = s.buffers.islands;
   bool any = false;
-  for (Constraint& c : s.constraints) {
-    if (!may_turn(c, slow) || c.gap >= 0 || c.u_before[0] <= -slow || std::abs(c.u_after[0]) <= slow) continue;
-    formulate_compliant_contact(c, s.length, s.world.model.settings.gravity.norm(), false);
-    any = true;
-  }
+  for (std::size_t k = 0; k < islands.members.size(); ++k)
+    for (const int i : islands.members[k]) {
+      Constraint& c = s.constraints[i];
+      if (!may_turn(c, slow) || c.gap >= 0 || c.u_before[0] <= -slow || std::abs(c.u_after[0]) <= slow) continue;
+      const bool whole = islands.by_whole[k];
+      formulate_compliant_contact(c, s.length, gravity, whole ? c.u_after[0] : c.u_before[0], false, whole);
+      any = true;
+    }
   return any;
 }
 

@@ -18,7 +18,7 @@ StepBuffers::StepBuffers(const World& world) {
   islands.members.resize(trees);
   for (auto& island : islands.members) island.reserve(kRoom);
   islands.of_tree.reserve(trees);
-  islands.has_impact.reserve(trees);
+  islands.by_whole.reserve(trees);
   islands.rise.reserve(trees);
   for (auto* list : {&islands.line, &islands.place}) list->reserve(trees);
   for (auto* list : {&weight, &allowed, &targets}) list->reserve(kRoom);
