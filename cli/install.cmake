@@ -29,8 +29,11 @@ foreach(page ${pages})
   list(APPEND printed ${pages_folder}/${page}.gz)
   install(FILES ${pages_folder}/${page}.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime)
 endforeach()
-add_custom_command(OUTPUT ${pages_folder}/changelog.gz COMMAND gzip -9nc ${CMAKE_SOURCE_DIR}/.github/CHANGELOG.md > ${pages_folder}/changelog.gz
-                   DEPENDS ${CMAKE_SOURCE_DIR}/.github/CHANGELOG.md VERBATIM)
+set(contact "crashreel developers <crashreel@users.noreply.github.com>")
+set(changes ${CMAKE_SOURCE_DIR}/.github/CHANGELOG.md)
+add_custom_command(OUTPUT ${pages_folder}/changelog.gz
+                   COMMAND ${CMAKE_SOURCE_DIR}/cli/debian_changelog ${changes} ${contact} > ${pages_folder}/changelog
+                   COMMAND gzip -9nkf ${pages_folder}/changelog DEPENDS ${changes} ${CMAKE_SOURCE_DIR}/cli/debian_changelog VERBATIM)
 list(APPEND printed ${pages_folder}/changelog.gz)
 # what it is made of: packages that are linked, and those that no link shows
 set(loaded libosmesa6)
@@ -61,9 +64,18 @@ install(FILES ${pages_folder}/_crashreel DESTINATION ${CMAKE_INSTALL_DATADIR}/zs
 install(FILES ${pages_folder}/crashreel.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT runtime)
 install(FILES ${CMAKE_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT runtime)
 install(FILES ${pages_folder}/changelog.gz DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
-install(FILES ${CMAKE_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
-install(FILES ${CMAKE_SOURCE_DIR}/scenes/README.md ${CMAKE_SOURCE_DIR}/scenes/GUIDE.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/scenes COMPONENT runtime)
-install(FILES ${CMAKE_SOURCE_DIR}/cli/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/cli COMPONENT runtime)
+# the guides, the pictures they show, and what they lead to
+foreach(document README.md scenes/README.md scenes/GUIDE.md cli/README.md cli/inference/openturns_example.py engine/README.md tests/README.md tests/benchmark/README.md assets/SOURCES.md)
+  cmake_path(GET document PARENT_PATH folder)
+  install(FILES ${CMAKE_SOURCE_DIR}/${document} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT runtime)
+endforeach()
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/assets/pictures DESTINATION ${CMAKE_INSTALL_DOCDIR}/assets COMPONENT runtime)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/cli/study/pages DESTINATION ${CMAKE_INSTALL_DOCDIR}/cli/study COMPONENT runtime
+        FILES_MATCHING PATTERN "*.pdf" PATTERN "*.png")
+foreach(folder library cases gallery)
+  set(link ${CMAKE_INSTALL_DOCDIR}/scenes/${folder})
+  install(CODE "file(CREATE_LINK ../../../crashreel/scenes/${folder} \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${link}\" SYMBOLIC)" COMPONENT runtime)
+endforeach()
 
 # for other projects
 install(TARGETS engine render scenes EXPORT crashreelTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
@@ -83,7 +95,7 @@ set(CPACK_PACKAGE_NAME crashreel)
 set(CPACK_PACKAGE_VENDOR crashreel)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "reconstruct traffic accidents and show them as pictures")
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "crashreel reads a scene file with vehicles and persons, computes their motion\nand contacts, and draws films, stills, report figures and tables.\nIt runs offline and needs no graphics card.")
-set(CPACK_PACKAGE_CONTACT "crashreel developers <crashreel@users.noreply.github.com>")
+set(CPACK_PACKAGE_CONTACT ${contact})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL runtime)
