@@ -123,6 +123,11 @@ scenes::Scene load_scene(const SceneArguments& given, double memory_ceiling) {
   return scene;
 }
 
+std::string heading_of(const scenes::Scene& scene) {
+  return (scene.title.empty() ? scene.path.filename().string() : scene.title) +
+         (scene.overrides.empty() ? "" : told_overrides(scene.overrides));
+}
+
 engine::Plan plan_of(const scenes::Scene& scene) {
   engine::Plan plan = engine::compile(scene.model);
   std::vector<std::string> names;

@@ -38,6 +38,10 @@ ShowProgress progress_of(const SceneArguments&);
 /// With a ceiling [byte] no file that the scene names takes more memory than that while it is read.
 scenes::Scene load_scene(const SceneArguments&, double memory_ceiling = 0);
 
+/// Its title, or the name of its file without one, and what was changed in it: the head of printed results and of pages. A table
+/// must not say 40 km/h over a run at 50.
+std::string heading_of(const scenes::Scene&);
+
 /// The plan of a loaded scene. Throws UsageError for an effect that does not exist.
 engine::Plan plan_of(const scenes::Scene&);
 

@@ -6,6 +6,7 @@
 
 #include "cli/inference/fit.h"
 #include "cli/inference/sample.h"
+#include "cli/scene_run.h"
 
 namespace cli::inference {
 namespace {
@@ -152,8 +153,7 @@ charts::Table evidence_table(const scenes::Scene& scene, const Fit& fit) {
 
 render::charts::Page fit_page(const scenes::Scene& scene, const Prior& prior, const Fit& fit, const std::vector<ButFor>& but_for) {
   charts::Page page;
-  const std::string name = scene.title.empty() ? scene.path.filename().string() : scene.title;
-  page.title = (fit.reasons.empty() ? "Which inputs explain the evidence: " : "No single number: ") + name;
+  page.title = (fit.reasons.empty() ? "Which inputs explain the evidence: " : "No single number: ") + heading_of(scene);
   page.subtitle =
       "Simulation against evidence (crashreel fit). Intervals hold the truth with the probability stated, if the assumptions hold.";
   page.footer = fmt::format("crashreel {} | {} | scene SHA-256 {} | {} runs, seed {}", CRASHREEL_VERSION,

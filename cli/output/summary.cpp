@@ -7,6 +7,7 @@
 
 #include "cli/output/csv.h"
 #include "cli/output/json.h"
+#include "cli/scene_run.h"
 #include "engine/geometry/panels.h"
 #include "engine/measure/definitions.h"
 #include "engine/measure/impacts.h"
@@ -272,15 +273,21 @@ Json summary_json(const scenes::Scene& scene, const engine::Recording& recording
 
 namespace {
 
+/// What rounds to nothing has no sign.
+std::string without_sign_of_zero(std::string number) {
+  if (number.starts_with('-') && number.find_first_of("123456789") == std::string::npos) number.erase(0, 1);
+  return number;
+}
+
 /// As many digits as the measure bears: the rest of a number that hangs on stances and panels is noise. What a free body does is
 /// exact to the step and keeps six.
 std::string digits_of(const engine::Metric& metric, const engine::Definition* known) {
   const std::string unit = known ? known->unit : "", key = metric.key;
   if (key == "travel_m" || key == "turned_deg" || key == "rebound_height_m" || !known) return fmt::format("{:.6g}", metric.value);
   if (unit == "s") return fmt::format("{:.3f}", metric.value);
-  if (unit == "deg") return fmt::format("{:.1f}", metric.value);
+  if (unit == "deg") return without_sign_of_zero(fmt::format("{:.1f}", metric.value));
   if (unit == "g" || key.starts_with("hic")) return fmt::format("{:.0f}", metric.value);
-  return fmt::format("{:.2f}", metric.value);
+  return without_sign_of_zero(fmt::format("{:.2f}", metric.value));
 }
 
 /// Beside a criterion that the road decided: one fall of many that could have been.
@@ -311,6 +318,15 @@ const char* unfinished(const engine::Metric& metric, const std::vector<engine::A
   return to_rest && moves ? " so far, still moving at the end" : "";
 }
 
+/// Names at the left, values in one column.
+std::string aligned(const std::vector<std::pair<std::string, std::string>>& lines) {
+  std::size_t width = 0;
+  for (const auto& [name, value] : lines) width = std::max(width, name.size());
+  std::string out;
+  for (const auto& [name, value] : lines) out += fmt::format("  {:<{}} {}\n", name, width, value);
+  return out;
+}
+
 }  // namespace
 
 std::string summary_text(const scenes::Scene& scene, const engine::Recording& recording,
@@ -319,8 +335,8 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
   const engine::Energies& first = recording.snapshots.front().energies;
   const engine::Energies& last = recording.snapshots.back().energies;
   const double initial = first.kinetic + first.potential;
-  std::string out = fmt::format("{}\n", scene.title.empty() ? scene.path.string() : scene.title);
-  const auto line = [&out](const std::string& name, const std::string& value) { out += fmt::format("  {:<28} {}\n", name, value); };
+  std::vector<std::pair<std::string, std::string>> lines;
+  const auto line = [&lines](const std::string& name, const std::string& value) { lines.emplace_back(name, value); };
   const std::vector<engine::AbsentMetric> absent = engine::absent_metrics(scene.model, recording, metrics);
   // what a screen has room for; the rest stands in summary.json
   for (const engine::Metric& metric : metrics) {
@@ -352,7 +368,7 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
   for (const std::string& warning : d.warnings) line("warning", warning);
   if (const std::string slow = slow_step(recording); !slow.empty()) line("warning", slow);
   line("recording hash", fmt::format("{:016x}", engine::hash(recording)));
-  return out;
+  return heading_of(scene) + "\n" + aligned(lines);
 }
 
 }  // namespace cli

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cli/output/json.h"
+#include "cli/scene_run.h"
 #include "cli/study/words.h"
 #include "engine/plan.h"
 
@@ -140,7 +141,7 @@ Json effects_json(const scenes::Scene& scene, const EffectsStudy& study) {
 }
 
 std::string effects_text(const scenes::Scene& scene, const EffectsStudy& study) {
-  std::string out = fmt::format("{}\n  all effects: {:.3g} s of computing\n", scene.title, study.all.wall_s);
+  std::string out = fmt::format("{}\n  all effects: {:.3g} s of computing\n", heading_of(scene), study.all.wall_s);
   const std::string main = study.quantities.empty() ? "" : study.quantities.front();
   out += fmt::format("  {:<24} {:>20} {:>12}\n", "left out", "change of " + words_of(main), "time saved");
   for (const EffectOff& off : study.off)
@@ -150,7 +151,7 @@ std::string effects_text(const scenes::Scene& scene, const EffectsStudy& study) 
 
 charts::Page effects_page(const scenes::Scene& scene, const EffectsStudy& study) {
   charts::Page page;
-  page.subtitle = scene.title;
+  page.subtitle = heading_of(scene);
   page.footer = provenance_of(scene);
   const std::string main = study.quantities.empty() ? "" : study.quantities.front();
   if (main.empty() || study.off.empty()) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cli/output/json.h"
+#include "cli/scene_run.h"
 #include "cli/study/words.h"
 
 namespace cli::study {
@@ -58,13 +59,13 @@ Json judgement_json(const Judgement& j) {
 }
 
 /// What each range of --input does to each measure: half the difference between its ends.
-std::string inputs_text(const Study& study) {
+std::string inputs_text(const Study& study, std::size_t widest) {
   if (study.inputs.empty()) return "";
   std::string out = "  ranges given with --input, and half of what each moves a measure by:\n";
   for (const InputRange& input : study.inputs) {
     out += fmt::format("  {} from {} to {}\n", input.key, input.low, input.high);
     for (const auto& [quantity, half_width] : input.half_width)
-      if (!is_defect(quantity)) out += fmt::format("    {:<30} {:>12.3g}\n", quantity, half_width);
+      if (!is_defect(quantity)) out += fmt::format("    {:<{}} {:>12.3g}\n", quantity, widest, half_width);
   }
   return out;
 }
@@ -132,22 +133,24 @@ nlohmann::ordered_json study_json(const scenes::Scene& scene, const Study& study
 }
 
 std::string study_text(const scenes::Scene& scene, const Study& study) {
-  std::string out = fmt::format("{}\n", scene.title.empty() ? scene.path.string() : scene.title);
+  std::string out = heading_of(scene) + "\n";
   const SettingResult* own = study.own();
   if (!own) return out;
   out += fmt::format("  at the scene's own settings ({}, {:.3g} s of computing):\n", own->setting.label, own->wall_s);
-  out += fmt::format("  {:<32} {:>12} {:>12} {:>12} {:>8}  {}\n", "quantity", "value", "numerical", "sensitivity", "order",
+  std::size_t widest = 0;
+  for (const Judgement& j : study.judgements) widest = std::max(widest, j.quantity.size());
+  out += fmt::format("  {:<{}} {:>12} {:>12} {:>12} {:>8}  {}\n", "quantity", widest, "value", "numerical", "sensitivity", "order",
                      "reference");
   for (const Judgement& j : study.judgements) {
     const auto found = own->answers.find(j.quantity);
     if (found == own->answers.end()) continue;
     const Answer& a = found->second;
-    out +=
-        fmt::format("  {:<32} {:>12.6g} {:>12.3g} {:>12.3g} {:>8}  {}\n", j.quantity, a.value, a.uncertainty, (a.high - a.low) / 2,
-                    std::isfinite(j.convergence.order) ? fmt::format("{:.2f}", j.convergence.order) : name_of(j.convergence.trust),
-                    j.error_kind == "closed_form" ? fmt::format("closed form, error {:.3g}", a.error) : j.error_kind);
+    out += fmt::format(
+        "  {:<{}} {:>12.6g} {:>12.3g} {:>12.3g} {:>8}  {}\n", j.quantity, widest, a.value, a.uncertainty, (a.high - a.low) / 2,
+        std::isfinite(j.convergence.order) ? fmt::format("{:.2f}", j.convergence.order) : name_of(j.convergence.trust),
+        j.error_kind == "closed_form" ? fmt::format("closed form, error {:.3g}", a.error) : j.error_kind);
   }
-  out += inputs_text(study);
+  out += inputs_text(study, widest);
   if (const Judgement* j = study.find(main_quantity(study))) {
     const std::vector<std::string> sentences = findings(study, *j);  // what time buys, what the answer hangs on, then more
     for (std::size_t i = 0; i < std::min<std::size_t>(2, sentences.size()); ++i)

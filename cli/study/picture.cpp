@@ -9,6 +9,7 @@
 #include "cli/film_plan.h"
 #include "cli/output/json.h"
 #include "cli/progress.h"
+#include "cli/scene_run.h"
 #include "cli/study/statistics.h"
 #include "cli/study/trial.h"
 #include "cli/study/words.h"
@@ -180,8 +181,8 @@ charts::Page picture_page(const scenes::Scene& scene, const PictureStudy& study)
   page.title = own ? fmt::format("The picture: {:.0f} ms a frame leave an error of {:.1f}/255, a likeness of {:.1f} %",
                                  own->frame_ms, own->rms, 100 * own->ssim)
                    : "What the quality of a picture costs";
-  page.subtitle = fmt::format("{}, at {:.3f} s from camera \"{}\", {} x {}", scene.title, study.moment.time, study.moment.camera,
-                              study.width, study.height);
+  page.subtitle = fmt::format("{}, at {:.3f} s from camera \"{}\", {} x {}", heading_of(scene), study.moment.time,
+                              study.moment.camera, study.width, study.height);
   page.findings = {
       fmt::format(
           "The reference is the same moment drawn with 16 times the pixels of 2 x 2 samples each, shadows of {} x {} and surfaces "

@@ -130,6 +130,29 @@ TEST(Simulate, PrintsNoMoreDigitsThanAMeasureBears) {
               std::stod(result.out.substr(result.out.find("head_impact_speed_mps pedestrian") + 33)), 0.0051);
 }
 
+TEST(Simulate, PrintsOneColumnUnderWhatWasChanged) {
+  const Folder folder;
+  const std::string scene = std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/sedan_pedestrian_40kmh.toml";
+  const Result result = run(folder, {"simulate", scene, "-q", "-o", "out", "--set", "simulation.duration=0.4 s"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  std::istringstream lines(result.out);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "Sedan at 40 km/h strikes a crossing pedestrian [changed: simulation.duration=0.4 s]");
+  // the longest name is followed by one blank, and every value begins below its own
+  const std::string longest = "  wrap_around_distance_m pedestrian ";
+  ASSERT_THAT(result.out, HasSubstr("\n" + longest + "1."));
+  int values = 0;
+  while (std::getline(lines, line) && line.starts_with("  ")) {
+    ASSERT_GT(line.size(), longest.size()) << line;
+    EXPECT_EQ(line[longest.size() - 1], ' ') << line;
+    EXPECT_NE(line[longest.size()], ' ') << line;
+    ++values;
+  }
+  EXPECT_GT(values, 15);
+  EXPECT_THAT(result.out, testing::Not(testing::ContainsRegex(" -0\\.0+\n"))) << "what rounds to nothing has no sign";
+}
+
 TEST(Simulate, ContactRowsHaveTheirTangentialVector) {
   const Folder folder;
   const Result result = run(folder, {"simulate", gallery("puck_slide.toml"), "-o", "out"});
