@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "cli/inference/sample.h"
 #include "cli/output/json.h"
+#include "cli/scene_run.h"
 #include "cli/study/quantities.h"
 
 namespace cli::inference {
@@ -113,27 +115,110 @@ std::string value_text(double x, double resolution) {
   return std::isfinite(x) ? told(x, {}, resolution) : "outside";
 }
 
+/// What a screen of results shows, the measure of the charts first; the others stand in sample.json.
+std::vector<const Output*> told_outputs(const Sample& sample) {
+  std::vector<const Output*> out;
+  for (const Output& o : sample.outputs) {
+    const bool shown = study::is_on_screen(o.name) || o.name == sample.main;
+    if (o.sd > kTold && !study::is_defect(o.name) && shown) out.push_back(&o);
+  }
+  std::stable_partition(out.begin(), out.end(), [&sample](const Output* o) { return o->name == sample.main; });
+  return out;
+}
+
 charts::Table percentiles(const Sample& sample) {
   charts::Table table;
   table.title = "Percentiles; in brackets the 95 % range of the percentile itself, from the number of runs";
   table.head = {"measure", "runs", "5 %", "50 %", "95 %"};
-  for (const Output& o : sample.outputs) {
-    if (!(o.sd > kTold) || study::is_defect(o.name)) continue;
-    std::vector<std::string> row{label(o.name), fmt::format("{}", o.runs)};
+  for (const Output* o : told_outputs(sample)) {
+    std::vector<std::string> row{label(o->name), fmt::format("{}", o->runs)};
     for (const double share : {0.05, 0.5, 0.95})
-      for (const Percentile& p : o.percentiles)
+      for (const Percentile& p : o->percentiles)
         if (p.share == share)
-          row.push_back(fmt::format("{} ({}..{})", value_text(p.value, o.sd / 30), value_text(p.low, o.sd / 30),
-                                    value_text(p.high, o.sd / 30)));
-    if (o.name == sample.main) table.emphasised = static_cast<int>(table.rows.size());
+          row.push_back(fmt::format("{} ({}..{})", value_text(p.value, o->sd / 30), value_text(p.low, o->sd / 30),
+                                    value_text(p.high, o->sd / 30)));
+    if (o->name == sample.main) table.emphasised = static_cast<int>(table.rows.size());
     table.rows.push_back(std::move(row));
   }
   return table;
 }
 
+/// Chosen values are no sample: nothing is drawn, so no share of the runs is a probability.
+bool is_chosen(const Sample& sample) {
+  return !sample.table.grid_keys.empty() && (sample.table.rows.empty() || sample.table.rows.front().values.empty());
+}
+
+std::string number_text(double x, double resolution) {
+  return std::isfinite(x) ? told(x, {}, resolution) : "none";
+}
+
+/// A row a run: what was chosen, then measures, that of the charts first, as many as a screen is wide.
+charts::Table chosen_runs(const Sample& sample) {
+  constexpr std::size_t kScreen = 100;
+  charts::Table table;
+  table.title = "Every run; all measures stand in runs.csv";
+  table.head = sample.table.grid_keys;
+  for (const Row& row : sample.table.rows) table.rows.push_back(row.grid);
+  std::size_t wide = 0;
+  for (const std::string& key : table.head) wide += key.size() + 2;
+  for (const Output* o : told_outputs(sample)) {
+    wide += label(o->name).size() + 2;
+    if (wide > kScreen && table.head.size() > sample.table.grid_keys.size()) break;
+    table.head.push_back(label(o->name));
+    const std::vector<double> values = column(sample.table, o->name);
+    for (std::size_t r = 0; r < values.size(); ++r) table.rows[r].push_back(number_text(values[r], o->sd / 30));
+  }
+  return table;
+}
+
+/// Of one key with numbers: the measure over it.
+charts::Chart over_chosen(const Sample& sample, const Output& o) {
+  charts::Chart chart;
+  charts::Line line{"runs", {}, true, true, 0.6};
+  const std::vector<double> y = column(sample.table, o.name);
+  if (sample.table.grid_keys.size() != 1) return chart;
+  for (std::size_t r = 0; r < y.size(); ++r) {
+    const std::string& text = sample.table.rows[r].grid.front();
+    char* end = nullptr;
+    const double x = std::strtod(text.c_str(), &end);
+    const std::string unit = *end == ' ' ? end + 1 : end;
+    if (end == text.c_str() || unit.find_first_of("-0123456789") == 0) return chart;  // a word, or several numbers
+    if (std::isfinite(y[r])) line.points.push_back({x, y[r], 0, 0});
+    chart.x_label = sample.table.grid_keys.front() + (unit.empty() ? "" : " [" + unit + "]");
+  }
+  chart.title = fmt::format("The {} at each value", study::words_of(o.name));
+  chart.y_label = label(o.name);
+  chart.lines.push_back(std::move(line));
+  return chart;
+}
+
+std::string in_columns(const charts::Table& table) {
+  std::vector<std::size_t> width;
+  for (const std::string& head : table.head) width.push_back(head.size());
+  for (const auto& row : table.rows)
+    for (std::size_t k = 0; k < row.size(); ++k) width[k] = std::max(width[k], row[k].size());
+  std::string out;
+  const auto add = [&](const std::vector<std::string>& row) {
+    for (std::size_t k = 0; k < row.size(); ++k) out += fmt::format("  {:>{}}", row[k], width[k]);
+    out += "\n";
+  };
+  add(table.head);
+  for (const auto& row : table.rows) add(row);
+  return out;
+}
+
 std::vector<std::string> findings(const Prior& prior, const Sample& sample, const Output* main) {
   std::vector<std::string> out;
-  if (main && main->runs > 0) {
+  if (main && main->runs > 0 && is_chosen(sample)) {
+    std::vector<double> values = column(sample.table, main->name);
+    std::erase_if(values, [](double v) { return !std::isfinite(v); });
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    out.push_back(
+        fmt::format("Over the values given the {} lies between {} and {} {}. They were chosen, not drawn: no share of the "
+                    "runs is a probability.",
+                    study::words_of(main->name), number_text(*least, main->sd / 30), number_text(*most, main->sd / 30),
+                    study::unit_of(main->name)));
+  } else if (main && main->runs > 0) {
     const auto at = [&](double share) {
       for (const Percentile& p : main->percentiles)
         if (p.share == share) return value_text(p.value, main->sd / 30);
@@ -207,28 +292,30 @@ nlohmann::ordered_json sample_json(const scenes::Scene& scene, const Prior& prio
 }
 
 std::string sample_text(const scenes::Scene& scene, const Prior& prior, const Sample& sample) {
-  std::string out = fmt::format("{}\n", scene.title.empty() ? scene.path.string() : scene.title);
+  std::string out = heading_of(scene) + "\n";
   for (const std::string& line : findings(prior, sample, find(sample, sample.main))) out += "  " + line + "\n";
+  if (is_chosen(sample)) return out + in_columns(chosen_runs(sample));
   for (const std::vector<std::string>& row : percentiles(sample).rows)
     out += fmt::format("  {:<32} {:>6} runs   5 %: {}   50 %: {}   95 %: {}\n", row[0], row[1], row[2], row[3], row[4]);
-  return out;
+  return out + "  every measure: sample.json; every run: runs.csv\n";
 }
 
 render::charts::Page sample_page(const scenes::Scene& scene, const Prior& prior, const Sample& sample) {
   charts::Page page;
-  const std::string name = scene.title.empty() ? scene.path.filename().string() : scene.title;
   page.footer = fmt::format("crashreel {} | {} | scene SHA-256 {} | {} runs, seed {}", CRASHREEL_VERSION,
                             scene.path.filename().string(), scene.sha256.substr(0, 16), sample.table.rows.size(), sample.seed);
-  page.title = "What is not known of it, and what follows: " + name;
-  page.subtitle = fmt::format("{} runs over what the scene leaves open (crashreel sample)", sample.table.rows.size());
+  page.title =
+      (is_chosen(sample) ? "What follows from each value: " : "What is not known of it, and what follows: ") + heading_of(scene);
+  page.subtitle = fmt::format("{} runs over {} (crashreel sample)", sample.table.rows.size(),
+                              is_chosen(sample) ? "the values given" : "what the scene leaves open");
   const Output* main = find(sample, sample.main);
   page.findings = findings(prior, sample, main);
-  if (main) page.left = distribution(sample, *main);
+  if (main) page.left = is_chosen(sample) ? over_chosen(sample, *main) : distribution(sample, *main);
   if (main && main->sensitivity.runs > 0) {
     page.right = scatter(prior, sample, *main);
     page.bars = tornado(prior, *main);
   }
-  page.table = percentiles(sample);
+  page.table = is_chosen(sample) ? chosen_runs(sample) : percentiles(sample);
   return page;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/scene_run.h"
 #include "cli/study/output.h"
 #include "cli/study/perturb.h"
 #include "cli/study/words.h"
@@ -93,9 +94,16 @@ charts::Bars uncertainty_bars(const Study& study) {
   bars.parts = {"numerical", "sensitivity", "input"};
   const SettingResult* own = study.own();
   if (!own) return bars;
-  for (const Judgement& j : study.judgements) {
+  // what the page is about first, then what a screen of results shows: the page has room for some
+  const std::string main = main_quantity(study);
+  std::vector<const Judgement*> told;
+  for (const Judgement& j : study.judgements)
+    if (!is_defect(j.quantity) && (is_on_screen(j.quantity) || j.quantity == main)) told.push_back(&j);
+  std::stable_partition(told.begin(), told.end(), [&main](const Judgement* j) { return j->quantity == main; });
+  for (const Judgement* judged : told) {
+    const Judgement& j = *judged;
     const Answer* a = answer_of(*own, j.quantity);
-    if (!a || is_defect(j.quantity)) continue;
+    if (!a) continue;
     const double input = study.input_uncertainty(j.quantity), sensitivity = (a->high - a->low) / 2;
     const double size = std::max({std::abs(a->value), a->uncertainty + sensitivity + input, 1e-9});
     const std::string unit = unit_of(j.quantity);
@@ -150,7 +158,7 @@ charts::Table convergence_table(const Study& study, const Judgement& j) {
 charts::Page page_of(const scenes::Scene& scene, const Study& study) {
   charts::Page page;
   const std::string quantity = main_quantity(study);
-  const std::string name = scene.title.empty() ? scene.path.filename().string() : scene.title;
+  const std::string name = heading_of(scene);
   page.footer = provenance_of(scene) + fmt::format(" | minute changes: {} m, {} of speeds and gravity | measures read every {} ms",
                                                    kPerturbedPosition, kPerturbedSpeed, 1e3 * study.interval);
   const Judgement* j = study.find(quantity);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "cli/output/csv.h"
+#include "engine/measure/definitions.h"
 
 namespace cli::study {
 namespace {
@@ -47,6 +48,11 @@ std::vector<Quantity> quantities_of(const engine::Model& model, const engine::Re
 
 bool is_defect(const std::string& quantity) {
   return std::find(std::begin(kDefects), std::end(kDefects), quantity) != std::end(kDefects);
+}
+
+bool is_on_screen(const std::string& quantity) {
+  const engine::Definition* known = engine::definition_of(key_of(quantity));
+  return !known || known->main;
 }
 
 std::string unit_of(const std::string& quantity) {

@@ -22,6 +22,8 @@ std::vector<Quantity> quantities_of(const engine::Model&, const engine::Recordin
 
 /// True for the quantities whose right value is 0.
 bool is_defect(const std::string& quantity);
+/// Whether a screen or page with little room shows it; a quantity that is no measure always is.
+bool is_on_screen(const std::string& quantity);
 
 /// The unit a quantity's name ends in, "m" of "throw_distance_m"; empty without one.
 std::string unit_of(const std::string& quantity);

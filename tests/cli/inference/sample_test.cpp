@@ -93,6 +93,42 @@ TEST(Sample, AGridRunsEveryValue) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
 }
 
+TEST(Sample, AGridIsATableAndNoProbability) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  const Result result =
+      run(folder, {"sample", "ball.toml", "-o", "out", "--grid", "body.ball.velocity=1 0 0 m/s,2 0 0 m/s,3 0 0 m/s", "--quiet"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.out.find("5 %"), std::string::npos) << result.out;
+  EXPECT_THAT(result.out, HasSubstr("Over the values given the travel lies between "));
+  // a row a run in the order given, the measure of the charts behind the value
+  EXPECT_THAT(result.out, testing::ContainsRegex("\n  body\\.ball\\.velocity  travel \\[m\\]"));
+  const std::size_t one = result.out.find("\n           1 0 0 m/s  "), three = result.out.find("\n           3 0 0 m/s  ");
+  ASSERT_NE(one, std::string::npos) << result.out;
+  ASSERT_NE(three, std::string::npos);
+  EXPECT_LT(one, three);
+  // a ball in the air for 0.4 s less what friction takes on the ground: between nothing and the way at full speed
+  const double way = std::stod(result.out.substr(three + 23));
+  EXPECT_GT(way, 0.5);
+  EXPECT_LT(way, 1.2);
+}
+
+TEST(Sample, TellsTheMeasureOfItsChartsFirstAndWhatWasChanged) {
+  const Folder folder;
+  const std::string scene = std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/sedan_pedestrian_fit.toml";
+  const Result result = run(folder, {"sample", scene, "-o", "out", "-n", "2", "--quiet", "--set", "simulation.duration=0.5 s"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, testing::StartsWith("How fast was the sedan? Assumed evidence for a struck pedestrian "
+                                              "[changed: simulation.duration=0.5 s]\n"));
+  // percentiles stand below the sentences: the main measure, then what a screen of results shows
+  const std::size_t main = result.out.find("\n  throw distance [m] "), first = result.out.find(" runs   5 %: ");
+  ASSERT_NE(main, std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find('\n', main + 1), result.out.find('\n', first)) << "in the first row";
+  EXPECT_THAT(result.out, HasSubstr("\n  head impact speed [m/s] "));
+  EXPECT_EQ(result.out.find("peak acceleration"), std::string::npos);
+  EXPECT_THAT(contents(folder / "out/sample.json"), HasSubstr("peak_acceleration_mps2 pedestrian/head"));
+}
+
 TEST(Sample, RefusesWhatCannotBe) {
   const Folder folder;
   folder.write("ball.toml", kBall);
