@@ -278,25 +278,32 @@ void draw_table(const Pen& pen, const Table& table, const Box& box) {
   pen.black();
   double y = box.y + pen.text(table.title, box.x, box.y, kTitleSize, Align::left, true, box.width).height + 4;
   const std::size_t columns = table.head.size();
+  const double row_height = 11.2, least_gap = 4;
+  // rows that find no place under the head are left out
+  const double room = std::max(0.0, (box.bottom() - y - row_height - 2) / row_height);
+  const std::size_t rows = std::min(table.rows.size(), static_cast<std::size_t>(std::ceil(room)) - (room > 0 ? 1 : 0));
   std::vector<double> width(columns, 0);
   const auto grow = [&](const std::vector<std::string>& row, bool bold) {
     for (std::size_t k = 0; k < columns && k < row.size(); ++k)
       width[k] = std::max(width[k], pen.measure(row[k], kTextSize, bold).width);
   };
   grow(table.head, true);
-  for (std::size_t r = 0; r < table.rows.size(); ++r) grow(table.rows[r], static_cast<int>(r) == table.emphasised);
+  for (std::size_t r = 0; r < rows; ++r) grow(table.rows[r], static_cast<int>(r) == table.emphasised);
   double sum = 0;
   for (const double w : width) sum += w;
-  const double gap = columns > 1 ? std::clamp((box.width - sum) / static_cast<double>(columns - 1), 4.0, 26.0) : 0;
-  const double row_height = 11.2;
+  // a table wider than its place is written smaller: no column leaves the page
+  const double gaps = least_gap * static_cast<double>(columns - 1), shrink = std::min(1.0, (box.width - gaps) / sum);
+  for (double& w : width) w *= shrink;
+  const double size = kTextSize * shrink;
+  const double gap = columns > 1 ? std::clamp((box.width - shrink * sum) / static_cast<double>(columns - 1), least_gap, 26.0) : 0;
   const auto draw_row = [&](const std::vector<std::string>& row, bool bold) {
     double x = box.x;
     for (std::size_t k = 0; k < columns && k < row.size(); ++k) {
       // the first column is words, the others are numbers
       if (k == 0)
-        pen.text(row[k], x, y, kTextSize, Align::left, bold);
+        pen.text(row[k], x, y, size, Align::left, bold);
       else
-        pen.text(row[k], x + width[k], y, kTextSize, Align::right, bold);
+        pen.text(row[k], x + width[k], y, size, Align::right, bold);
       x += width[k] + gap;
     }
     y += row_height;
@@ -304,8 +311,7 @@ void draw_table(const Pen& pen, const Table& table, const Box& box) {
   draw_row(table.head, true);
   pen.line(box.x, y - 0.5, box.right(), y - 0.5, 0.7);
   y += 2;
-  for (std::size_t r = 0; r < table.rows.size() && y + row_height < box.bottom(); ++r)
-    draw_row(table.rows[r], static_cast<int>(r) == table.emphasised);
+  for (std::size_t r = 0; r < rows; ++r) draw_row(table.rows[r], static_cast<int>(r) == table.emphasised);
   if (!table.note.empty()) pen.text(table.note, box.x, y + 3, kTextSize, Align::left, false, box.width);
 }
 

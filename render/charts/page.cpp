@@ -44,6 +44,17 @@ void draw_grid(const Pen& pen, const std::vector<Chart>& grid, const Box& box) {
   }
 }
 
+}  // namespace
+
+double height_below_charts(const Page& page, double room) {
+  constexpr double kHead = 60, kBar = 15, kRow = 11.2, kNote = 30;  // [pt] titles of two lines and heads of columns
+  const double bars = page.bars.rows.empty() ? 0 : kHead + kBar * static_cast<double>(page.bars.rows.size());
+  const double table = page.table.rows.empty() ? 0 : kHead + kRow * static_cast<double>(page.table.rows.size());
+  return std::min(0.4 * room, std::max(bars, table + (page.table.note.empty() ? 0 : kNote)));
+}
+
+namespace {
+
 void draw(const Page& page, cairo_t* c) {
   const Pen pen(c);
   cairo_set_source_rgb(c, 1, 1, 1);
@@ -60,7 +71,9 @@ void draw(const Page& page, cairo_t* c) {
   const bool charts = !page.left.title.empty() || !page.grid.empty();
   const double gap = 26, half = (width - gap) / 2;
   const double rows = 15.0 * static_cast<double>(std::max(page.upper_left.rows.size(), page.upper_right.rows.size()));
-  const double split = y + (charts ? 0.60 * (bottom - y) : rows > 0 ? std::min(0.5 * (bottom - y), rows + 48) : 0);
+  const double split = y + (charts     ? bottom - y - height_below_charts(page, bottom - y)
+                            : rows > 0 ? std::min(0.5 * (bottom - y), rows + 48)
+                                       : 0);
   const Box left{kMargin, y, half, split - y - 8}, right{kMargin + half + gap, y, half, split - y - 8};
   draw_chart(pen, page.left, left);
   draw_chart(pen, page.right, right);

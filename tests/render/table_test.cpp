@@ -1,0 +1,71 @@
+// A page's table stays within its place, whatever stands in it.
+#include <cairo/cairo.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "render/charts/chart.h"
+
+namespace render::charts {
+namespace {
+
+constexpr Box kPlace{100, 50, 390, 160};  // [pt] the lower right of a page beside bars
+
+/// Where the ink of a table lies.
+Box ink_of(const Table& table) {
+  cairo_surface_t* surface = cairo_recording_surface_create(CAIRO_CONTENT_COLOR_ALPHA, nullptr);
+  cairo_t* c = cairo_create(surface);
+  draw_table(Pen(c), table, kPlace);
+  Box out;
+  cairo_recording_surface_ink_extents(surface, &out.x, &out.y, &out.width, &out.height);
+  cairo_destroy(c);
+  cairo_surface_destroy(surface);
+  return out;
+}
+
+Table table_of(const std::string& name, const std::string& value, int rows) {
+  Table table{"Percentiles", {"measure", "5 %", "50 %", "95 %"}, {}, -1, ""};
+  for (int r = 0; r < rows; ++r) table.rows.push_back({name, value, value, value});
+  return table;
+}
+
+TEST(Table, WiderThanItsPlaceIsWrittenSmaller) {
+  const Box ink = ink_of(table_of("head impact vehicle x [m]", "-1234.567 (-1234.568..-1234.566)", 5));
+  EXPECT_LE(ink.right(), kPlace.right() + 1);  // a point for the thickness of lines and the edges of letters
+  EXPECT_GE(ink.right(), kPlace.right() - 4) << "and fills it";
+}
+
+TEST(Table, KeepsItsSizeForRowsThatAreShown) {
+  Table table = table_of("throw distance [m]", "12.8", 5);
+  const Box before = ink_of(table);
+  // rows below the last that has a place say nothing of the columns
+  while (table.rows.size() < 40) table.rows.push_back(table.rows.front());
+  const Box full = ink_of(table);
+  table.rows.push_back(
+      {"a name as long as no measure of the library has one, and longer than the place is wide by far, too", "1", "2", "3"});
+  const Box after = ink_of(table);
+  EXPECT_EQ(after.right(), full.right());
+  EXPECT_EQ(after.bottom(), full.bottom());
+  EXPECT_GT(full.bottom(), before.bottom());
+  EXPECT_LE(full.bottom(), kPlace.bottom() + 1);
+}
+
+TEST(Page, ChartsHaveTheRoomThatLittleBelowLeaves) {
+  Page page;
+  EXPECT_EQ(height_below_charts(page, 400), 0);
+  page.table = table_of("rest", "1", 2);
+  const double two = height_below_charts(page, 400);
+  EXPECT_LT(two, 100);  // two rows and their head are less than a quarter
+  for (const int more : {3, 4, 5}) {
+    page.table = table_of("rest", "1", more);
+    EXPECT_GT(height_below_charts(page, 400), two);
+  }
+  page.table = table_of("rest", "1", 60);
+  EXPECT_DOUBLE_EQ(height_below_charts(page, 400), 160);
+  page.table = {};
+  page.bars.rows.resize(3);
+  EXPECT_NEAR(height_below_charts(page, 400), 105, 1e-9);
+}
+
+}  // namespace
+}  // namespace render::charts
