@@ -55,7 +55,7 @@ inference::ButFor but_for(const inference::Prior& prior, const inference::Fit& f
     changed.push_back(prior.overrides(fit.table.rows[r].values));
     changed.back().push_back(change);
   }
-  return inference::compare(change, before, ensemble.run(changed));
+  return inference::compare(change, before, ensemble.run(changed, "but for"));
 }
 
 std::string best_scene(const scenes::Scene& scene, const inference::Prior& prior, const inference::Fit& fit) {

@@ -75,12 +75,12 @@ void Ensemble::keep(const std::string& name, const Answer& a) {
   known_[name] = a;
 }
 
-std::vector<Answer> Ensemble::run(const std::vector<std::vector<std::string>>& runs) {
+std::vector<Answer> Ensemble::run(const std::vector<std::vector<std::string>>& runs, const std::string& stage) {
   std::vector<std::size_t> waiting;
   std::set<std::string> asked;  // a posterior that rests on few runs draws each of them many times
   for (std::size_t i = 0; i < runs.size(); ++i)
     if (const std::string name = name_of(runs[i]); !known_.contains(name) && asked.insert(name).second) waiting.push_back(i);
-  Progress progress(wish_.verb, "runs", static_cast<double>(waiting.size()), wish_.show);
+  Progress progress(stage.empty() ? wish_.verb : wish_.verb + " " + stage, "runs", static_cast<double>(waiting.size()), wish_.show);
   std::size_t done = 0;
   const auto work = [&](std::size_t k) { return as_line(name_of(runs[waiting[k]]), answer(scene_, runs[waiting[k]], *meshes_)); };
   const auto take = [&](std::size_t k, const std::string& line, const std::string& death) {

@@ -41,8 +41,8 @@ class Ensemble {
   Ensemble(const scenes::Scene& scene, EnsembleWish wish);
 
   /// Answers in the order of the runs; each run is its overrides on top of the scene's. A run that was done before is not done
-  /// again. Throws Interrupted; what is done by then is kept.
-  std::vector<Answer> run(const std::vector<std::vector<std::string>>& runs);
+  /// again. Throws Interrupted; what is done by then is kept. `stage` says beside the progress which part of the job this is.
+  std::vector<Answer> run(const std::vector<std::vector<std::string>>& runs, const std::string& stage = "");
 
  private:
   void recall();

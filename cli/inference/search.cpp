@@ -1,5 +1,7 @@
 #include "cli/inference/search.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "cli/inference/proposal.h"
@@ -13,7 +15,8 @@ constexpr double kWell = 1.0 / 3;  // of the runs effective: more runs would not
 constexpr double kFewest = 40;     // effective points a proposal is made from, and
 constexpr double kPerInput = 10;   // so many more for each input
 
-void append(const scenes::Scene& scene, const Prior& prior, const Scores& points, Ensemble& ensemble, Table& table) {
+void append(const scenes::Scene& scene, const Prior& prior, const Scores& points, Ensemble& ensemble, const std::string& stage,
+            Table& table) {
   Table batch;
   std::vector<std::vector<std::string>> overrides;
   for (const std::vector<double>& z : points) {
@@ -23,7 +26,7 @@ void append(const scenes::Scene& scene, const Prior& prior, const Scores& points
     overrides.push_back(prior.overrides(row.values));
     batch.rows.push_back(std::move(row));
   }
-  std::vector<Answer> answers = ensemble.run(overrides);
+  std::vector<Answer> answers = ensemble.run(overrides, stage);
   for (std::size_t i = 0; i < answers.size(); ++i) batch.rows[i].answer = std::move(answers[i]);
   judge(scene.inference.evidence, batch);
   std::move(batch.rows.begin(), batch.rows.end(), std::back_inserter(table.rows));
@@ -43,7 +46,7 @@ Search search(const scenes::Scene& scene, const Prior& prior, Ensemble& ensemble
   Scores points = scrambled_points(prior.size(), 0, static_cast<std::uint64_t>(std::max(1, wish.runs / 2)), wish.seed);
   for (auto& point : points)
     for (double& u : point) u = normal_score(u);
-  append(scene, prior, points, ensemble, out.table);
+  append(scene, prior, points, ensemble, "first half", out.table);
   out.from_prior = points.size();
   mixture.add(Proposal(prior.size()), points);
   out.log_ratios = mixture.log_ratios();
@@ -59,7 +62,7 @@ Search search(const scenes::Scene& scene, const Prior& prior, Ensemble& ensemble
     const std::uint64_t seed = mixed(wish.seed + static_cast<std::uint64_t>(round) + 1);
     Proposal proposal(mixture.points(), wide, seed);
     points = proposal.draw(static_cast<std::uint64_t>(std::max(1, left / (kRounds - round))), seed);
-    append(scene, prior, points, ensemble, out.table);
+    append(scene, prior, points, ensemble, fmt::format("round {} of {}", round + 1, kRounds), out.table);
     mixture.add(std::move(proposal), points);
     out.log_ratios = mixture.log_ratios();
   }

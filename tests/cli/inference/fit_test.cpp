@@ -60,6 +60,15 @@ TEST(Fit, TheSpeedOfASlideIsThatOfTheFormula) {
   EXPECT_THAT(result.out, HasSubstr("variables.speed 49.3 to 50.7 mph (95 %)"));
 }
 
+TEST(Fit, TellsWhichPartOfTheJobRuns) {
+  const Folder folder;
+  const Result result = run(folder, {"fit", kGallery + "fit_puck.toml", "-o", "out", "-n", "100", "--progress", "always",
+                                     "--but-for", "variables.speed=45 mph"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("fit first half 100 %  50 of 50 runs"));
+  EXPECT_THAT(result.err, HasSubstr("fit round 1 of 4 100 %"));
+}
+
 TEST(Fit, TwoAnswersAreBothShownAndNoneBetween) {
   const Folder folder;
   ASSERT_EQ(fit(folder, kGallery + "fit_two_ways.toml", {"-n", "800"}).code, 0);
