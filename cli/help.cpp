@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+
+#include "engine/measure/definitions.h"
+#include "scenes/loader/builder.h"
 
 namespace cli {
 namespace {
@@ -122,6 +126,25 @@ std::string command_names(const std::vector<CommandHelp>& all) {
   return out;
 }
 
+/// What may stand after these commands; after the others stand files.
+std::string words_after(const std::string& command, const std::vector<CommandHelp>& all) {
+  if (command == "man") return command_names(all);
+  if (command == "completion") return "bash zsh fish";
+  if (command != "explain") return "";
+  std::string out = "all";
+  for (const engine::Definition& d : engine::definitions()) out += std::string(" ") + d.key;
+  return out;
+}
+
+/// The guide, where this program finds it: in the source, or where it is installed.
+std::string guide_place() {
+  const std::filesystem::path home = scenes::home_folder();
+  std::error_code problem;
+  for (const auto& place : {home / "scenes/GUIDE.md", home.parent_path() / "doc/crashreel/scenes/GUIDE.md"})
+    if (std::filesystem::exists(place, problem)) return place.string();
+  return "scenes/GUIDE.md";
+}
+
 std::string single_quoted(std::string text) {
   for (std::size_t at = text.find('\''); at != std::string::npos; at = text.find('\'', at + 4)) text.replace(at, 1, "'\\''");
   return "'" + text + "'";
@@ -145,6 +168,8 @@ std::string bash(const std::vector<CommandHelp>& all) {
     }
     out += fmt::format("    {})\n", help.command->name);
     if (!values.empty()) out += "      case $before in\n" + values + "      esac\n";
+    if (const std::string words = words_after(help.command->name, all); !words.empty())
+      out += fmt::format("      mapfile -t COMPREPLY < <(compgen -W \"{}\" -- \"$word\")\n", words);
     out += fmt::format("      [[ $word == -* ]] && mapfile -t COMPREPLY < <(compgen -W \"{}\" -- \"$word\") ;;\n", options);
   }
   return out + "  esac\n}\ncomplete -o default -F _crashreel crashreel\n";
@@ -166,7 +191,8 @@ std::string zsh(const std::vector<CommandHelp>& all) {
       const std::string value = a.value.empty() ? "" : choices_of(a).empty() ? ": :_files" : fmt::format(": :({})", choices_of(a));
       for (const std::string& name : names_of(a)) out += fmt::format(" \\\n        '*{}[{}]{}'", name, plain(a.text), value);
     }
-    out += " \\\n        '*: :_files' ;;\n";
+    const std::string words = words_after(help.command->name, all);
+    out += fmt::format(" \\\n        '*: :{}' ;;\n", words.empty() ? "_files" : "(" + words + ")");
   }
   return out + "  esac\n}\n_crashreel \"$@\"\n";
 }
@@ -176,6 +202,9 @@ std::string fish(const std::vector<CommandHelp>& all) {
   for (const CommandHelp& help : all) {
     out += fmt::format("complete -c crashreel -n __fish_use_subcommand -f -a {} -d {}\n", help.command->name,
                        single_quoted(help.command->summary));
+    if (const std::string words = words_after(help.command->name, all); !words.empty())
+      out += fmt::format("complete -c crashreel -n '__fish_seen_subcommand_from {}' -f -a {}\n", help.command->name,
+                         single_quoted(words));
     for (const ArgumentHelp& a : help.arguments) {
       if (a.positional) continue;
       out += fmt::format("complete -c crashreel -n '__fish_seen_subcommand_from {}'", help.command->name);
@@ -197,7 +226,7 @@ std::string help_of(const CommandHelp& help) {
     for (const ArgumentHelp& a : help.arguments)
       if (a.positional == positional) out += wrapped(with_value(a), a.text + (a.required && !positional ? " (required)" : ""));
   }
-  return out + fmt::format("\nSee also: man crashreel-{}, scenes/GUIDE.md\n", help.command->name);
+  return out + fmt::format("\nSee also: man crashreel-{}, {}\n", help.command->name, guide_place());
 }
 
 std::string overview_of(const std::vector<CommandHelp>& all) {

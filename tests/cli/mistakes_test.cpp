@@ -385,6 +385,8 @@ TEST(Help, BeginsWithExamplesAndManualPagesSayTheSame) {
   for (const char* section : {".SH NAME", ".SH SYNOPSIS", ".SH EXAMPLES", ".SH OPTIONS", ".SH EXIT STATUS", ".SH ENVIRONMENT"})
     EXPECT_THAT(page.out, HasSubstr(section));
   EXPECT_THAT(page.out, HasSubstr("\\-\\-look\\-at"));
+  const std::string guide = std::string("See also: man crashreel-render, ") + CRASHREEL_SOURCE_DIR + "/scenes/GUIDE.md\n";
+  EXPECT_THAT(help.out, testing::EndsWith(guide)) << "where it is, not where it would be in the source";
   EXPECT_EQ(run(folder, {"man", "rendr"}).err, "crashreel: unknown command rendr; did you mean render?\n");
   EXPECT_EQ(run(folder, {"help", "rendr"}).err, "crashreel: unknown command rendr; did you mean render?\n");
 }
@@ -397,11 +399,21 @@ TEST(Help, CompletionsAreShellScripts) {
     for (const char* word : {"simulate", "look-at", "draft standard fine"}) EXPECT_THAT(script.out, HasSubstr(word)) << shell;
     folder.write(shell, script.out);
   }
-  const std::string bash = "cd " + folder.path().string() +
-                           " && bash -c '. ./bash && COMP_WORDS=(crashreel rend) COMP_CWORD=1 && _crashreel " +
-                           "&& echo ${COMPREPLY[*]}' >.stdout";
-  EXPECT_EQ(std::system(bash.c_str()), 0);
-  EXPECT_EQ(contents(folder / ".stdout"), "render\n");
+  const auto completed = [&folder](const std::string& words, const std::string& at) {
+    const std::string bash = "cd " + folder.path().string() + " && bash -c '. ./bash && COMP_WORDS=(" + words +
+                             ") COMP_CWORD=" + at + " && { _crashreel; echo ${COMPREPLY[*]}; }' >.stdout";
+    EXPECT_EQ(std::system(bash.c_str()), 0);
+    return contents(folder / ".stdout");
+  };
+  EXPECT_EQ(completed("crashreel rend", "1"), "render\n");
+  EXPECT_EQ(completed("crashreel render --qual", "2"), "--quality\n");
+  // names where a command asks for one
+  EXPECT_EQ(completed("crashreel man sn", "2"), "snapshot\n");
+  EXPECT_EQ(completed("crashreel explain wrap", "2"), "wrap_around_distance_m\n");
+  EXPECT_EQ(completed("crashreel explain --js", "2"), "--json\n");
+  EXPECT_EQ(completed("crashreel completion f", "2"), "fish\n");
+  EXPECT_THAT(contents(folder / "zsh"), HasSubstr("'*: :(bash zsh fish)'"));
+  EXPECT_THAT(contents(folder / "fish"), HasSubstr("'__fish_seen_subcommand_from completion' -f -a 'bash zsh fish'"));
   EXPECT_EQ(run(folder, {"completion", "csh"}).code, 2);
 }
 
