@@ -57,9 +57,10 @@ void Recorder::warn_of_shortfalls(const World& world, std::vector<std::string>& 
   };
   constexpr const char* kCompare = "; see whether runs of other steps say the same of what follows";
   if (too_deep_.amount > 0)
-    warnings.push_back(name(too_deep_.body_a) + " was pressed " + told(1e3 * too_deep_.amount) + " mm into " +
-                       name(too_deep_.body_b) + at(too_deep_) +
-                       ", more than its thickness: what this part does from there on is not to be relied on" + kCompare);
+    warnings.push_back(
+        name(too_deep_.body_a) + " was pressed " + told(1e3 * too_deep_.amount) + " mm into " + name(too_deep_.body_b) +
+        at(too_deep_) +
+        ", more than its thickness: do not rely on what it does from there on; more stiffness or a shorter step may hold it out");
   if (world.log.unsettled.amount > kToldUnsettled)
     warnings.push_back("the forces between " + name(world.log.unsettled.body_a) + " and " + name(world.log.unsettled.body_b) +
                        at(world.log.unsettled) + " were solved to " + told(world.log.unsettled.amount) +
