@@ -141,6 +141,17 @@ void draw_numbers(cairo_t* c, const Site& site, const PersonFacts& facts) {
   }
 }
 
+/// When the vehicles stood where their dashed outlines are: as the last person was first touched, else as two of them first met,
+/// else at the start.
+double dashed_at(const engine::Recording& recording, const FigureJob& job) {
+  double time = 0;
+  for (const PersonFacts& p : job.persons) time = p.hit.value_or(time);
+  if (time > 0) return time;
+  const auto met = std::find_if(recording.events.begin(), recording.events.end(),
+                                [](const engine::Event& e) { return e.kind == "collision" || e.kind == "impact"; });
+  return met == recording.events.end() ? time : met->time;
+}
+
 constexpr double kKeyTop = kMargin + 3, kKeyLine = 4.4;  // [mm]
 
 /// What stands above the plan: of each person when and how far, then the impacts; in lines that leave the title its place.
@@ -211,9 +222,8 @@ std::vector<std::string> site_diagram(const Stage& stage, const engine::Recordin
     lower = lower.cwiseMin(p);
     upper = upper.cwiseMax(p);
   };
-  double hit = 0;
+  const double hit = dashed_at(recording, job);
   for (const PersonFacts& p : job.persons) {
-    if (p.hit) hit = *p.hit;
     for (const engine::Snapshot& s : recording.snapshots)
       if (s.time >= p.hit.value_or(0)) take(centre_of_mass(p, recording, s.time).head<2>());
   }
@@ -225,7 +235,8 @@ std::vector<std::string> site_diagram(const Stage& stage, const engine::Recordin
     for (const engine::Snapshot& s : recording.snapshots) take(pose(s, actor.body).p.head<2>());
   if (lower.x() > upper.x()) return {};
   const Point2 around(kAround, kAround);
-  const std::vector<std::string> key = key_of(recording, job);
+  std::vector<std::string> key = key_of(recording, job);
+  key.push_back(fmt::format("dashed: {:.3f} s, solid: {:.3f} s", hit, recording.end_time()));
   const double below = std::max(kTop, kKeyTop + kKeyLine * static_cast<double>(key.size()));
   const Site site{stage, recording, job, plan_for(lower - around, upper + around, below)};
   return write_sheets(job.folder, "site_diagram", "Site diagram: " + stage.title, [&](cairo_t* c) {
