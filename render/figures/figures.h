@@ -55,6 +55,10 @@ std::vector<std::string> contact_sheet(const Stage&, const engine::Recording&, c
 /// nobody lands.
 std::vector<double> times_of_sheet(const engine::Recording&, const FigureJob&);
 
+/// When the vehicles of a site diagram stood where their dashed outlines are: as the last person was first touched, else as two of
+/// them first met, else at the start.
+double dashed_at(const engine::Recording&, const FigureJob&);
+
 /// Centre of mass of a person at a time.
 Vec3 centre_of_mass(const PersonFacts&, const engine::Recording&, double time);
 

@@ -141,17 +141,6 @@ void draw_numbers(cairo_t* c, const Site& site, const PersonFacts& facts) {
   }
 }
 
-/// When the vehicles stood where their dashed outlines are: as the last person was first touched, else as two of them first met,
-/// else at the start.
-double dashed_at(const engine::Recording& recording, const FigureJob& job) {
-  double time = 0;
-  for (const PersonFacts& p : job.persons) time = p.hit.value_or(time);
-  if (time > 0) return time;
-  const auto met = std::find_if(recording.events.begin(), recording.events.end(),
-                                [](const engine::Event& e) { return e.kind == "collision" || e.kind == "impact"; });
-  return met == recording.events.end() ? time : met->time;
-}
-
 constexpr double kKeyTop = kMargin + 3, kKeyLine = 4.4;  // [mm]
 
 /// What stands above the plan: of each person when and how far, then the impacts; in lines that leave the title its place.
@@ -204,6 +193,15 @@ void draw_body_paths(cairo_t* c, const Site& site) {
 }
 
 }  // namespace
+
+double dashed_at(const engine::Recording& recording, const FigureJob& job) {
+  double time = 0;
+  for (const PersonFacts& p : job.persons) time = p.hit.value_or(time);
+  if (time > 0) return time;
+  const auto met = std::find_if(recording.events.begin(), recording.events.end(),
+                                [](const engine::Event& e) { return e.kind == "collision" || e.kind == "impact"; });
+  return met == recording.events.end() ? time : met->time;
+}
 
 Vec3 centre_of_mass(const PersonFacts& person, const engine::Recording& recording, double time) {
   const engine::Snapshot s = recording.at(time);

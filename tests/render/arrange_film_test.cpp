@@ -152,6 +152,17 @@ TEST(StoryOfAFilm, ARiderLosesItsHoldAndBreaksNoJoint) {
   EXPECT_EQ(all[4].text, "rest: ann");
 }
 
+TEST(SiteDiagram, ShowsVehiclesWhereTheyMetAndNotWhereTheyBegan) {
+  engine::Recording r = run();
+  FigureJob job;
+  EXPECT_EQ(dashed_at(r, job), 0) << "nobody met";
+  r.events.push_back({0.6, "collision", 0, 0, Vec3::Zero(), 5});
+  EXPECT_EQ(dashed_at(r, job), 0.6);
+  job.persons.resize(1);
+  job.persons[0].hit = 0.5;
+  EXPECT_EQ(dashed_at(r, job), 0.5) << "who is struck before the vehicles meet";
+}
+
 TEST(ContactSheet, ShowsNineInstantsAndNoneTwice) {
   FigureJob job;
   for (const bool struck : {false, true}) {
