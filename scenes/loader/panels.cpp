@@ -40,7 +40,9 @@ bool is_glass(const std::vector<Drawn>& drawn, const Vec3& p, const Vec3& n) {
   bool glass = false;
   auto at = std::lower_bound(drawn.begin(), drawn.end(), p.x() - kReach, [](const Drawn& d, double x) { return d.centre.x() < x; });
   for (; at != drawn.end() && at->centre.x() < p.x() + kReach; ++at) {
-    const double d = (at->centre - p).norm();
+    const Vec3 away = at->centre - p;
+    if (std::abs(away.y()) >= least || std::abs(away.z()) >= least) continue;  // nearly all: before the root
+    const double d = away.norm();
     if (d < least && at->normal.dot(n) > 0.5) least = d, glass = at->glass;
   }
   return glass;
