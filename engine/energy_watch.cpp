@@ -9,8 +9,8 @@
 namespace engine {
 namespace {
 
-constexpr double kTold = 0.01;   // [-] of what was turned over
-constexpr double kLeast = 1e-3;  // [-] of what the scene's masses have a metre up: what only rests turns nothing over
+constexpr double kTold = 0.01;         // [-] of what was turned over
+constexpr double kLeastEnergy = 1e-3;  // [-] of what the scene's masses have a metre up: what only rests turns nothing over
 
 std::string moment(double time) {
   return std::to_string(std::lround(1e3 * time)) + " ms";
@@ -38,7 +38,7 @@ void EnergyWatch::close(const World& world, Diagnostics& out) const {
   out.energy_turned_over = turned_over_;
   out.max_unexplained = unexplained_;
   out.max_effect_gain = gain.amount;
-  const double worth = kTold * std::max(turned_over_, kLeast * scale_);
+  const double worth = kTold * std::max(turned_over_, kLeastEnergy * scale_);
   constexpr const char* kCompare = "; see whether a smaller step says the same";
   if (unexplained_ > worth)
     out.warnings.push_back("energy: " + number(unexplained_) + " J at " + moment(at_) +

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<std::string> film(const std::vector<std::string>& more) {
+std::vector<std::string> small_film(const std::vector<std::string>& more) {
   std::vector<std::string> out = {"render", "ball.toml", "--size", "64x64", "--quality", "draft", "--fps", "10", "-j", "1"};
   out.insert(out.end(), more.begin(), more.end());
   return out;
@@ -84,9 +84,9 @@ std::string ground(const std::string& picture) {
 }  // namespace
 
 TEST_F(Planted, ALosslessFilmIsKnownAgain) {
-  ASSERT_EQ(run(folder, film({"-o", "a.mkv", "--resume"})).code, 0);
+  ASSERT_EQ(run(folder, small_film({"-o", "a.mkv", "--resume"})).code, 0);
   const std::string whole = contents(folder / "a.mkv");
-  EXPECT_EQ(run(folder, film({"-o", "a.mkv", "--resume"})).code, 0);
+  EXPECT_EQ(run(folder, small_film({"-o", "a.mkv", "--resume"})).code, 0);
   EXPECT_EQ(contents(folder / "a.mkv"), whole);
 }
 
@@ -134,11 +134,11 @@ TEST_F(Planted, ResumeRemovesOnlyWhatItMade) {
   fs::create_directories(folder / "a.mp4.frames/photos");
   folder.write("a.mp4.frames/photos/only_copy.jpg", "mine");
   folder.write("a.mp4.frames/frame_00900.png", "mine too");
-  const Result result = run(folder, film({"-o", "a.mp4", "--resume"}));
+  const Result result = run(folder, small_film({"-o", "a.mp4", "--resume"}));
   EXPECT_EQ(result.code, 0);
   EXPECT_THAT(result.err, HasSubstr("a.mp4.frames holds files that are no frames of this film; it was left"));
   EXPECT_EQ(names_in(folder / "a.mp4.frames"), (std::vector<std::string>{"frame_00900.png", "photos"}));
-  EXPECT_EQ(run(folder, film({"-o", "a.mp4", "--resume"})).code, 0);
+  EXPECT_EQ(run(folder, small_film({"-o", "a.mp4", "--resume"})).code, 0);
   EXPECT_EQ(contents(folder / "a.mp4.frames/photos/only_copy.jpg"), "mine");
 }
 
@@ -147,7 +147,7 @@ TEST_F(Planted, LinksUnderTheNamesOfPartsAreNotFollowed) {
   fs::create_directory(folder / "out");
   for (const char* name : {"a.mp4.part", "a.mp4.whole.part", "out/trajectory.csv.part", "still.png.part"})
     fs::create_symlink(folder / "victim", folder / name);
-  EXPECT_EQ(run(folder, film({"-o", "a.mp4"})).code, 0);
+  EXPECT_EQ(run(folder, small_film({"-o", "a.mp4"})).code, 0);
   EXPECT_EQ(run(folder, {"simulate", "ball.toml", "-o", "out"}).code, 0);
   EXPECT_EQ(run(folder, {"render", "ball.toml", "--size", "64x64", "--at", "0.1s", "-o", "still.png"}).code, 0);
   EXPECT_EQ(contents(folder / "victim"), "precious");
@@ -173,7 +173,7 @@ TEST_F(Planted, WhatAKilledRunLeftIsTakenAway) {
   folder.write("a.mp4.4711.part", "half");
   folder.write("a.mp4.whole.4711.part", "half");
   EXPECT_EQ(run(folder, {"simulate", "ball.toml", "-o", "out"}).code, 0);
-  EXPECT_EQ(run(folder, film({"-o", "a.mp4"})).code, 0);
+  EXPECT_EQ(run(folder, small_film({"-o", "a.mp4"})).code, 0);
   EXPECT_EQ(names_in(folder / "out"), (std::vector<std::string>{"contacts.csv", "impacts.csv", "notes.4711.part", "recording.bin",
                                                                 "summary.json", "trajectory.csv"}));
   EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{".stderr", ".stdout", "a.mp4", "ball.toml", "out"}));
@@ -205,7 +205,7 @@ TEST_F(Planted, OfTwoRunsAtOnceEachEndsWithItsResultOrIsRefused) {
       {"figure", "ball.toml", "-o", "figures", "--size", "64x64", "--quality", "draft", "--overwrite"},
       {"snapshot", "scenes", "--update", "ball"},
       {"simulate", "ball.toml", "-o", "out", "--overwrite"},
-      film({"-o", "a.mp4", "--overwrite"})};
+      small_film({"-o", "a.mp4", "--overwrite"})};
   for (const auto& job : jobs)
     for (int pair = 0; pair < 3; ++pair) {
       const pid_t first = start(job), second = start(job);

@@ -15,15 +15,15 @@ using cli_tests::Folder;
 
 const fs::path kScenes = fs::path(CRASHREEL_SOURCE_DIR) / "scenes";
 
-struct Case {
+struct Opening {
   const char* scene;
   const char* end;  // long enough for its contacts
 };
 
-class SameBits : public testing::TestWithParam<Case> {};
+class SameBits : public testing::TestWithParam<Opening> {};
 
 /// Hash of a scene's recording, run by `prefix` crashreel (an emulator and its options; may be empty).
-std::string hash_of(const Folder& folder, const Case& of, const std::string& prefix) {
+std::string hash_of(const Folder& folder, const Opening& of, const std::string& prefix) {
   const std::string out = (folder / "run").string();
   const std::string command = prefix + " '" + cli_tests::program() + "' simulate '" + (kScenes / of.scene).string() +
                               "' --set simulation.duration=" + of.end + " --overwrite --json -o '" + out + "' > '" + out +
@@ -40,15 +40,16 @@ TEST_P(SameBits, WithoutFusedMultiplyAddAndWideVectors) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SameBits,
-                         testing::Values(Case{"cases/sedan_pedestrian_40kmh.toml", "'1.5 s'"},
-                                         Case{"cases/cyclist.toml", "'0.8 s'"}, Case{"cases/thrown_body.toml", "'1 s'"},
-                                         Case{"cases/rollover.toml", "'1 s'"}, Case{"cases/car_steered_trailer.toml", "'1 s'"},
-                                         Case{"gallery/projectile_slide.toml", "'1 s'"}, Case{"gallery/puck_slide.toml", "'1 s'"},
-                                         Case{"gallery/wind.toml", "'1 s'"}),
+                         testing::Values(Opening{"cases/sedan_pedestrian_40kmh.toml", "'1.5 s'"},
+                                         Opening{"cases/cyclist.toml", "'0.8 s'"}, Opening{"cases/thrown_body.toml", "'1 s'"},
+                                         Opening{"cases/rollover.toml", "'1 s'"},
+                                         Opening{"cases/car_steered_trailer.toml", "'1 s'"},
+                                         Opening{"gallery/projectile_slide.toml", "'1 s'"},
+                                         Opening{"gallery/puck_slide.toml", "'1 s'"}, Opening{"gallery/wind.toml", "'1 s'"}),
                          [](const auto& tried) { return fs::path(tried.param.scene).stem().string(); });
 
 TEST(SameBitsEmulated, AProcessorOf2008FindsTheSameRecording) {
   const Folder folder;
-  const Case collision{"cases/sedan_pedestrian_40kmh.toml", "'0.25 s'"};
+  const Opening collision{"cases/sedan_pedestrian_40kmh.toml", "'0.25 s'"};
   EXPECT_EQ(hash_of(folder, collision, ""), hash_of(folder, collision, "qemu-x86_64 -cpu Nehalem"));
 }

@@ -113,7 +113,7 @@ TriangleMesh sheet(int cells, double size) {
   return {vertices, triangles};
 }
 
-TriangleMesh box(const Vec3& half) {
+TriangleMesh closed_box(const Vec3& half) {
   std::vector<Vec3> v;
   for (int k = 0; k < 8; ++k) v.push_back({(k & 1 ? 1 : -1) * half.x(), (k & 2 ? 1 : -1) * half.y(), (k & 4 ? 1 : -1) * half.z()});
   return {v,
@@ -158,7 +158,7 @@ TEST_P(Exponent, SheetOfTrianglesActsLikeAPlane) {
 
 TEST(SphereAndBox, TouchAtTheNearestPointOfFaceEdgeOrCorner) {
   const Vec3 half(0.5, 0.4, 0.3);
-  const TriangleMesh mesh = box(half);
+  const TriangleMesh mesh = closed_box(half);
   const HyperEllipsoid sphere{{0.1, 0.1, 0.1}, 2};
   std::mt19937_64 random(23);
   std::uniform_real_distribution<double> place(-1, 1);
@@ -415,7 +415,7 @@ TEST(Mesh, LoaderAuditDropsWhatHasNoArea) {
 }
 
 TEST(Mesh, RayMeetsTheNearestTriangle) {
-  const TriangleMesh mesh = box({1, 1, 1});
+  const TriangleMesh mesh = closed_box({1, 1, 1});
   double s = 0;
   int triangle = -1;
   ASSERT_TRUE(mesh.raycast({0.3, 0.2, 5}, {0, 0, -1}, 10, s, triangle));

@@ -43,11 +43,11 @@ TEST(Study, WritesColumnsAndErrorsAgainstTheClosedFormAndUsesFinishedRunsAgain) 
   ASSERT_EQ(result.code, 0) << result.err;
   const std::string csv = contents(folder / "out/study.csv");
   EXPECT_TRUE(csv.starts_with("series,setting,step_s,quantity,value,error,error_kind,wall_s,steps_per_s,order,uncertainty"));
-  const auto json = nlohmann::json::parse(contents(folder / "out/study.json"));
-  EXPECT_EQ(json["schema"], 1);
-  EXPECT_EQ(json["main_quantity"], "travel_m");
-  expect_short_sentences(json["findings"]);
-  const auto& ladder = json["series"][0]["settings"];
+  const auto written = nlohmann::json::parse(contents(folder / "out/study.json"));
+  EXPECT_EQ(written["schema"], 1);
+  EXPECT_EQ(written["main_quantity"], "travel_m");
+  expect_short_sentences(written["findings"]);
+  const auto& ladder = written["series"][0]["settings"];
   ASSERT_EQ(ladder.size(), 7u);  // six halvings
   for (const auto& setting : ladder) {
     // Coulomb friction stops the puck within the step: the last step at mu g h takes the distance to within v h
@@ -57,7 +57,7 @@ TEST(Study, WritesColumnsAndErrorsAgainstTheClosedFormAndUsesFinishedRunsAgain) 
   }
   // a second opinion takes no step of the scene's own ladder
   int others = 0;
-  for (const auto& series : json["series"]) {
+  for (const auto& series : written["series"]) {
     if (series["series"] == "rk4") {
       for (const auto& other : series["settings"]) {
         ++others;
@@ -82,9 +82,9 @@ TEST(Study, LeavesOutEachEffectInTurn) {
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_TRUE(
       contents(folder / "out/effects.csv").starts_with("effect,quantity,value,without,change,spread,wall_s,saved_s,failure"));
-  const auto json = nlohmann::json::parse(contents(folder / "out/effects.json"));
+  const auto written = nlohmann::json::parse(contents(folder / "out/effects.json"));
   bool gravity = false;
-  for (const auto& effect : json["effects"]) {
+  for (const auto& effect : written["effects"]) {
     if (effect["effect"] != "gravity") continue;
     gravity = true;
     // without weight there is no friction: it slides on for the 2.6 s of the scene
@@ -97,9 +97,9 @@ TEST(Study, TellsWhatAPictureCosts) {
   const Folder folder;
   const Result result = study_puck(folder, {"--picture", "--set", "output.width=320", "--set", "output.height=180"});
   ASSERT_EQ(result.code, 0) << result.err;
-  const auto json = nlohmann::json::parse(contents(folder / "out/picture.json"));
+  const auto written = nlohmann::json::parse(contents(folder / "out/picture.json"));
   std::map<std::string, std::vector<double>> errors, likeness;  // by series, with rising effort
-  for (const auto& setting : json["settings"]) {
+  for (const auto& setting : written["settings"]) {
     EXPECT_GT(setting["frame_ms"].get<double>(), 0);
     errors[setting["series"]].push_back(setting["rms_255"]);
     likeness[setting["series"]].push_back(setting["ssim"]);
@@ -115,8 +115,8 @@ TEST(Study, TellsWhatAPictureCosts) {
 TEST(Study, ForgetsAFormulaThatIsNoLongerThatOfTheScene) {
   const Folder folder;
   ASSERT_EQ(study_puck(folder, {"--set", "body.puck.friction=0.5"}).code, 0);
-  const auto json = nlohmann::json::parse(contents(folder / "out/study.json"));
-  for (const auto& quantity : json["quantities"]) EXPECT_NE(quantity["error_kind"], "closed_form");
+  const auto written = nlohmann::json::parse(contents(folder / "out/study.json"));
+  for (const auto& quantity : written["quantities"]) EXPECT_NE(quantity["error_kind"], "closed_form");
 }
 
 TEST(Study, NamesTheCheapestSettingForATarget) {
