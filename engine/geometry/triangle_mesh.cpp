@@ -98,38 +98,50 @@ int turn_strays(std::vector<Triangle>& triangles) {
 
 }  // namespace
 
-TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles) : vertices_(std::move(vertices)) {
-  const std::vector<int> to = weld(vertices_);
+WeldedTriangles::WeldedTriangles(std::vector<Vec3> given, const std::vector<Triangle>& all) : vertices(std::move(given)) {
+  const std::vector<int> to = weld(vertices);
   std::vector<std::array<int, 4>> known;  // sorted corners and index, to find duplicates
-  for (Triangle t : triangles) {
+  for (Triangle t : all) {
     for (auto& v : t) {
-      assert(v >= 0 && v < static_cast<int>(vertices_.size()) && "the loader has checked the indices");
+      assert(v >= 0 && v < static_cast<int>(vertices.size()) && "the loader has checked the indices");
       v = to[v];
     }
-    const Vec3 e1 = vertices_[t[1]] - vertices_[t[0]], e2 = vertices_[t[2]] - vertices_[t[0]];
+    const Vec3 e1 = vertices[t[1]] - vertices[t[0]], e2 = vertices[t[2]] - vertices[t[0]];
     const double longest = std::max({e1.squaredNorm(), e2.squaredNorm(), (e2 - e1).squaredNorm()});
     const Vec3 n = e1.cross(e2);
     if (longest == 0 || 0.5 * n.norm() / longest < kDegenerate) {
-      ++dropped_;
+      ++dropped;
       continue;
     }
-    std::array<int, 4> sorted{t[0], t[1], t[2], static_cast<int>(triangles_.size())};
+    std::array<int, 4> sorted{t[0], t[1], t[2], static_cast<int>(triangles.size())};
     std::sort(sorted.begin(), sorted.begin() + 3);
     known.push_back(sorted);
-    triangles_.push_back(t);
+    triangles.push_back(t);
   }
   std::sort(known.begin(), known.end());
-  std::vector<char> duplicate(triangles_.size(), 0);
+  std::vector<char> duplicate(triangles.size(), 0);
   for (std::size_t i = 1; i < known.size(); ++i)
     if (std::equal(known[i].begin(), known[i].begin() + 3, known[i - 1].begin())) duplicate[known[i][3]] = 1;
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
     if (duplicate[i])
-      ++dropped_;
+      ++dropped;
     else
-      triangles_[kept++] = triangles_[i];
+      triangles[kept++] = triangles[i];
   }
-  triangles_.resize(kept);
+  triangles.resize(kept);
+  for (const Triangle& t : triangles)
+    for (const std::int32_t v : t) {
+      bounds.lower = bounds.lower.cwiseMin(vertices[v]);
+      bounds.upper = bounds.upper.cwiseMax(vertices[v]);
+    }
+}
+
+TriangleMesh::TriangleMesh(WeldedTriangles welded)
+    : vertices_(std::move(welded.vertices)),
+      triangles_(std::move(welded.triangles)),
+      bounds_(welded.bounds),
+      dropped_(welded.dropped) {
   turned_ = turn_strays(triangles_);
   connect();
   build_tree();
@@ -193,8 +205,7 @@ void TriangleMesh::build_tree() {
   };
   nodes_.clear();
   if (n == 0) return;
-  nodes_.push_back({.box = box_of(0, n), .first = 0, .count = n});
-  bounds_ = nodes_[0].box;
+  nodes_.push_back({.box = bounds_, .first = 0, .count = n});
   for (std::size_t at = 0; at < nodes_.size(); ++at) {
     const int first = nodes_[at].first, count = nodes_[at].count;
     if (count <= kLeaf) continue;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/math/types.h"
@@ -31,13 +32,25 @@ inline bool felt_by_round(EdgeKind kind) {
   return felt(kind) || kind == EdgeKind::slight;
 }
 
+/// What a mesh for contact is built of: vertices closer than 1e-5 m welded, degenerate (area/edge^2 < 1e-12) and duplicate
+/// triangles dropped.
+struct WeldedTriangles {
+  /// Indices out of range assert; the loader has audited them.
+  WeldedTriangles(std::vector<Vec3> vertices, const std::vector<Triangle>& triangles);
+
+  std::vector<Vec3> vertices;
+  std::vector<Triangle> triangles;
+  Aabb bounds;      // [m] of the triangles
+  int dropped = 0;  // triangles
+};
+
 /// Immutable after construction. Triangles are counter-clockwise seen from outside.
 class TriangleMesh {
  public:
-  /// Welds vertices closer than 1e-5 m, drops degenerate (area/edge^2 < 1e-12) and duplicate triangles, turns over
-  /// single triangles that face against the rest of their piece, builds adjacency and the tree. Indices out of range assert; the
-  /// loader has audited them.
-  TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles);
+  /// Turns over single triangles that face against the rest of their piece, builds adjacency and the tree.
+  explicit TriangleMesh(WeldedTriangles);
+  TriangleMesh(std::vector<Vec3> vertices, const std::vector<Triangle>& triangles)
+      : TriangleMesh(WeldedTriangles(std::move(vertices), triangles)) {}
 
   const std::vector<Vec3>& vertices() const { return vertices_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }

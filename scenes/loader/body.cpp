@@ -66,7 +66,7 @@ void read_shape(Builder& builder, Reader& r, const BodyGiven& given, engine::Bod
     body.shape = engine::HyperEllipsoid{*given.axes, std::max(2.0, given.exponent)};
   } else if (r.has("mesh")) {
     if (const auto mesh = in_frame(builder, import_mesh(builder, r, "mesh"), given_frame(r)))
-      body.shape = engine::MeshShape{mesh->solid, {}};
+      body.shape = engine::MeshShape{mesh->solid->mesh(), {}};
   }
 }
 

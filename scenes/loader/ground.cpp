@@ -52,9 +52,9 @@ void read_ground(Builder& builder, std::optional<Reader> reader) {
   }
   if (r.has("terrain")) {
     if (const auto mesh = in_frame(builder, import_mesh(builder, r, "terrain"), given_frame(r))) {
-      ground.terrain = mesh->solid;
+      ground.terrain = mesh->solid->mesh();
       builder.scene.stage.road.terrain = mesh->look;
-      builder.scene.stage.road.terrain_surface = mesh->solid;
+      builder.scene.stage.road.terrain_surface = mesh->solid->mesh();
     }
   }
 }

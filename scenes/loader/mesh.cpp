@@ -72,7 +72,7 @@ std::shared_ptr<const render::Mesh> look_of(const std::vector<RawPart>& parts) {
   return out;
 }
 
-std::shared_ptr<const engine::TriangleMesh> solid_of(const std::vector<RawPart>& parts) {
+std::shared_ptr<const Solid> solid_of(const std::vector<RawPart>& parts) {
   std::vector<engine::Vec3> vertices;
   std::vector<engine::Triangle> triangles;
   for (const RawPart& part : parts) {
@@ -84,7 +84,7 @@ std::shared_ptr<const engine::TriangleMesh> solid_of(const std::vector<RawPart>&
                            base + static_cast<std::int32_t>(part.indices[i + 2])});
     }
   }
-  return std::make_shared<engine::TriangleMesh>(std::move(vertices), std::move(triangles));
+  return std::make_shared<Solid>(engine::WeldedTriangles(std::move(vertices), triangles));
 }
 
 /// glTF says y up, z forward (its specification, 3.4); the collada reader turns everything to that as well. We are x forward, z up.
@@ -276,7 +276,7 @@ std::shared_ptr<const ImportedMesh> import_mesh(Builder& builder, Reader& r, std
     r.warn(key, fmt::format("has {} triangles with coordinates that are not finite or farther than 1000 km; they are left out",
                             imported->not_finite));
   for (const std::string& warning : imported->warnings) r.errors().warn(r.place(key), warning);
-  if (imported->solid->triangles().empty()) {
+  if (imported->solid->empty()) {
     r.fail(key, "has no triangle with an area; there is nothing to touch");
     return nullptr;
   }

@@ -4,8 +4,10 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/geometry/triangle_mesh.h"
@@ -40,12 +42,32 @@ CageResult import_in_cage(const std::filesystem::path& file, const std::filesyst
 /// What the caged importer's answer holds: any bytes, for it may have been taken over.
 CageResult unpacked(const std::string& answer);
 
+/// The triangles that can be touched. Their edges and tree are built when first asked for: of what is only drawn, never.
+class Solid {
+ public:
+  explicit Solid(engine::WeldedTriangles welded)
+      : welded_(std::move(welded)), bounds_(welded_.bounds), empty_(welded_.triangles.empty()) {}
+  const engine::Aabb& bounds() const { return bounds_; }
+  bool empty() const { return empty_; }
+  const std::shared_ptr<const engine::TriangleMesh>& mesh() const {
+    std::call_once(built_, [this] { mesh_ = std::make_shared<engine::TriangleMesh>(std::move(welded_)); });
+    return mesh_;
+  }
+
+ private:
+  mutable engine::WeldedTriangles welded_;  // until the mesh is built
+  mutable std::shared_ptr<const engine::TriangleMesh> mesh_;
+  mutable std::once_flag built_;
+  engine::Aabb bounds_;
+  bool empty_;
+};
+
 struct ImportedMesh {
-  std::shared_ptr<const engine::TriangleMesh> solid;  // welded, for contact
-  std::shared_ptr<const render::Mesh> look;           // with normals and materials
-  std::vector<std::string> warnings;                  // what the audit found odd
-  int not_finite = 0;                                 // triangles left out
-  std::string sha256;                                 // of the file and those it refers to
+  std::shared_ptr<const Solid> solid;
+  std::shared_ptr<const render::Mesh> look;  // with normals and materials
+  std::vector<std::string> warnings;         // what the audit found odd
+  int not_finite = 0;                        // triangles left out
+  std::string sha256;                        // of the file and those it refers to
 };
 
 /// The mesh file named by the reader's key, found in the scene's folder or the assets, loaded once per load. Null after an error,

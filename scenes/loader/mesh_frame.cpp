@@ -145,8 +145,8 @@ MeshFrame given_frame(Reader& r) {
 
 MeshFrame vehicle_frame(Reader& r, const ImportedMesh& mesh) {
   MeshFrame frame = given_frame(r);
-  const engine::TriangleMesh& solid = *mesh.solid;
-  if (solid.triangles().empty()) return frame;
+  if (mesh.solid->empty()) return frame;
+  const engine::TriangleMesh& solid = *mesh.solid->mesh();
   if (!r.has("mesh_up") && !r.has("mesh_forward")) infer_axes(r, solid, frame);
   if (!r.has("mesh_scale")) infer_scale(r, solid.bounds().upper - solid.bounds().lower, frame);
   if (!r.has("mesh_centre")) infer_centre(r, box_in(solid, frame), mesh, frame);
@@ -161,7 +161,8 @@ std::shared_ptr<const ImportedMesh> in_frame(Builder& builder, const std::shared
   for (int i = 0; i < 3; ++i) key += fmt::format(" {}", frame.centre[i]);
   auto& kept = builder.meshes[key];
   if (kept) return kept;
-  std::vector<Vec3> vertices = mesh->solid->vertices();
+  const engine::TriangleMesh& solid = *mesh->solid->mesh();
+  std::vector<Vec3> vertices = solid.vertices();
   for (Vec3& v : vertices) v = frame.scale * (frame.turn * v) - frame.centre;
   auto look = std::make_shared<render::Mesh>(*mesh->look);
   for (std::size_t i = 0; i + 2 < look->positions.size(); i += 3) {
@@ -173,7 +174,7 @@ std::shared_ptr<const ImportedMesh> in_frame(Builder& builder, const std::shared
     }
   }
   auto out = std::make_shared<ImportedMesh>();
-  out->solid = std::make_shared<engine::TriangleMesh>(std::move(vertices), mesh->solid->triangles());
+  out->solid = std::make_shared<Solid>(engine::WeldedTriangles(std::move(vertices), solid.triangles()));
   out->look = std::move(look);
   kept = out;
   return kept;

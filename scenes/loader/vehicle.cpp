@@ -129,7 +129,7 @@ Meshes read_meshes(Builder& builder, Reader& r, Origin origin) {
     out.bodywork = in_frame(builder, out.bodywork, frame);
     out.collision = in_frame(builder, out.collision, frame);
     for (auto* mesh : {&out.bodywork, &out.collision}) {
-      if (!*mesh || !(*mesh)->solid->triangles().empty()) continue;
+      if (!*mesh || !(*mesh)->solid->empty()) continue;
       r.fail("mesh_scale", "leaves no triangle with an area; there is nothing to touch");
       return {};
     }
@@ -163,8 +163,8 @@ void add_actors(Builder& builder, const VehicleGiven& given, const engine::Vehic
 
 /// The mesh for contact, thinned out, with its panels.
 engine::MeshShape collision_shape(Builder& builder, const Meshes& meshes, const engine::Pose& X_BM, double tolerance) {
-  auto& coarse = builder.shelf->coarse[{meshes.collision->solid, tolerance}];
-  if (!coarse) coarse = decimate(meshes.collision->solid, tolerance);
+  auto& coarse = builder.shelf->coarse[{meshes.collision->solid->mesh(), tolerance}];
+  if (!coarse) coarse = decimate(meshes.collision->solid->mesh(), tolerance);
   auto& panels = builder.shelf->panels[{coarse, meshes.bodywork->look}];
   if (!panels) panels = panels_of(*coarse, *meshes.bodywork->look);
   return {coarse, X_BM, tolerance, panels};
@@ -248,7 +248,7 @@ void read_vehicle(Builder& builder, Reader scene) {
   const Origin origin = scene.has("mesh") || !scene.has("model") ? Origin::user : Origin::library;
   const Meshes meshes = read_meshes(builder, r, origin);
   if (meshes.bodywork && origin == Origin::user)
-    if (const int open = open_edges(*meshes.bodywork->solid); open > 0)
+    if (const int open = open_edges(*meshes.bodywork->solid->mesh()); open > 0)
       r.warn("mesh", fmt::format("is open at {} edges; what comes from behind its faces goes through", open));
 
   VehicleGiven given;
