@@ -2,6 +2,7 @@
 // each attempt; the buffers behind it are kept, so that a step allocates nothing.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "engine/joints/coordinates.h"
@@ -30,6 +31,7 @@ struct Islands {
   std::vector<char> by_whole;             // per tree: all impulses displace by their whole
   std::vector<double> rise;               // [J] per tree
   std::vector<int> line, place;           // trees of one island side by side, and per tree where
+  std::vector<std::pair<int, int>> ends;  // per condition: the trees it joins; twice the same where it holds one
 };
 
 /// Buffers of a step, sized once.

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "engine/geometry/face_corners.h"
+#include "engine/math/functions.h"
 
 namespace engine {
 namespace {
@@ -37,7 +38,14 @@ struct Side {
 
 using Plane = Eigen::Vector2d;
 using Quad = std::array<Plane, 4>;
-using Heights = std::array<double, 4>;  // [m] along the normal
+
+/// The corners of a side, in turn about it.
+struct SideCorners {
+  Quad at;                         // along the normal, as a View sees them
+  std::array<double, 4> heights;   // [m] along the normal
+  std::array<Vec3, 4> directions;  // body axes, unit: of the tangent planes there
+  double reach = 0;                // [m] how far from the centre all four planes stand: mirror images
+};
 
 double cross(const Plane& a, const Plane& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -67,19 +75,22 @@ struct View {
   Vec3 at(const Plane& p) const { return origin + p.x() * t1 + p.y() * t2; }
 };
 
-/// The corners of a side, in turn about it, and how high they are. The more two sides lean to each other, the nearer to the rim
-/// they touch.
-Quad quad_of(const Side& side, double lean, const View& view, Heights& heights) {
-  Quad quad;
-  std::size_t i = 0;
-  for (const Vec3& direction : corner_directions(side.shape, side.sign * Vec3::Unit(side.axis), lean)) {
-    const Vec3 corner = side.X * support_point(side.shape, direction);
-    heights[i] = view.height(corner);
-    quad[i++] = view.of(corner);
+/// The corners of a side. The more two sides lean to each other, the nearer to the rim they touch. They are mirror images: one
+/// search serves all.
+SideCorners corners_of(const Side& side, double lean, const View& view) {
+  SideCorners out;
+  out.directions = corner_directions(side.shape, side.sign * Vec3::Unit(side.axis), lean);
+  std::swap(out.directions[2], out.directions[3]);  // they come row by row
+  const Support one = support(side.shape, out.directions[0]);
+  out.reach = one.value;
+  for (std::size_t i = 0; i < 4; ++i) {
+    Vec3 corner_B;
+    for (int k = 0; k < 3; ++k) corner_B[k] = std::copysign(one.point[k], out.directions[i][k]);
+    const Vec3 corner = side.X * corner_B;
+    out.heights[i] = view.height(corner);
+    out.at[i] = view.of(corner);
   }
-  std::swap(quad[2], quad[3]);  // they come row by row
-  std::swap(heights[2], heights[3]);
-  return quad;
+  return out;
 }
 
 /// How far [m] a point lies inside a quad, negative outside.
@@ -137,55 +148,111 @@ void clip(const View& view, const Side& side_a, const Quad& a, const Side& side_
                  [&](const Plane& p) { return covers(side_b, view.at(p)); });
 }
 
+/// The gauge at a point other than the centre, and its gradient, by the same powers: half as many as one by one.
+struct GaugeAt {
+  double value;
+  Vec3 gradient;  // [1/m]
+};
+
+GaugeAt gauge_at(const HyperEllipsoid& shape, const Vec3& x) {
+  const Vec3 w = x.cwiseAbs().cwiseQuotient(shape.semi_axes);
+  int top = 0;
+  const double largest = w.maxCoeff(&top);
+  const int i = (top + 1) % 3, k = (top + 2) % 3;
+  const double n = shape.exponent, u_i = w[i] / largest, u_k = w[k] / largest;
+  const Plane steep = math::two_powers(u_i, u_k, n - 1);
+  const double sum = 1 + u_i * steep[0] + u_k * steep[1], root = math::two_powers(sum, 1, 1 / n)[0];
+  Vec3 gradient;
+  gradient[top] = 1;
+  gradient[i] = steep[0];
+  gradient[k] = steep[1];
+  gradient = (root / sum * gradient).cwiseQuotient(shape.semi_axes);
+  for (int j = 0; j < 3; ++j) gradient[j] = std::copysign(gradient[j], x[j]);
+  return {largest * root, gradient};
+}
+
+/// A body lies behind the plane of its side and behind those through the side's corners: how far along `n` from `x` (body axes) the
+/// nearest is.
+double nearest_plane(const Side& side, const SideCorners& corners, const Vec3& x, const Vec3& n) {
+  double nearest = (side.shape.semi_axes[side.axis] - side.sign * x[side.axis]) / (side.sign * n[side.axis]);
+  for (const Vec3& direction : corners.directions)
+    if (const double slope = direction.dot(n); slope > 0) nearest = std::min(nearest, (corners.reach - direction.dot(x)) / slope);
+  return nearest;
+}
+
 /// How far along `n` [m] from `p` the surface lies on the side of a body that faces n. Newton from outside: the gauge is convex
-/// along the line, so it comes down on the root from beyond. Being homogeneous, it is its gradient times x. A step s leaves
-/// about (n-1) s^2 / (2 a): one that leaves less than rounding is the last. Not a number where the line misses the body.
-double surface_along(const Side& side, const Vec3& p, const Vec3& n) {
+/// along the line, so it comes down on the root from beyond. A step s leaves about (n-1) s^2 / (2 a): one that leaves less than
+/// rounding is the last. Not a number where the line misses the body.
+double surface_along(const Side& side, const SideCorners& corners, const Vec3& p, const Vec3& n) {
   const Vec3 x_B = side.R.transpose() * (p - side.X.p), n_B = side.R.transpose() * n;
   const double thinnest = side.shape.semi_axes.minCoeff(), bend = 0.5 * (side.shape.exponent - 1) / thinnest;
-  double t = support_value(side.shape, n_B) - n_B.dot(x_B);
+  double t = nearest_plane(side, corners, x_B, n_B);
   for (int k = 0; k < 20; ++k) {
-    const Vec3 x = x_B + t * n_B, gradient = gauge_gradient(side.shape, x);
-    const double slope = gradient.dot(n_B);
+    const GaugeAt at = gauge_at(side.shape, x_B + t * n_B);
+    const double slope = at.gradient.dot(n_B);
     if (!(slope > 0)) return std::numeric_limits<double>::quiet_NaN();
-    const double step = (gradient.dot(x) - 1) / slope;
+    const double step = (at.value - 1) / slope;
     t -= step;
     if (bend * step * step < kRounding * thinnest) break;
   }
   return t;
 }
 
+/// Two sides that face each other, as they are seen along the normal.
+struct Facing {
+  const Side &a, &b;
+  const SideCorners &of_a, &of_b;
+  const View& view;
+};
+
 /// What lies over a corner of the patch: both surfaces, along the normal. A corner of a side is a point of its surface. Infinitely
 /// far where one of them is not there.
-SurfaceContact between(const Side& a, const Heights& of_a, const Side& b, const Heights& of_b, const Corner& corner,
-                       const View& view) {
+SurfaceContact between(const Facing& f, const Corner& corner) {
   const std::uint32_t i = corner.key - 1;  // as Clip counts: the corners of a, those of b, crossings
-  const Vec3 p = view.at(corner.at);
-  const double to_a = i < 4 ? -of_a[i] : surface_along(a, p, -view.normal);
-  const double to_b = i >= 4 && i < 8 ? of_b[i - 4] : surface_along(b, p, view.normal);
+  const Vec3 p = f.view.at(corner.at), &normal = f.view.normal;
+  const double to_a = i < 4 ? -f.of_a.heights[i] : surface_along(f.a, f.of_a, p, -normal);
+  const double to_b = i >= 4 && i < 8 ? f.of_b.heights[i - 4] : surface_along(f.b, f.of_b, p, normal);
   SurfaceContact c;
-  c.normal = view.normal;
-  c.p_a = p - to_a * view.normal;
-  c.p_b = p + to_b * view.normal;
+  c.normal = normal;
+  c.p_a = p - to_a * normal;
+  c.p_b = p + to_b * normal;
   c.gap = std::isfinite(to_a + to_b) ? -to_a - to_b : std::numeric_limits<double>::infinity();
   c.key = corner.key;
   return c;
 }
 
+/// The two along an axis that separates them, as far as can be said without powers: along its own axis a body reaches as far as
+/// that semi-axis, along any other at least as far as its share of the longest and at most as far as those of all three.
+struct AlongAxis {
+  Vec3 normal, normal_other;   // from b to a; in the axes of the body whose axis it is not
+  double beyond_own = 0;       // [m] from the side to the other's centre
+  double least = 0, most = 0;  // [m] the distance
+
+  AlongAxis(const Side& own, const Side& other, int axis, const Vec3& d) {
+    normal = own.R.col(axis);
+    if (normal.dot(d) < 0) normal = -normal;
+    normal_other = other.R.transpose() * normal;
+    beyond_own = normal.dot(d) - own.shape.semi_axes[axis];
+    const Vec3 shares = other.shape.semi_axes.cwiseProduct(normal_other.cwiseAbs());
+    least = beyond_own - shares.sum();
+    most = beyond_own - shares.maxCoeff();
+  }
+};
+
 /// The largest distance [m] of the two along an axis of either, negative where they overlap along all, and that axis, from b to a.
-/// Along its own axis a body reaches as far as that semi-axis, along any other at least as far as its share of the longest.
 double separate_along_axes(const Side& a, const Side& b, Vec3& normal) {
   const Vec3 d = a.X.p - b.X.p;
   double gap = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 6; ++i) {
-    const Side &own = i < 3 ? a : b, &other = i < 3 ? b : a;
-    Vec3 n = own.R.col(i % 3);
-    if (n.dot(d) < 0) n = -n;
-    const double least = gap + (i < 3 ? 0 : kNoBetter), beyond_own = n.dot(d) - own.shape.semi_axes[i % 3];
-    const Vec3 n_other = other.R.transpose() * n;
-    if (beyond_own - other.shape.semi_axes.cwiseProduct(n_other.cwiseAbs()).maxCoeff() <= least) continue;
-    const double along = beyond_own - support_value(other.shape, n_other);
-    if (along > least) gap = along, normal = n;
+  for (const bool of_a : {true, false}) {
+    const Side &own = of_a ? a : b, &other = of_a ? b : a;
+    const std::array<AlongAxis, 3> axes{AlongAxis{own, other, 0, d}, AlongAxis{own, other, 1, d}, AlongAxis{own, other, 2, d}};
+    const double sure = std::max({axes[0].least, axes[1].least, axes[2].least});  // one of the three is as much
+    for (const AlongAxis& axis : axes) {
+      const double better = gap + (of_a ? 0 : kNoBetter);
+      if (axis.most < sure || axis.most <= better) continue;
+      const double along = axis.beyond_own - support_value(other.shape, axis.normal_other);
+      if (along > better) gap = along, normal = axis.normal;
+    }
   }
   return gap;
 }
@@ -225,12 +292,11 @@ FacesMeet contacts_of_faces(const HyperEllipsoid& A, const Pose& X_WA, const Hyp
   const View view{X_WB.p, t1, normal.cross(t1), normal};
   Corners corners;
   const double lean = std::max(kCornerLean, a.out().cross(b.out()).norm());
-  Heights of_a, of_b;
-  const Quad quad_a = quad_of(a, lean, view, of_a), quad_b = quad_of(b, lean, view, of_b);
-  clip(view, a, quad_a, b, quad_b, corners);
+  const SideCorners of_a = corners_of(a, lean, view), of_b = corners_of(b, lean, view);
+  clip(view, a, of_a.at, b, of_b.at, corners);
   Points points;
   for (const Corner& corner : corners) {
-    const SurfaceContact c = between(a, of_a, b, of_b, corner, view);
+    const SurfaceContact c = between({a, b, of_a, of_b, view}, corner);
     if (c.gap < margin) points.push_back(c);
   }
   keep_four(points);

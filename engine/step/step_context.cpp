@@ -17,6 +17,7 @@ StepBuffers::StepBuffers(const World& world) {
   displacing = result = force;
   islands.members.resize(trees);
   for (auto& island : islands.members) island.reserve(kRoom);
+  islands.ends.reserve(kRoom);
   islands.of_tree.reserve(trees);
   islands.by_whole.reserve(trees);
   islands.rise.reserve(trees);
