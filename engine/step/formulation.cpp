@@ -60,6 +60,38 @@ bool stands_on_what_yields(const Constraint& c, const Model& model) {
   return c.kind == ConstraintKind::wheel && c.body_b >= 0 && yields_between(model, c.record_b, -1);
 }
 
+/// Pressed in, or beyond its stop.
+bool gives_way(const Constraint& c) {
+  return (is_contact(c) || c.kind == ConstraintKind::limit) && is_compliant(c) && c.gap < 0;
+}
+
+/// What a unit impulse along the first row of one would do along that of the other, by a body that both act on: below zero, they
+/// press on it from two sides.
+double coupling(const StepContext& s, const Constraint& one, const Constraint& other) {
+  double sum = 0;
+  const auto row = [](const Constraint& c, int body) { return Vec6((body == c.body_a ? c.J_a : c.J_b).row(0).transpose()); };
+  for (const int b : {one.body_a, one.body_b}) {
+    if (b < 0 || (b != other.body_a && b != other.body_b)) continue;
+    const Body& body = s.world.model.bodies[b];
+    const Vec6 J = row(one, b), K = row(other, b);
+    sum += J.head<3>().dot(K.head<3>()) / body.mass;
+    sum += J.tail<3>().dot(inertia_W(body, s.state.X_WB[b].q).inverse() * K.tail<3>());
+  }
+  return sum;
+}
+
+/// A part between two springs of which the step follows one. At equal impulses one would displace it by its whole and the other by
+/// half: a forearm of 0.5 kg under 150 N went through the road at 15 cm/s at 2 ms, and lay 5 cm deep in it.
+bool squeezes_by_unequal_shares(const StepContext& s, const std::vector<int>& island) {
+  const std::vector<double>& weight = s.buffers.weight;
+  for (const int i : island) {
+    if (!gives_way(s.constraints[i]) || weight[i] < 1) continue;
+    for (const int k : island)
+      if (weight[k] < 1 && gives_way(s.constraints[k]) && coupling(s, s.constraints[i], s.constraints[k]) < 0) return true;
+  }
+  return false;
+}
+
 /// How fast the resting law falls with the separating speed [N s/m], at a speed.
 double resting_slope(const Constraint& c, double at, double share, double smoothing) {
   const double tanh = math::tanh(at / smoothing);
@@ -88,6 +120,24 @@ double formulate_compliant_contact(Constraint& c, double h, double gravity, doub
   c.softness = 1 / (h * slope);
   c.target = (damping * at - S * c.gap - (followed ? S * h * c.u_before[0] / 4 : 0)) / slope + h * extra * c.softness;
   return followed ? 0.5 : 1;
+}
+
+/// `whole`: all impulses displace by their whole.
+void formulate_island(StepContext& s, const std::vector<int>& island, bool whole) {
+  const double v_impact = impact_speed(s), h = s.length, gravity = s.world.model.settings.gravity.norm();
+  const bool impact = std::any_of(island.begin(), island.end(), [&](int i) { return strikes(s.constraints[i], h, v_impact); });
+  for (const int i : island) {
+    Constraint& c = s.constraints[i];
+    double& weight = s.buffers.weight[i];
+    if (is_formulated(c))
+      weight = whole ? 1 : c.kind == ConstraintKind::wheel ? weight_of_wheel(c) : 0.5;
+    else if (!is_compliant(c))
+      weight = formulate_rigid(c, h, impact || whole);
+    else if (c.kind == ConstraintKind::limit)
+      weight = formulate_compliant_stop(c, h, whole);
+    else
+      weight = formulate_compliant_contact(c, h, gravity, c.u_before[0], std::abs(c.u_before[0]) < 2 * v_impact, whole);
+  }
 }
 
 }  // namespace
@@ -122,29 +172,17 @@ void take_mean_friction(StepContext& s) {
 }
 
 void formulate(StepContext& s) {
-  const double v_impact = impact_speed(s), h = s.length, gravity = s.world.model.settings.gravity.norm();
   Islands& islands = s.buffers.islands;
   s.buffers.weight.assign(s.constraints.size(), 0.5);
   islands.by_whole.assign(islands.members.size(), 0);
   for (std::size_t k = 0; k < islands.members.size(); ++k) {
     const std::vector<int>& island = islands.members[k];
     if (island.empty()) continue;
-    const bool impact = std::any_of(island.begin(), island.end(), [&](int i) { return strikes(s.constraints[i], h, v_impact); });
-    const bool whole =
+    const bool stands =
         std::any_of(island.begin(), island.end(), [&](int i) { return stands_on_what_yields(s.constraints[i], s.world.model); });
-    islands.by_whole[k] = whole;
-    for (const int i : island) {
-      Constraint& c = s.constraints[i];
-      double& weight = s.buffers.weight[i];
-      if (is_formulated(c))
-        weight = whole ? 1 : c.kind == ConstraintKind::wheel ? weight_of_wheel(c) : 0.5;
-      else if (!is_compliant(c))
-        weight = formulate_rigid(c, h, impact || whole);
-      else if (c.kind == ConstraintKind::limit)
-        weight = formulate_compliant_stop(c, h, whole);
-      else
-        weight = formulate_compliant_contact(c, h, gravity, c.u_before[0], std::abs(c.u_before[0]) < 2 * v_impact, whole);
-    }
+    formulate_island(s, island, stands);
+    islands.by_whole[k] = stands || squeezes_by_unequal_shares(s, island);
+    if (islands.by_whole[k] && !stands) formulate_island(s, island, true);
   }
 }
 
