@@ -10,7 +10,7 @@
 namespace render::gl {
 namespace {
 
-constexpr float kNear = 0.05f;  // clip w below which a point is behind the camera
+constexpr float kNearPlane = 0.05f;  // clip w below which a point is behind the camera
 const Float4 kOutline{0.05f, 0.05f, 0.06f, 0.85f};
 
 constexpr std::size_t kFloats = 12;  // a vertex: corner 3, tint 4, shape 3, extent 2
@@ -26,9 +26,9 @@ OverlayPass::OverlayPass()
 bool OverlayPass::project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb) const {
   using Eigen::Vector4f;
   Vector4f ca = clip_ * Vector4f(a[0], a[1], a[2], 1), cb = clip_ * Vector4f(b[0], b[1], b[2], 1);
-  if (ca[3] < kNear && cb[3] < kNear) return false;
+  if (ca[3] < kNearPlane && cb[3] < kNearPlane) return false;
   const auto cut = [](Vector4f& behind, const Vector4f& front) {
-    if (behind[3] < kNear) behind += (kNear - behind[3]) / (front[3] - behind[3]) * (front - behind);
+    if (behind[3] < kNearPlane) behind += (kNearPlane - behind[3]) / (front[3] - behind[3]) * (front - behind);
   };
   cut(ca, cb);
   cut(cb, ca);

@@ -15,7 +15,7 @@
 namespace render {
 namespace {
 
-constexpr double kPadX = 14, kPadY = 9, kGap = 4;  // pixels at 1080 lines
+constexpr double kPadX = 14, kPadY = 9, kLabelGap = 4;  // pixels at 1080 lines
 
 struct SurfaceDeleter {
   void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
@@ -53,7 +53,7 @@ PanelBox measure(cairo_t* cairo, const LabelItem& label, double scale) {
   for (std::size_t i = 0; i < label.lines.size(); ++i) {
     const Line line(cairo, label.lines[i], label.sizes[i] * scale);
     box.width = std::max<double>(box.width, line.width());
-    box.height += line.height() + (i > 0 ? kGap * scale : 0);
+    box.height += line.height() + (i > 0 ? kLabelGap * scale : 0);
   }
   box.width += 2 * kPadX * scale;
   box.height += 2 * kPadY * scale;
@@ -161,7 +161,7 @@ void draw_one(cairo_t* c, const LabelItem& label, const PanelBox& box, double sc
     paint_with(c, k);
     cairo_move_to(c, x, std::round(y));
     pango_cairo_show_layout(c, line.layout());
-    y += line.height() + kGap * scale;
+    y += line.height() + kLabelGap * scale;
   }
 }
 
