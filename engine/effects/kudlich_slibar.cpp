@@ -16,10 +16,10 @@
 namespace engine {
 namespace {
 
-constexpr double kSteep = 0.5;      // [-] cosine in plan below which a settled normal says little about left and right
-constexpr double kSecondary = 0.1;  // [m/s] bodies that lie against each other and close slower have no further impact
-constexpr double kPlaced = 1e-6;    // [s] to which a touch is placed: micrometres of way
-constexpr double kEarliest = 0.02;  // [s] a touch is looked for in the past at most, where the grid saw it late
+constexpr double kSteep = 0.5;         // [-] cosine in plan below which a settled normal says little about left and right
+constexpr double kSecondary = 0.1;     // [m/s] bodies that lie against each other and close slower have no further impact
+constexpr double kTouchPlaced = 1e-6;  // [s] to which a touch is placed: micrometres of way
+constexpr double kEarliest = 0.02;     // [s] a touch is looked for in the past at most, where the grid saw it late
 
 /// Two meshes that collide by Kudlich-Slibar.
 struct ImpactPair {
@@ -94,7 +94,7 @@ double touch_before(const World& world, const State& state, const ImpactPair& pa
     stride *= 2;
     low -= stride;
   }
-  return math::bisect({low, high}, math::kToTheWidth, kPlaced, [&](double ahead) { return !touch(ahead); }).high;
+  return math::bisect({low, high}, math::kToTheWidth, kTouchPlaced, [&](double ahead) { return !touch(ahead); }).high;
 }
 
 Vec3 velocity_at(const State& state, int body, const Vec3& point) {

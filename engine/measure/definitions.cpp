@@ -19,6 +19,8 @@ constexpr const char* kPhase =
     "measured along the line from first touch to rest, so that the distances of all phases sum to throw_distance_m";
 constexpr const char* kMoving = "still moving when the run ends";
 constexpr const char* kNoDeltaV = "the vehicle touched no person, vehicle or object, or is fixed";
+constexpr const char* kNotRolled = "the vehicle did not roll onto its side or farther; or it is a two-wheeler";
+constexpr const char* kRolls = "bodywork is rigid: what it ploughs and crushes is not in it";
 
 constexpr Definition kDefinitions[] = {
     {"throw_distance_m", "m", "throw distance",
@@ -152,6 +154,20 @@ constexpr Definition kDefinitions[] = {
      true},
     {"path_m", "m", "path", "Length of the level path of the vehicle's centre of mass over the run.", "never",
      "to the recorded interval"},
+    {"quarter_turns", "", "quarter turns",
+     "How often a vehicle that rolled over turned by 90 degrees about its long axis until it rests, to the nearest: 1 on its side, "
+     "2 "
+     "on its roof, 4 on its wheels again. Turns back are taken off. What it does end over end does not count.",
+     kNotRolled, "exact to the run; how often it rolls is chaotic", true},
+    {"trip_s", "s", "trip",
+     "Time at which it last stood on wheels of both sides before it leant by 45 degrees; of one that never did, the start.",
+     kNotRolled, "to the recorded interval", true},
+    {"roll_distance_m", "m", "roll distance",
+     "Length of the level path of its centre of mass from the trip to rest, or to the end of the run.", kNotRolled, kRolls, true},
+    {"roll_drag_factor", "", "roll drag factor",
+     "Mean deceleration over the roll distance as a share of gravity: v^2 / 2 g d, v the level speed of the centre of mass at the "
+     "trip (Orlowski, Moffatt, Bundorf and Holcomb, SAE 890857, 1989).",
+     "as roll_distance_m, or still moving when the run ends", kRolls, true},
     {"nearest_approach_m", "m", "nearest approach",
      "In a run in which no vehicle touches anybody: least distance of a part of a person and a vehicle's surface; without "
      "persons, of two vehicles' convex outlines seen from above.",

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/measure/phases.h"
 #include "tests/engine/hand_made_runs.h"
@@ -252,6 +253,87 @@ TEST(ToldEvents, ARigidCollisionIsToldOnceAPair) {
   model.bodies[kHips].person = 0;
   run.events.clear();
   EXPECT_TRUE(told_events(model, run).empty()) << "a person has its first contact";
+}
+
+/// A car slides along -y at 12 m/s on its wheels until it is tripped at 1 s. It rolls there like a cylinder, to its right, over so
+/// many quarter turns in 2 s, slows down evenly and rests at 3 s. Meanwhile it turns as far to the side as said.
+constexpr double kTripSpeed = 12, kRollTime = 2;  // [m/s], [s]
+
+Recording rolled_like_a_cylinder(double quarters, double yaw_degrees = 0) {
+  Recording run;
+  run.interval = 0.01;
+  for (int i = 0; i <= 350; ++i) {
+    Snapshot s = still(0.01 * i);
+    const double since = std::clamp(s.time - 1, 0.0, kRollTime), share = since / kRollTime;
+    BodyState& car = s.bodies.own()[kCar];
+    const auto about = [](double quarter_turns, const Vec3& axis) {
+      return Quat(Eigen::AngleAxisd(quarter_turns * std::numbers::pi / 2, axis));
+    };
+    car.X_WB.q = about(share * yaw_degrees / 90, Vec3::UnitZ()) * about(share * quarters, Vec3::UnitX());
+    car.X_WB.p = {0, -kTripSpeed * (std::min(s.time, 1.0) + since * (1 - share / 2)), 0.5};
+    car.V_WB.v = {0, -kTripSpeed * (1 - share), 0};
+    for (int w = 0; w < 2; ++w) {
+      WheelRecord wheel;
+      wheel.wheel = w;
+      wheel.load = i <= 100 ? 2000 : 0;
+      s.wheels.push_back(wheel);
+    }
+    run.snapshots.push_back(s);
+  }
+  run.events = {{3, "rest", kCar, -1, Vec3::Zero(), 0}};
+  return run;
+}
+
+Model car_with_a_track() {
+  Model model = person_and_car();
+  model.vehicles[0].wheels.push_back(model.vehicles[0].wheels[0]);
+  model.vehicles[0].wheels[1].hub_B.y() *= -1;
+  return model;
+}
+
+std::vector<Metric> rollover_of(const Model& model, const Recording& run) {
+  std::vector<Metric> out;
+  measure_rollover(model, run, 0, out);
+  return out;
+}
+
+TEST(Rollover, OfACylinderHasItsQuarterTurnsAndTheDragThatStopsIt) {
+  const Model model = car_with_a_track();
+  for (const double quarters : {1.0, 2.0, 3.0, 4.0, -6.0, 9.0})
+    for (const double yaw : {0.0, 120.0}) {
+      const std::vector<Metric> out = rollover_of(model, rolled_like_a_cylinder(quarters, yaw));
+      EXPECT_EQ(value_of(out, "quarter_turns"), std::abs(quarters)) << yaw;
+      EXPECT_NEAR(value_of(out, "trip_s").value(), 1, kAlmost);
+      // v^2 / 2 a and a / g with a = v / t
+      EXPECT_NEAR(value_of(out, "roll_distance_m").value(), kTripSpeed * kRollTime / 2, 1e-9);
+      EXPECT_NEAR(value_of(out, "roll_drag_factor").value(), kTripSpeed / kRollTime / model.settings.gravity.norm(), 1e-9);
+    }
+  // what it lies on is seldom level: to the nearest quarter
+  EXPECT_EQ(value_of(rollover_of(model, rolled_like_a_cylinder(2.3)), "quarter_turns"), 2.0);
+}
+
+TEST(Rollover, IsNoneOfWhoTipsAndFallsBackPitchesOrHasTwoWheels) {
+  const Model model = car_with_a_track();
+  EXPECT_TRUE(rollover_of(model, rolled_like_a_cylinder(0.4)).empty());
+  Recording back = rolled_like_a_cylinder(0.8);
+  for (Snapshot& s : back.snapshots)
+    if (s.time > 2.9) s.bodies.own()[kCar].X_WB.q = Quat::Identity();
+  EXPECT_TRUE(rollover_of(model, back).empty());
+  Recording nose = rolled_like_a_cylinder(0);
+  for (Snapshot& s : nose.snapshots) s.bodies.own()[kCar].X_WB.q = Quat(Eigen::AngleAxisd(std::min(s.time, 1.5), Vec3::UnitY()));
+  EXPECT_TRUE(rollover_of(model, nose).empty());
+  EXPECT_TRUE(rollover_of(person_and_car(), rolled_like_a_cylinder(4)).empty()) << "it has no wheels on its right";
+}
+
+TEST(Rollover, StillUnderWayHasNoDragFactorAndOneThatStartsInTheAirTripsAtTheStart) {
+  const Model model = car_with_a_track();
+  Recording run = rolled_like_a_cylinder(4);
+  run.events.clear();
+  EXPECT_TRUE(value_of(rollover_of(model, run), "roll_distance_m"));
+  EXPECT_FALSE(value_of(rollover_of(model, run), "roll_drag_factor"));
+  for (Snapshot& s : run.snapshots) s.wheels.clear();
+  EXPECT_EQ(value_of(rollover_of(model, run), "trip_s"), 0.0);
+  EXPECT_NEAR(value_of(rollover_of(model, run), "roll_distance_m").value(), kTripSpeed * (1 + kRollTime / 2), 1e-9);
 }
 
 TEST(AbsentMetrics, AVehicleSaysWhichOfTheReasonsIsItsOwn) {

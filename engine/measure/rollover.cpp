@@ -1,0 +1,84 @@
+// What is quoted of a vehicle that rolls over: quarter turns, distance and mean drag factor from the trip to rest.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "engine/math/functions.h"
+#include "engine/measure/metrics.h"
+#include "engine/measure/parties.h"
+
+namespace engine {
+namespace {
+
+constexpr double kQuarter = std::numbers::pi / 2;  // [rad]
+
+/// One that stands by itself on wheels of both sides. A two-wheeler that falls on its side has not rolled over.
+bool has_track(const Vehicle& v) {
+  const auto side = [&](double sign) {
+    return std::any_of(v.wheels.begin(), v.wheels.end(), [&](const Wheel& w) { return sign * w.hub_B.y() > 0.1; });
+  };
+  return side(1) && side(-1);
+}
+
+/// Does it stand on wheels of both sides?
+bool stands(const Snapshot& s, const Vehicle& vehicle, int v) {
+  const auto side = [&](double sign) {
+    return std::any_of(s.wheels.begin(), s.wheels.end(), [&](const WheelRecord& w) {
+      return w.vehicle == v && w.load > 0 && sign * vehicle.wheels[static_cast<std::size_t>(w.wheel)].hub_B.y() > 0;
+    });
+  };
+  return side(1) && side(-1);
+}
+
+/// Adds up how far a body has turned about its long axis: the way of the vertical in its cross plane.
+class Roll {
+ public:
+  /// After the next attitude; none of it while the vehicle stands on nose or tail, where the vertical tells no roll.
+  double after(const Quat& q_WB) {
+    constexpr double kUpright = 0.3;  // [-] share of the vertical along the cross plane: 73 degrees of pitch
+    const Vec3 up_B = q_WB.conjugate() * Vec3::UnitZ();
+    if (math::hypot(up_B.y(), up_B.z()) < kUpright) return turned_;
+    const double lean = math::atan2(up_B.y(), up_B.z());
+    if (last_) turned_ += std::remainder(lean - *last_, 4 * kQuarter);
+    last_ = lean;
+    return turned_;
+  }
+
+ private:
+  std::optional<double> last_;  // [rad]
+  double turned_ = 0;           // [rad]
+};
+
+}  // namespace
+
+void measure_rollover(const Model& model, const Recording& recording, int v, std::vector<Metric>& out) {
+  const Vehicle& vehicle = model.vehicles[static_cast<std::size_t>(v)];
+  if (!has_track(vehicle)) return;
+  const Party party = party_of(model, vehicle.body);
+  const auto rest = rest_of(model, recording, party);
+  const double end = rest.value_or(recording.end_time());
+  Roll roll;
+  const Snapshot* trip = &recording.snapshots.front();
+  double turned = 0, way = 0;  // [rad], [m] from the trip
+  bool tripped = false;
+  Vec3 last = centre_of_mass(model, party, *trip);
+  for (const Snapshot& s : recording.snapshots) {
+    if (s.time > end) break;
+    turned = roll.after(s.bodies[static_cast<std::size_t>(vehicle.body)].X_WB.q);
+    tripped = tripped || std::abs(turned) > 0.5 * kQuarter;
+    const Vec3 now = centre_of_mass(model, party, s);
+    way += (now - last).head<2>().norm();
+    last = now;
+    if (!tripped && stands(s, vehicle, v)) trip = &s, way = 0;
+  }
+  const double quarters = std::round(std::abs(turned) / kQuarter);
+  if (quarters < 1) return;
+  out.push_back({"quarter_turns", vehicle.name, quarters});
+  out.push_back({"trip_s", vehicle.name, trip->time});
+  out.push_back({"roll_distance_m", vehicle.name, way});
+  const double speed = velocity_of(model, party, *trip).head<2>().norm(), g = model.settings.gravity.norm();
+  if (rest && way > 0 && g > 0) out.push_back({"roll_drag_factor", vehicle.name, speed * speed / (2 * g * way)});
+}
+
+}  // namespace engine
