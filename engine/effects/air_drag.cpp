@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/effects/greatest_energy.h"
 #include "engine/effects/registration.h"
 #include "engine/effects/words.h"
 #include "engine/geometry/mesh_overlap.h"
@@ -103,7 +104,7 @@ std::vector<Group> groups_of(const Model& model) {
 /// What drag would take from somebody.
 struct Loss {
   double speed = 0;  // [m/s]
-  double share = 0;  // [-] of the greatest speed it has
+  double share = 0;  // [-] of the greatest speed it can have, or had
   std::string of;
 };
 
@@ -119,24 +120,6 @@ std::string source_of_energy(const Model& model) {
       return "the drive of " + vehicle.name;
   }
   return {};
-}
-
-/// Energy [J] that all bodies together can have at any time, where nothing gives any: that of the start and of falling. Onto a
-/// level plane nothing falls deeper than to its centre; else it falls all the time.
-double greatest_energy(const Model& model) {
-  const double T = model.settings.duration, g = model.settings.gravity.norm();
-  const bool level = model.ground.plane && model.settings.gravity.head<2>().isZero(0);
-  double energy = 0;
-  for (const Body& body : model.bodies) {
-    if (body.fixed) continue;
-    const Vec3 w = body.X_WB.q.conjugate() * body.V_WB.w;
-    const double v = body.V_WB.v.norm(), height = std::max(0.0, body.X_WB.p.z() - model.ground.height);
-    const double falls = level ? height : v * T + 0.5 * g * T * T;
-    energy += 0.5 * body.mass * v * v + 0.5 * w.dot(body.inertia_B * w) + body.mass * g * falls;
-  }
-  for (const Vehicle& vehicle : model.vehicles)
-    for (const Wheel& wheel : vehicle.wheels) energy += 0.5 * wheel.spring * wheel.travel * wheel.travel;
-  return energy;
 }
 
 /// The greatest loss before the run. Of bodies with masses m and areas A that share an energy E the drag is rho E max(A/m) at most.
@@ -175,9 +158,11 @@ Loss loss_along(const Model& model, const Recording& run, bool had_air) {
   return worst;
 }
 
-std::string in_words(const Loss& loss) {
-  if (loss.share >= 1) return "all of the speed of " + loss.of + " (" + number(loss.speed / loss.share) + " m/s at most)";
-  return number(loss.speed) + " m/s from " + loss.of + ", " + number(100 * loss.share) + " % of its speed";
+/// `whose` says what the greatest speed is.
+std::string in_words(const Loss& loss, const std::string& whose) {
+  const std::string speed = number(loss.speed / loss.share) + " m/s";
+  if (loss.share >= 1) return "all of the speed of " + loss.of + ", " + whose + " " + speed;
+  return number(loss.speed) + " m/s from " + loss.of + ", " + number(100 * loss.share) + " % of its speed, " + whose + " " + speed;
 }
 
 constexpr const char* kHow = "; [air] has it computed";
@@ -195,9 +180,9 @@ Finding look_at_usual(const Model& model) {
   if (!source.empty())
     return {false, "the scene has no [air], vehicle or person",
             "drag, not bounded before the run, for " + source + " gives energy" + how};
-  if (loss.share == 0) return {false, "nothing moves", ""};
+  if (loss.share == 0) return {false, "no speed for drag to take", ""};
   return {false, usual ? "worth less than a hundredth of a speed" : "the scene has no [air], vehicle or person",
-          "drag takes at most " + in_words(loss) + how};
+          "drag takes at most " + in_words(loss, "which energy bounds at") + how};
 }
 
 /// The wind on persons that keep their pose until something touches them.
@@ -231,7 +216,7 @@ LeftOut left_out_along(const Model& model, const Recording& run, bool had_air) {
   if (input(model, "air.density")) return push_on_waiting(model);
   const Loss loss = loss_along(model, run, had_air);
   if (loss.share == 0) return {};
-  return {"drag would take " + in_words(loss) + " along this run" + kHow, loss.share > kShare};
+  return {"drag would take " + in_words(loss, "at the most") + " along this run" + kHow, loss.share > kShare};
 }
 
 Air air_of(const Model& model) {

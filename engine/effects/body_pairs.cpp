@@ -19,12 +19,18 @@ Joined joined_bodies(const Model& model) {
   return joined;
 }
 
+bool are_joined(const Joined& joined, int a, int b) {
+  return std::binary_search(joined.begin(), joined.end(), std::pair(std::min(a, b), std::max(a, b)));
+}
+
+/// Two hyper-ellipsoids that are not both fixed.
+bool are_rounds(const Model& model, int a, int b) {
+  const Body &A = model.bodies[a], &B = model.bodies[b];
+  return is_round(A) && is_round(B) && !(A.fixed && B.fixed);
+}
+
 bool can_meet(const Model& model, const Joined& joined, int a, int b) {
-  const Body& A = model.bodies[a];
-  const Body& B = model.bodies[b];
-  if (!std::holds_alternative<HyperEllipsoid>(A.shape) || !std::holds_alternative<HyperEllipsoid>(B.shape)) return false;
-  if (A.fixed && B.fixed) return false;
-  return !std::binary_search(joined.begin(), joined.end(), std::pair(std::min(a, b), std::max(a, b)));
+  return are_rounds(model, a, b) && !are_joined(joined, a, b);
 }
 
 /// Segments of one person that stand inside each other in the start pose (upper arm in the side of the torso, thighs at the
@@ -52,9 +58,12 @@ std::vector<BodyPair> pairs_within_persons(const Model& model) {
 
 namespace {
 
+bool of_one_person(const Model& model, int a, int b) {
+  return model.bodies[a].person >= 0 && model.bodies[a].person == model.bodies[b].person;
+}
+
 bool can_meet_between(const Model& model, const Joined& joined, int a, int b) {
-  const bool same_person = model.bodies[a].person >= 0 && model.bodies[a].person == model.bodies[b].person;
-  return a < b && !same_person && can_meet(model, joined, a, b);
+  return a < b && !of_one_person(model, a, b) && can_meet(model, joined, a, b);
 }
 
 /// In ascending order; of tree -1 those that are fixed.
@@ -84,6 +93,15 @@ std::size_t count_pairs_between_bodies(const Model& model) {
   for (int a = 0; a < n; ++a)
     for (int b = a + 1; b < n; ++b) count += can_meet_between(model, joined, a, b);
   return count;
+}
+
+std::size_t count_pairs_held(const Model& model) {
+  Joined joined = joined_bodies(model);
+  joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
+  return static_cast<std::size_t>(std::count_if(joined.begin(), joined.end(), [&](const auto& pair) {
+    const auto [a, b] = pair;
+    return a >= 0 && !of_one_person(model, a, b) && are_rounds(model, a, b);
+  }));
 }
 
 void add_pairs_within_persons(World& world, int effect) {

@@ -8,6 +8,8 @@ namespace engine {
 /// Pairs that may touch: both hyper-ellipsoids, not joined by a joint, not overlapping in the start pose by their nature.
 std::vector<BodyPair> pairs_within_persons(const Model&);
 std::size_t count_pairs_between_bodies(const Model&);
+/// Of the same, those that never meet because a joint holds them.
+std::size_t count_pairs_held(const Model&);
 
 /// Adds the pairs within each person, listed, to the runs of the world.
 void add_pairs_within_persons(World&, int effect);

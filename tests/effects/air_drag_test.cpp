@@ -164,6 +164,32 @@ TEST(AirDrag, TakesNoMoreThanThePlanSays) {
   }
 }
 
+/// A body on a hinge falls no farther than twice its length: the plan bounded this one's speed at 325 m/s, for falling freely.
+TEST(AirDrag, BoundsTheSpeedOfWhatHangsOnJoints) {
+  const Model model = shipped("gallery/babyboot.toml");
+  double bound = 0, fastest = 0;
+  const std::string text = air_line(compile(model).lines).left_out;
+  const char* words = "drag takes at most all of the speed of pendulum, which energy bounds at %lf m/s";
+  ASSERT_EQ(std::sscanf(text.c_str(), words, &bound), 1) << text;
+  Model first_second = model;
+  first_second.settings.duration = 1;
+  for (const Snapshot& s : simulate(first_second).snapshots) fastest = std::max(fastest, s.bodies[0].V_WB.v.norm());
+  EXPECT_GT(fastest, 0);
+  EXPECT_GT(bound, fastest);
+  // of all the energy: 100 g from 0.2 m below the hinge to 0.2 m above it, and 10 g, in the 10 g
+  EXPECT_LT(bound, std::sqrt(2 * kGravity * (0.1 * 0.41 + 0.01 * 0.16) / 0.01));
+}
+
+/// What stands on the ground has no height to fall from, and what turns by itself in free space has no speed.
+TEST(AirDrag, TakesNothingFromWhatStandsOrTurnsByItself) {
+  for (const char* scene : {"gallery/materials.toml", "gallery/free_body.toml"}) {
+    const Model model = shipped(scene);
+    EXPECT_EQ(air_line(compile(model).lines).reason, "no speed for drag to take") << scene;
+    for (const Snapshot& s : simulate(model).snapshots)
+      for (const BodyState& body : s.bodies) EXPECT_LT(body.V_WB.v.norm(), 1e-9) << scene;
+  }
+}
+
 TEST(AirDrag, TellsWhatPushesThoseWhoWait) {
   Model model = shipped("cases/sedan_pedestrian_40kmh.toml");
   model.settings.duration = 0.05;

@@ -54,6 +54,24 @@ void expect_nothing_outside_the_plan(const Recording& run) {
 
 }  // namespace
 
+/// Bodies on a joint never meet each other, and the plan says which they are: in the gallery a sleeve on its rod, three sliders on
+/// fixed rails, a pendulum's two parts.
+TEST(BodyContact, TellsThePairsThatAJointHolds) {
+  const auto line_of = [](const char* scene) {
+    const Model model = scenes::load(std::filesystem::path(CRASHREEL_SOURCE_DIR) / "scenes/gallery" / scene).model;
+    for (const PlanLine& line : compile(model).lines)
+      if (line.effect == "body_contact") return line;
+    return PlanLine{};
+  };
+  EXPECT_EQ(line_of("cylindrical.toml").reason, "no two that no joint holds: 1 free body and 1 fixed one");
+  EXPECT_EQ(line_of("cylindrical.toml").left_out, "1 pair that a joint holds");
+  EXPECT_EQ(line_of("babyboot.toml").reason, "no two that no joint holds: 2 free bodies");
+  const PlanLine rails = line_of("prismatic.toml");
+  EXPECT_EQ(rails.reason, "9 pairs of segments or free bodies that are not one person's: 3 free bodies and 3 fixed ones");
+  EXPECT_EQ(rails.left_out, "only pairs farther apart than a step can bring them together, and 3 pairs that a joint holds");
+  EXPECT_EQ(line_of("ball_compliant.toml").reason, "no second one to meet: 1 free body");
+}
+
 class ShippedScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(ShippedScene, RunsBitForBitTheSameWithEveryEffectForcedOnAndCallsNoneOutsideThePlan) {
