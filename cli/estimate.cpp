@@ -148,8 +148,8 @@ Estimate estimate_film(const scenes::Scene& scene, const engine::Plan& plan, con
 std::string estimate_text(const Estimate& e, double step) {
   const std::string processes =
       e.workers > 0 ? fmt::format(" with {} drawing process{}", e.workers, e.workers == 1 ? "" : "es") : "";
-  return fmt::format("{}{} steps of {} s, about {} of memory{}, {} on the disk, {:.2g} s", e.simulated ? "" : "at most ", e.steps,
-                     step, bytes_text(e.memory()), processes, bytes_text(e.disk), e.seconds);
+  return fmt::format("{}{} steps of {} s, about {} of memory{}, {} on the disk, {}", e.simulated ? "" : "at most ", e.steps, step,
+                     bytes_text(e.memory()), processes, bytes_text(e.disk), readable_time(e.seconds));
 }
 
 nlohmann::ordered_json estimate_json(const Estimate& e) {

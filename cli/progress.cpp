@@ -18,13 +18,6 @@ constexpr double kBarPeriod = 0.1;   // [s] the eye needs no more
 constexpr double kLinePeriod = 5.0;  // [s] a log stays readable
 constexpr int kBarWidth = 24;        // [characters]
 
-std::string readable_time(double seconds) {
-  if (seconds < 10) return fmt::format("{:.1f} s", seconds);
-  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
-  const int whole = static_cast<int>(std::min(seconds, 359999.0));
-  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-}
-
 }  // namespace
 
 double clock_seconds() {
@@ -35,6 +28,13 @@ double computed_seconds() {
   timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+std::string readable_time(double seconds) {
+  if (seconds < 10) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
+  const int whole = static_cast<int>(std::min(seconds, 359999.0));
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
 Progress::Progress(std::string verb, std::string unit, double total, ShowProgress show)

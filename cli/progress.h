@@ -13,6 +13,9 @@ double clock_seconds();
 /// [s] this process has computed. On an idle core it passes as the clock does; what others take of a busy one is left out.
 double computed_seconds();
 
+/// "8.4 s", "85 s", "0:02:43".
+std::string readable_time(double seconds);
+
 class Progress {
  public:
   /// "simulate", "s" of 4.0; "draw", "frames" of 120.

@@ -131,12 +131,13 @@ std::function<int()> declare_fit(Arguments& arguments) {
   declare_progress(arguments, wish->scene);
   arguments.required_option("-o,--output", wish->folder, "DIR",
                             "folder for the results; made if missing. Finished runs stay in DIR/runs");
-  arguments.option("-n,--runs", wish->runs, "N", "runs at most (default 2000); the first half is that of `crashreel sample`");
-  arguments.option("--seed", wish->seed, "S", "which of the possible plans (default 1)");
+  arguments.option("-n,--runs", wish->runs, "N",
+                   "runs at most (default 2000); the first half are those that `crashreel sample` draws");
+  arguments.option("--seed", wish->seed, "S", "seed of the random numbers that the inputs are drawn by (default 1)");
   arguments.repeatable("--but-for", wish->but_for, "KEY=VALUE",
                        "what if: would they have met, and how hard: vehicle.sedan.speed=\"30 km/h\"");
   arguments.option("--calibrate", wish->calibrate, "N", "hold intervals against N cases with known truth, from the same runs");
-  arguments.option("--jobs", wish->jobs, "N", "runs side by side (default: every core); the numbers do not hang on it");
+  arguments.option("--jobs", wish->jobs, "N", "runs side by side (default: every core); the numbers do not depend on it");
   arguments.flag("--overwrite", wish->overwrite, "replace results that exist; finished runs are used again");
   return [wish] { return run(*wish); };
 }

@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/exit.h"
 #include "scenes/loader/builder.h"
+#include "scenes/loader/value.h"
 
 namespace cli {
 namespace {
@@ -33,13 +34,24 @@ Names library_entries(const fs::path& library) {
   return names;
 }
 
+/// What an entry is, in its own words: "Van, 2500 kg".
+std::string title_in(const fs::path& entry) {
+  const scenes::Value content = scenes::parse_file(entry);
+  const scenes::Value* title = content.find("title");
+  return title ? title->text : "";
+}
+
 int library(bool json) {
-  const Names names = library_entries(scenes::home_folder() / "scenes" / "library");
+  const fs::path folder = scenes::home_folder() / "scenes" / "library";
+  const Names names = library_entries(folder);
   if (json) {
     fmt::print("{}\n", nlohmann::json(names).dump(2));
     return kDone;
   }
-  for (const auto& [kind, entries] : names) fmt::print("{}\n  {}\n", kind, fmt::join(entries, "\n  "));
+  for (const auto& [kind, entries] : names) {
+    fmt::print("{}\n", kind);
+    for (const std::string& entry : entries) fmt::print("  {:<15}  {}\n", entry, title_in(folder / kind / (entry + ".toml")));
+  }
   return kDone;
 }
 

@@ -112,12 +112,12 @@ std::function<int()> declare_sample(Arguments& arguments) {
   arguments.required_option("-o,--output", wish->folder, "DIR",
                             "folder for the results; made if missing. Finished runs stay in DIR/runs");
   arguments.option("-n,--runs", wish->runs, "N", "runs (default 256; powers of two fill the range best)");
-  arguments.option("--seed", wish->seed, "S", "which of the possible samples (default 1)");
+  arguments.option("--seed", wish->seed, "S", "seed of the random numbers that the inputs are drawn by (default 1)");
   arguments.repeatable("--grid", wish->grid, "KEY=VALUES",
                        "every one of these values of a key: vehicle.sedan.speed=\"30,40,50 km/h\"");
   arguments.option("--part", wish->part, "K/N",
                    "only every N-th run from the K-th on, for array jobs; the command without it joins the parts in DIR");
-  arguments.option("--jobs", wish->jobs, "N", "runs side by side (default: every core); the numbers do not hang on it");
+  arguments.option("--jobs", wish->jobs, "N", "runs side by side (default: every core); the numbers do not depend on it");
   arguments.flag("--overwrite", wish->overwrite, "replace results that exist; finished runs are used again");
   return [wish] { return run(*wish); };
 }

@@ -77,7 +77,7 @@ std::vector<Told> told(const engine::Recording& recording) {
       parts += (parts.empty() ? "" : ", ") + readable(name);
     }
     out.push_back({e.time, fmt::format("{} loses hold of {}{}: {}", owner(part), name_of(recording, e.body_b),
-                                       last > e.time ? fmt::format(" until {:.3f} s", last) : "", parts)});
+                                       last > e.time ? fmt::format(" by {:.3f} s", last) : "", parts)});
   }
   return out;
 }

@@ -85,6 +85,8 @@ TEST_F(Estimate, OfALongRunIsStretchedFromItsBeginning) {
   const Result dry = run(folder, {"simulate", "long.toml", "-o", "out", "--dry-run"});
   ASSERT_EQ(dry.code, 0) << dry.err;
   EXPECT_THAT(dry.out, HasSubstr("out: at most 6000000 steps of 0.0001 s, about "));
+  // hours, minutes and seconds: nobody reads 1.6e+02 s
+  EXPECT_THAT(dry.out, testing::ContainsRegex("on the disk, [0-9]+(:[0-5][0-9]:[0-5][0-9]| s)\n"));
   // 600 001 instants of a body each
   EXPECT_THAT(
       run(folder, {"simulate", "long.toml", "-o", "out", "--max-memory", "100 MB"}).err,

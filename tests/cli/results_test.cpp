@@ -124,6 +124,8 @@ TEST(Simulate, PrintsNoMoreDigitsThanAMeasureBears) {
   EXPECT_THAT(result.out, testing::ContainsRegex("wrap_around_distance_m pedestrian [0-9]\\.[0-9][0-9]\n"));
   EXPECT_THAT(result.out, testing::ContainsRegex("hic15_vehicle pedestrian +[0-9]+\n"));
   EXPECT_THAT(result.out, testing::ContainsRegex("pdof_deg sedan +[0-9]+\\.[0-9]\n"));
+  // the head has struck the bonnet, and its blow is the worst: nothing is the road's
+  EXPECT_THAT(result.out, testing::ContainsRegex("hic15 pedestrian +[0-9]+\n"));
   // the same number, whole, for programs
   const Json metrics = Json::parse(contents(folder / "out/summary.json")).at("metrics");
   EXPECT_NEAR(metrics.at("head_impact_speed_mps").get<double>(),
@@ -460,6 +462,15 @@ TEST(Library, ListsThePersonTheFlagshipUses) {
   const Result result = run(folder, {"library", "--json"});
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(Json::parse(result.out).at("persons").get<std::vector<std::string>>(), testing::Contains("person-14"));
+}
+
+TEST(Library, SaysWhatEachEntryIs) {
+  const Folder folder;
+  const Result result = run(folder, {"library"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("\n  van              Van, 2500 kg\n"));
+  // none without a title
+  EXPECT_THAT(result.out, testing::Not(testing::ContainsRegex(" +\n")));
 }
 
 TEST(Schema, IsTheJsonSchemaOfScenes) {

@@ -146,7 +146,7 @@ TEST(StoryOfAFilm, ARiderLosesItsHoldAndBreaksNoJoint) {
   const std::vector<Told> all = told(r);
   ASSERT_EQ(all.size(), 5u);
   EXPECT_EQ(all[0].text, "collision: car and bike, 13.9 m/s");
-  EXPECT_EQ(all[1].text, "ann loses hold of bike until 0.130 s: left foot, hips");
+  EXPECT_EQ(all[1].text, "ann loses hold of bike by 0.130 s: left foot, hips");
   EXPECT_EQ(all[2].text, "bob loses hold of bike: hips");
   EXPECT_EQ(all[3].text, "joint broken: trailer and car");
   EXPECT_EQ(all[4].text, "rest: ann");
