@@ -193,6 +193,97 @@ TEST(ThrowMetrics, WhoIsPushedAgainAfterComingDownDoesNotSlideByItself) {
   EXPECT_EQ(*again->separated, separated) << "the flight began where it did";
 }
 
+/// A car that has stopped lets go of who slides off it. A tenth of a second later a foot is down, and then the trunk:
+/// a fall. Later the car rolls against who lies there.
+TEST(ThrowMetrics, WhoSlidesOffAStandingCarFallsLandsAndIsTouchedAgain) {
+  const Model model = person_and_car();
+  Recording run;
+  run.interval = 0.02;
+  for (int i = 0; i <= 200; ++i) {  // the centre goes at 2 m/s until 1 s, then slows down to rest at 3 s
+    Snapshot s = still(0.02 * i);
+    const double t = std::min(s.time, 3.0), after = std::max(0.0, t - 1);
+    const double speed = t < 1 ? 2 : 2 - after, way = 2 * std::min(t, 1.0) + 2 * after - 0.5 * after * after;
+    for (const int b : {kHead, kHips}) {
+      s.bodies.own()[b].X_WB.p = {way, 0, 1};
+      s.bodies.own()[b].V_WB.v = {speed, 0, 0};
+    }
+    s.bodies.own()[kCar].V_WB.v = {s.time < 0.59 ? 3.0 : 0.0, 0, 0};
+    run.snapshots.push_back(s);
+  }
+  const auto push_at = [&](std::size_t i, int other, const ShapePair& shapes) {
+    run.snapshots[i].contacts.push_back(push(kHips, other, shapes, {0, 0, 5}));
+  };
+  for (std::size_t i = 10; i <= 45; ++i) push_at(i, kCar, kOnVehicle);  // until 0.9 s
+  for (std::size_t i = 46; i <= 150; ++i) push_at(i, -1, kOnGround);    // a foot, from 1.3 s on the trunk
+  for (std::size_t i = 100; i <= 125; ++i) push_at(i, kCar, kOnVehicle);
+  run.events = {{0.2, "first_contact", kHips, kCar, Vec3::Zero(), 0},
+                {1.3, "ground_contact", kHips, -1, Vec3::Zero(), 0},
+                {3, "rest", kHips, -1, Vec3::Zero(), 0}};
+  const auto thrown = throw_of_person(model, run, 0);
+  ASSERT_TRUE(thrown);
+  EXPECT_NEAR(thrown->separated.value(), 0.9, kAlmost) << "not the push at 2 s, when it lay";
+  EXPECT_TRUE(thrown->dragged);
+  std::vector<Metric> out;
+  measure_throw(model, run, 0, out);
+  // from 0.2 to 0.6 s it is slower than the car, then rides on it as it stops
+  EXPECT_NEAR(value_of(out, "contact_m").value(), 2 * 0.4, kAlmost);
+  EXPECT_NEAR(value_of(out, "carried_m").value(), 2 * 0.3, kAlmost);
+  EXPECT_FALSE(value_of(out, "airborne_m"));
+  EXPECT_NEAR(value_of(out, "fall_m").value(), 2 * 0.1 + 2 * 0.3 - 0.045, 1e-9);
+  EXPECT_NEAR(value_of(out, "slide_m").value(), 2 * 1.7 - 0.5 * (4 - 0.09), 1e-9);
+  double sum = 0;
+  for (const ThrowPhase& phase : thrown->phases) sum += phase.distance;
+  EXPECT_NEAR(sum, value_of(out, "throw_distance_m").value(), 1e-9);
+  // free of car and ground for long enough it flew; the same run without the foot
+  for (std::size_t i = 46; i <= 64; ++i) run.snapshots[i].contacts.clear();
+  out.clear();
+  measure_throw(model, run, 0, out);
+  EXPECT_FALSE(value_of(out, "fall_m"));
+  EXPECT_NEAR(value_of(out, "airborne_m").value(), 2 * 0.1 + 2 * 0.3 - 0.045, 1e-9);
+}
+
+/// A rider whose mount is pushed over and who was touched by nobody else comes down with it: all of the way to the ground is a
+/// fall, from the blow to the mount on where that last bore him then.
+TEST(ThrowMetrics, WhoFallsOffAStruckMountHasNoContactOfItsOwn) {
+  Model model = person_and_car();
+  model.bodies.push_back(model.bodies[kCar]);
+  model.bodies[3].person = 0;
+  model.bodies[3].vehicle = 1;
+  model.bodies[3].mass = 15;
+  Vehicle bicycle;
+  bicycle.name = "bicycle";
+  bicycle.body = 3;
+  model.vehicles.push_back(bicycle);
+  model.persons[0].mount = 3;
+  Recording run;
+  run.interval = 0.02;
+  for (int i = 0; i <= 100; ++i) {  // at 1 m/s from 0.5 s to 1.5 s
+    Snapshot s = still(0.02 * i);
+    s.bodies.own().resize(4);
+    const bool moves = s.time > 0.49 && s.time < 1.49;
+    for (const int b : {kHead, kHips, 3}) {
+      s.bodies.own()[b].X_WB.p = {0, std::clamp(s.time - 0.5, 0.0, 1.0), 1};
+      s.bodies.own()[b].V_WB.v = {0, moves ? 1.0 : 0.0, 0};
+    }
+    run.snapshots.push_back(s);
+  }
+  run.snapshots[26].contacts.push_back(push(kCar, 3, kVehicles, {0, -5, 0}));
+  run.snapshots[26].contacts.back().begun = 0.5;
+  run.events = {{1.1, "ground_contact", kHips, -1, Vec3::Zero(), 0}, {1.5, "rest", kHips, -1, Vec3::Zero(), 0}};
+  for (std::size_t i = 56; i <= 75; ++i) run.snapshots[i].contacts.push_back(push(kHips, -1, kOnGround, {0, 0, 5}));
+  std::vector<Metric> out;
+  measure_throw(model, run, 0, out);
+  const auto of_rider = [&](const std::string& key) {
+    for (const Metric& m : out)
+      if (m.key == key && m.object == "pedestrian") return m.value;
+    return std::nan("");
+  };
+  EXPECT_NEAR(of_rider("airborne_m"), 0.6, 1e-9) << "nothing touches it until it lands";
+  EXPECT_NEAR(of_rider("slide_m"), 0.4, 1e-9);
+  EXPECT_NEAR(of_rider("throw_distance_m"), 1.0, 1e-9);
+  EXPECT_TRUE(std::isnan(of_rider("contact_m")) && std::isnan(of_rider("carried_m")));
+}
+
 TEST(ThrowMetrics, WhoIsRunOverIsToldByTheFirstWheelThatStandsOnIt) {
   Model model = person_and_car();
   model.bodies[kHips].name = "pedestrian/hips";

@@ -44,6 +44,16 @@ const Struck kCases[] = {
     {"pushed_along",
      "sedan_pedestrian_40kmh",
      {"vehicle.sedan.model=bus", "vehicle.sedan.brake.deceleration=0.1 g", "simulation.duration=3 s"}},
+    // lies on the bonnet, and goes on off it as the car stops
+    {"off_the_bonnet",
+     "sedan_pedestrian_40kmh",
+     {"vehicle.sedan.speed=26 km/h", "vehicle.sedan.brake.deceleration=0.9 g", "person.pedestrian.friction_body=0.6",
+      "simulation.duration=4 s"}},
+    // sits on a bicycle that stands, which a car pushes over
+    {"tipped_over",
+     "cyclist",
+     {"vehicle.sedan.speed=8 km/h", "vehicle.bicycle.speed=0 km/h", "vehicle.bicycle.position=0 -1.75 m",
+      "vehicle.sedan.brake.from=0.6 s", "simulation.duration=3 s"}},
     {"run_over", "sedan_pedestrian_40kmh",
      child_and({"vehicle.sedan.model=bus", "vehicle.sedan.speed=100 km/h", "vehicle.sedan.front=-2.5 -1.75 m"})},
 };
@@ -167,6 +177,18 @@ void Measured::goes_through_what_its_name_says() const {
   } else if (name == "pushed_along") {
     EXPECT_GT(lasts("carried"), 0.2);
     EXPECT_LT(lasts("flight"), 0.05);
+  } else if (name == "off_the_bonnet") {
+    const Snapshot landing = run_.at(value("landing_s").value());
+    const int sedan = scene_.model.vehicles[0].body;
+    EXPECT_LT(landing.bodies[sedan].V_WB.v.norm(), 1.0) << "the car has all but stopped";
+    EXPECT_GT(lasts("carried"), 0.3);
+    EXPECT_GT(lasts("flight") + lasts("fall"), 0.05);
+    EXPECT_GT(lasts("slide"), 0.2);
+  } else if (name == "tipped_over") {
+    EXPECT_EQ(lasts("flight"), 0) << "it comes down over its feet and the bicycle";
+    EXPECT_GT(lasts("fall"), 0.3);
+    const Snapshot landing = run_.at(value("landing_s").value()), hit = run_.at(*hit_);
+    EXPECT_LT(centre(landing).z(), 0.5 * centre(hit).z());
   } else if (name == "run_over") {
     const Pose& bus = run_.snapshots.back().bodies[scene_.model.vehicles[0].body].X_WB;
     EXPECT_LT((bus.q.conjugate() * (centre(run_.snapshots.back()) - bus.p)).x(), 0.0) << "half the bus has gone over the child";
