@@ -129,6 +129,36 @@ double pdof_of(const Quat& q_WB, const Vec3& push) {
   return math::atan2(left, -push.dot(ahead)) * 180 / std::numbers::pi;
 }
 
+bool has_two_wheels(const Model& model, const Party& party) {
+  return party.vehicle >= 0 && model.vehicles[party.vehicle].wheels.size() == 2;
+}
+
+/// Mass [kg] of a vehicle with who rides it.
+double mass_with_riders(const Model& model, const Party& party) {
+  double mass = mass_of(model, party);
+  for (const Person& person : model.persons) {
+    const Party rider = party_of(model, person.bodies.front());
+    const bool rides = std::any_of(model.joints.begin(), model.joints.end(), [&](const Joint& j) {
+      return (holds(party, j.parent) && holds(rider, j.child)) || (holds(party, j.child) && holds(rider, j.parent));
+    });
+    if (rides) mass += mass_of(model, rider);
+  }
+  return mass;
+}
+
+/// What its tyres did to a vehicle's velocity [m/s]. Those of a bicycle carry six times its mass, and more where a bonnet presses
+/// it down: of a two-wheeler's counts what they do under its weight and the rider's, to both.
+Vec3 done_by_tyres(const Model& model, const Recording& recording, const Party& party, const Stretch& span) {
+  Vec3 impulse = Vec3::Zero();
+  for (std::size_t i = span.first; i <= span.last; ++i)
+    if (const auto& of = recording.snapshots[i].tyre_impulse; party.vehicle < static_cast<int>(of.size()))
+      impulse += of[party.vehicle];
+  if (!has_two_wheels(model, party)) return impulse / mass_of(model, party);
+  const double duration = recording.snapshots[span.last].time - recording.snapshots[span.first > 0 ? span.first - 1 : 0].time;
+  const double mass = mass_with_riders(model, party), weight = mass * model.settings.gravity.norm() * duration;
+  return std::min(1.0, weight / std::max(impulse.z(), 1e-9)) * impulse / mass;
+}
+
 ImpactSide side_of(const Model& model, const Recording& recording, const Party& party, const Stretch& span) {
   const auto& all = recording.snapshots;
   const Snapshot &before = all[span.first > 0 ? span.first - 1 : 0], &after = all[span.last];
@@ -144,16 +174,10 @@ ImpactSide side_of(const Model& model, const Recording& recording, const Party& 
   if (model.bodies[root].fixed) return side;
   side.delta_v = v1 - v0 - model.settings.gravity * (after.time - before.time);
   if (party.vehicle < 0) return side;
-  for (std::size_t i = span.first; i <= span.last; ++i)
-    if (party.vehicle < static_cast<int>(all[i].tyre_impulse.size()))
-      side.delta_v -= all[i].tyre_impulse[party.vehicle] / model.bodies[root].mass;
+  side.delta_v -= done_by_tyres(model, recording, party, span);
   side.delta_v.z() = 0;  // as the field counts it: in the plane of the road
   side.pdof = pdof_of(before.bodies[root].X_WB.q, side.delta_v);
   return side;
-}
-
-bool has_two_wheels(const Model& model, const Party& party) {
-  return party.vehicle >= 0 && model.vehicles[party.vehicle].wheels.size() == 2;
 }
 
 /// The two are pressed together by the same force: each takes up energy as it gives way, in inverse proportion to stiffness. Where
