@@ -99,11 +99,11 @@ std::vector<std::string> words_of(const Cost& cost) {
   return {fmt::format("{:>8}", cost.calls), fmt::format("{:>7.2f}", cost.us_per_step), fmt::format("{:>5.1f} %", 100 * cost.share)};
 }
 
-/// "on", "waits" where it is proved that it cannot matter yet, and what a run has seen of it.
-std::string words_of_state(const engine::PlanLine& line) {
+/// "on", "waits" where it is proved that it cannot matter up to `now` [s], and what a run has seen of it.
+std::string words_of_state(const engine::PlanLine& line, double now) {
   if (!line.active) return "off";
   if (line.acted.told) return line.acted.in_reach < 0 ? "waited" : "on";
-  return line.not_before > 0 ? "waits" : "on";
+  return line.not_before > now ? "waits" : "on";
 }
 
 /// The proof before a run, and what the run saw.
@@ -117,8 +117,9 @@ std::string words_of_reason(const engine::PlanLine& line) {
 }
 
 void print_plan(const std::vector<engine::PlanLine>& lines, const engine::Recording* run) {
+  const double now = run ? run->end_time() : 0;
   for (const engine::PlanLine& line : lines) {
-    print_paragraph(line.effect, words_of_state(line), (line.forced ? "forced: " : "") + words_of_reason(line));
+    print_paragraph(line.effect, words_of_state(line, now), (line.forced ? "forced: " : "") + words_of_reason(line));
     if (!line.left_out.empty()) print_paragraph("", "", "left out: " + line.left_out);
     if (!run || !line.active) continue;
     const Cost cost = cost_of(*run, run->costs, line.effect);

@@ -199,6 +199,7 @@ class KudlichSlibar final : public EffectWith<ImpactMemory> {
   }
 
   void begin(World& world, State& state) override {
+    world.log.acted[static_cast<std::size_t>(self_)].told = true;
     memory(state).pairs.resize(pairs_.size());
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       ImpactProgress& progress = memory(state).pairs[i];
@@ -217,6 +218,7 @@ class KudlichSlibar final : public EffectWith<ImpactMemory> {
       const auto overlap = overlap_at(world, state, pairs_[i], 0, overlap_);
       progress.touching = overlap.has_value();
       if (!overlap) continue;
+      world.log.note_reach(self_, state.time);
       exchange(world, state, pairs_[i], progress, *overlap);
       const double t_P = pairs_[i].settings.penetration_time;
       progress.due = state.time + (t_P > 0 ? t_P : ImpactSettings{}.penetration_time);
@@ -276,6 +278,7 @@ class KudlichSlibar final : public EffectWith<ImpactMemory> {
       }
     state.energy.dissipated[self_] += impact.energy_lost;
     record(world, pair, state, point, normal, impact, -u.dot(normal), mu);
+    world.log.note_action(self_, state.time);
     ++progress.exchanges;
   }
 

@@ -365,6 +365,27 @@ TEST(KudlichSlibarRun, DoesNotHangOnWhereTheStepsEnd) {
   }
 }
 
+/// It exchanges at an instant and makes no contact: a plan used to say after the run that it still waits.
+TEST(KudlichSlibarRun, TellsInThePlanWhenItActed) {
+  for (const double speed : {14.0, 1.0}) {  // that the second is not there in time is proved: off
+    Model model = free_space(0.5);
+    add_vehicle(model, car("a", {-6, 0, 0}, 0, {speed, 0, 0}));
+    add_vehicle(model, car("b", {0, 0, 0}, 0, {0, 0, 0}));
+    const Recording run = simulate(model);
+    const auto line =
+        std::find_if(run.plan.begin(), run.plan.end(), [](const PlanLine& l) { return l.effect == "kudlich_slibar"; });
+    ASSERT_NE(line, run.plan.end());
+    EXPECT_EQ(line->acted.told, speed > 10);
+    const auto impact = std::find_if(run.events.begin(), run.events.end(), [](const Event& e) { return e.kind == "impact"; });
+    EXPECT_EQ(impact != run.events.end(), speed > 10);
+    EXPECT_EQ(line->acted.first, impact == run.events.end() ? -1 : impact->time);
+    EXPECT_EQ(line->acted.in_reach, line->acted.first);
+    if (speed > 10) {
+      EXPECT_GT(line->acted.first, line->not_before);
+    }
+  }
+}
+
 TEST(KudlichSlibarRun, StillPushingBodiesHaveASecondaryImpact) {
   // the second car, e = 0, is pushed into a third: bodies 0 and 1 move on in contact and close again
   Model model = free_space(0.6);
