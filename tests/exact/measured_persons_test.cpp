@@ -189,6 +189,10 @@ void Measured::goes_through_what_its_name_says() const {
     EXPECT_GT(lasts("fall"), 0.3);
     const Snapshot landing = run_.at(value("landing_s").value()), hit = run_.at(*hit_);
     EXPECT_LT(centre(landing).z(), 0.5 * centre(hit).z());
+    const auto mount = std::find_if(metrics_.begin(), metrics_.end(),
+                                    [](const Metric& m) { return m.key == "delta_v_mps" && m.object == "bicycle"; });
+    ASSERT_NE(mount, metrics_.end());
+    EXPECT_LT(mount->value, 2 * 8 / 3.6) << "what a car strikes leaves it no faster than at twice its speed";
   } else if (name == "run_over") {
     const Pose& bus = run_.snapshots.back().bodies[scene_.model.vehicles[0].body].X_WB;
     EXPECT_LT((bus.q.conjugate() * (centre(run_.snapshots.back()) - bus.p)).x(), 0.0) << "half the bus has gone over the child";
