@@ -16,7 +16,7 @@ std::vector<Metric> measure(const Model& model, const Recording& recording) {
   const std::vector<Impact> impacts = impacts_of(model, recording);
   for (int v = 0; v < static_cast<int>(model.vehicles.size()); ++v) {
     measure_vehicle(model, recording, impacts, v, out);
-    measure_rollover(model, recording, v, out);
+    measure_rollover(model, recording, impacts, v, out);
   }
   if (const auto near = nearest_approach(model, recording)) {
     const std::string pair = model.bodies[near->body_a].name + ", " + model.bodies[near->body_b].name;

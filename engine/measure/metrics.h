@@ -63,7 +63,7 @@ void measure_vehicle(const Model&, const Recording&, const std::vector<Impact>&,
 
 /// Of a vehicle that rolled onto its side or farther: quarter turns, the trip, and distance and mean drag factor from there to
 /// rest.
-void measure_rollover(const Model&, const Recording&, int vehicle, std::vector<Metric>&);
+void measure_rollover(const Model&, const Recording&, const std::vector<Impact>&, int vehicle, std::vector<Metric>&);
 
 /// Head injury criterion: max over windows of at most `window` [s] of (t2 - t1) (mean of a)^2.5, a in g at equally or unequally
 /// spaced `times`, piecewise linear between them. Exact at the samples: windows begin and end on them.

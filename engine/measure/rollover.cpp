@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/math/functions.h"
+#include "engine/measure/impacts.h"
 #include "engine/measure/metrics.h"
 #include "engine/measure/parties.h"
 
@@ -31,6 +32,14 @@ bool stands(const Snapshot& s, const Vehicle& vehicle, int v) {
   return side(1) && side(-1);
 }
 
+/// Did it strike a vehicle or an object meanwhile? What that took of its speed is no drag.
+bool struck_something(const std::vector<Impact>& impacts, int v, double from, double to) {
+  return std::any_of(impacts.begin(), impacts.end(), [&](const Impact& i) {
+    const bool its_own = (i.a.party.vehicle == v && i.b.party.person < 0) || (i.b.party.vehicle == v && i.a.party.person < 0);
+    return its_own && i.time + i.duration >= from && i.time <= to;
+  });
+}
+
 /// Adds up how far a body has turned about its long axis: the way of the vertical in its cross plane.
 class Roll {
  public:
@@ -52,7 +61,8 @@ class Roll {
 
 }  // namespace
 
-void measure_rollover(const Model& model, const Recording& recording, int v, std::vector<Metric>& out) {
+void measure_rollover(const Model& model, const Recording& recording, const std::vector<Impact>& impacts, int v,
+                      std::vector<Metric>& out) {
   const Vehicle& vehicle = model.vehicles[static_cast<std::size_t>(v)];
   if (!has_track(vehicle)) return;
   const Party party = party_of(model, vehicle.body);
@@ -78,7 +88,8 @@ void measure_rollover(const Model& model, const Recording& recording, int v, std
   out.push_back({"trip_s", vehicle.name, trip->time});
   out.push_back({"roll_distance_m", vehicle.name, way});
   const double speed = velocity_of(model, party, *trip).head<2>().norm(), g = model.settings.gravity.norm();
-  if (rest && way > 0 && g > 0) out.push_back({"roll_drag_factor", vehicle.name, speed * speed / (2 * g * way)});
+  if (rest && way > 0 && g > 0 && !struck_something(impacts, v, trip->time, end))
+    out.push_back({"roll_drag_factor", vehicle.name, speed * speed / (2 * g * way)});
 }
 
 }  // namespace engine

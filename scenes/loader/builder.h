@@ -90,9 +90,11 @@ inline constexpr Key kSurfaceFriction =
     bound_to_both<&engine::SurfaceProperties::friction_body, &engine::SurfaceProperties::friction_ground>(
         {"friction", Type::schedule, Dimension::none, "",
          "Coulomb coefficient, sets both kinds below. Of two objects the smaller acts.", kNotNegative});
-inline constexpr Key kSurfaceStiffness = bound<&engine::SurfaceProperties::stiffness>(
-    {"stiffness", Type::schedule, Dimension::stiffness, "",
-     "S of the compliant contact law; two surfaces act in series. Left out: 400 kN/m.", kPositive});
+inline constexpr Key kSurfaceStiffness =
+    bound<&engine::SurfaceProperties::stiffness>({"stiffness", Type::schedule, Dimension::stiffness, "",
+                                                  "S of the compliant contact law; two surfaces act in series. Left out: 400 kN/m; "
+                                                  "a vehicle's panels then yield to persons each by its own.",
+                                                  kPositive});
 inline constexpr Key kSurfaceFrictionBody = bound<&engine::SurfaceProperties::friction_body>(
     {"friction_body", Type::schedule, Dimension::none, "", "Coulomb coefficient against every other object.", kNotNegative});
 inline constexpr Key kSurfaceFrictionGround = bound<&engine::SurfaceProperties::friction_ground>(

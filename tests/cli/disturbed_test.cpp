@@ -66,9 +66,9 @@ TEST_F(Disturbed, WithoutAFontNoPictureIsMade) {
 }
 
 TEST_F(Disturbed, TooFewDescriptorsAreToldAndNothingIsLeft) {
-  // 3 is closed first: what runs the tests in parallel leaves descriptors open
+  // closed first: what runs the tests leaves descriptors open
   for (const auto& [most, what] : {std::pair("4", "libOSMesa"), std::pair("5", "a.mp4")}) {
-    const std::string limited = std::string("(exec 3>&-; ulimit -n ") + most + "; ";
+    const std::string limited = std::string("(exec 3>&- 4>&- 5>&- 6>&- 7>&- 8>&- 9>&-; ulimit -n ") + most + "; ";
     EXPECT_EQ(under_shell(folder, limited + "exec $P render ball.toml --size 64x64 -j 1 -o a.mp4) 2>message").code, 3);
     EXPECT_THAT(contents(folder / "message"), HasSubstr(what));
     EXPECT_THAT(contents(folder / "message"), HasSubstr("Too many open files"));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/measure/impacts.h"
 #include "engine/measure/phases.h"
 #include "tests/engine/hand_made_runs.h"
 
@@ -293,7 +294,7 @@ Model car_with_a_track() {
 
 std::vector<Metric> rollover_of(const Model& model, const Recording& run) {
   std::vector<Metric> out;
-  measure_rollover(model, run, 0, out);
+  measure_rollover(model, run, impacts_of(model, run), 0, out);
   return out;
 }
 

@@ -57,8 +57,7 @@ TEST(Rollover, OfASedanTrippedAtSixtyRunsToRestWithoutGainingEnergy) {
   EXPECT_LT(unexplained, 2e-3 * initial);
 }
 
-/// What is quoted of it against the trajectory: the roll speed about its long axis adds up to the turns, the energy of the slide
-/// goes into the drag.
+/// What is quoted of it against the trajectory: the roll speed about its long axis adds up to the turns.
 TEST(Rollover, IsMeasuredAsTheTrajectoryShowsIt) {
   const scenes::Scene scene = scenes::load(kCasesFolder + "rollover.toml");
   const engine::Recording run = engine::simulate(scene.model);
@@ -81,8 +80,7 @@ TEST(Rollover, IsMeasuredAsTheTrajectoryShowsIt) {
   const double straight = (rest.bodies[0].X_WB.p - trip.bodies[0].X_WB.p).head<2>().norm();
   EXPECT_GE(value("roll_distance_m"), straight - 0.02);
   EXPECT_LT(value("roll_distance_m"), 1.3 * straight);
-  const double v = trip.bodies[0].V_WB.v.head<2>().norm();
-  EXPECT_NEAR(value("roll_drag_factor"), v * v / (2 * 9.81 * value("roll_distance_m")), 2e-3);
+  EXPECT_TRUE(std::isnan(value("roll_drag_factor"))) << "the kerb took most of its speed, which is no drag";
 }
 
 /// What rocks on its springs has no halt that its slowing would foretell: rest is the first instant from which it is slow.
