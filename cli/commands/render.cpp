@@ -1,6 +1,7 @@
 // crashreel render SCENE: simulate, then draw.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -84,6 +85,9 @@ int tell_estimates(const scenes::Scene& scene, const std::vector<View>& views, b
 
 Drawn draw_stills(const FilmPlan& plan, const render::Stage& stage, const engine::Recording& recording) {
   Drawn drawn;
+  if (std::any_of(plan.stills.begin(), plan.stills.end(), [&](double time) { return time > recording.end_time() + 5e-4; }))
+    fmt::print(stderr, "crashreel: warning: the run ends at {:.3f} s; a picture of a later time shows its end\n",
+               recording.end_time());
   for (const double time : plan.stills) {
     render::FilmJob job = plan.job;
     job.output = still_file(plan, time);

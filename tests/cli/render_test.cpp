@@ -83,6 +83,10 @@ TEST(Render, StillsAreNamedByTheirTimes) {
   ASSERT_EQ(run(folder, small({"render", "ball.toml", "-o", "stills/ball.png", "--at", "0.1s", "--at", "200 ms"})).code, 0);
   EXPECT_THAT(files_in(folder / "stills"), ElementsAre("ball_0.100s.png", "ball_0.200s.png"));
   EXPECT_THAT(contents(folder / "stills/ball_0.100s.png"), HasSubstr("PNG"));
+  const Result late = run(folder, small({"render", CRASHREEL_SOURCE_DIR "/scenes/gallery/puck_slide.toml", "--set",
+                                         "simulation.duration=30 s", "-o", "late.png", "--at", "29 s"}));
+  ASSERT_EQ(late.code, 0) << late.err;
+  EXPECT_THAT(late.err, testing::ContainsRegex("the run ends at 2.[0-9]+ s; a picture of a later time shows its end"));
   // an odd size is no matter for a PNG
   const Result odd =
       run(folder, {"render", "ball.toml", "-o", "one.png", "--at", "0.1", "--size", "161x91", "--quality", "draft", "--json"});
