@@ -179,6 +179,7 @@ void Triangles::draw(const View& view, const std::vector<Piece>& pieces, const P
     add(view, piece, {piece.geometry->indices.data() + part.first, part.count, facing, true}, prepare);
   }
   flush(prepare);
+  triangles_.emplace_back();  // the kernel loads eight numbers of the last one's six
 }
 
 void Triangles::draw_casters(const View& view, const std::vector<Piece>& pieces, double tolerance) {

@@ -38,7 +38,7 @@ class Triangles {
   /// What throws shadows, at the levels within `tolerance` [m]; not described.
   void draw_casters(const View&, const std::vector<Piece>&, double tolerance);
 
-  /// By number; 0 is nothing.
+  /// By number; 0 is nothing, and the last is room.
   const std::vector<shade::Triangle>& described() const { return triangles_; }
   shade::Corners corners() { return {records_.data(), places_.data()}; }
 
