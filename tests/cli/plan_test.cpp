@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -21,6 +22,20 @@ Result plan_of_ball(const Folder& folder, std::vector<std::string> more = {}) {
 }
 
 }  // namespace
+
+TEST(Plan, NamesEveryEffectWithItsReason) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  const Result result = run(folder, {"plan", "ball.toml", "--json"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  std::map<std::string, bool> active;
+  for (const Json& line : Json::parse(result.out)) {
+    active[line.at("effect")] = line.at("active");
+    EXPECT_FALSE(line.at("reason").get<std::string>().empty()) << line;
+  }
+  EXPECT_TRUE(active.at("gravity"));
+  EXPECT_GT(active.size(), 3U);
+}
 
 TEST(Plan, NamesTheCriterionOfEveryRow) {
   const Folder folder;

@@ -86,7 +86,7 @@ TEST(Render, StillsAreNamedByTheirTimes) {
   const Result late = run(folder, small({"render", CRASHREEL_SOURCE_DIR "/scenes/gallery/puck_slide.toml", "--set",
                                          "simulation.duration=30 s", "-o", "late.png", "--at", "29 s"}));
   ASSERT_EQ(late.code, 0) << late.err;
-  EXPECT_THAT(late.err, testing::ContainsRegex("the run ends at 2.[0-9]+ s; a picture of a later time shows its end"));
+  EXPECT_THAT(late.err, testing::ContainsRegex("the run ends at 2\\.[0-9]+ s; a picture of a later time shows its end"));
   // an odd size is no matter for a PNG
   const Result odd =
       run(folder, {"render", "ball.toml", "-o", "one.png", "--at", "0.1", "--size", "161x91", "--quality", "draft", "--json"});

@@ -43,6 +43,24 @@ Recording struck_along_y() {
   return run;
 }
 
+constexpr int kMount = 3;
+
+/// Person and car with a bicycle, which has its rider's number.
+Model rider_and_car() {
+  Model model = person_and_car();
+  model.bodies.emplace_back();
+  model.bodies[kMount].name = "bicycle";
+  model.bodies[kMount].person = 0;
+  model.bodies[kMount].vehicle = 1;
+  model.bodies[kMount].mass = 15;
+  Vehicle bicycle;
+  bicycle.name = "bicycle";
+  bicycle.body = kMount;
+  model.vehicles.push_back(bicycle);
+  model.persons[0].mount = kMount;
+  return model;
+}
+
 TEST(ThrowMetrics, DistancesAreThoseOfTheCentreOfMass) {
   const Model model = person_and_car();
   std::vector<Metric> out;
@@ -242,19 +260,10 @@ TEST(ThrowMetrics, WhoSlidesOffAStandingCarFallsLandsAndIsTouchedAgain) {
   EXPECT_NEAR(value_of(out, "airborne_m").value(), 2 * 0.1 + 2 * 0.3 - 0.045, 1e-9);
 }
 
-/// A rider whose mount is pushed over and who was touched by nobody else comes down with it: all of the way to the ground is a
-/// fall, from the blow to the mount on where that last bore him then.
+/// A rider whose mount is pushed over and whom nobody touches himself comes down with it: all of the way to the ground is flight,
+/// from the blow to the mount on.
 TEST(ThrowMetrics, WhoFallsOffAStruckMountHasNoContactOfItsOwn) {
-  Model model = person_and_car();
-  model.bodies.push_back(model.bodies[kCar]);
-  model.bodies[3].person = 0;
-  model.bodies[3].vehicle = 1;
-  model.bodies[3].mass = 15;
-  Vehicle bicycle;
-  bicycle.name = "bicycle";
-  bicycle.body = 3;
-  model.vehicles.push_back(bicycle);
-  model.persons[0].mount = 3;
+  const Model model = rider_and_car();
   Recording run;
   run.interval = 0.02;
   for (int i = 0; i <= 100; ++i) {  // at 1 m/s from 0.5 s to 1.5 s
@@ -303,17 +312,7 @@ TEST(ThrowMetrics, WhoIsRunOverIsToldByTheFirstWheelThatStandsOnIt) {
 }
 
 TEST(ThrowMetrics, RiderAndMountHaveEachTheirOwnRestAndThrow) {
-  Model model = person_and_car();
-  model.bodies.emplace_back();  // a mount, which has its rider's number
-  model.bodies[3].name = "bicycle";
-  model.bodies[3].person = 0;
-  model.bodies[3].vehicle = 1;
-  model.bodies[3].mass = 15;
-  Vehicle bicycle;
-  bicycle.name = "bicycle";
-  bicycle.body = 3;
-  model.vehicles.push_back(bicycle);
-  model.persons[0].mount = 3;
+  Model model = rider_and_car();
   Recording run = struck_along_y();
   for (std::size_t i = 0; i < run.snapshots.size(); ++i) {
     run.snapshots[i].bodies.own().emplace_back();
