@@ -47,14 +47,19 @@ TEST_P(Tower, OfTenBoxesStands) {
 TEST_P(Tower, ComesToRestSoThatItsImpulsesServeTheNextStep) {
   std::vector<Vec3> places;
   for (int i = 0; i < 10; ++i) places.emplace_back(0, 0, 0.1 + 0.2 * i);
-  const Recording run = simulate(boxes(places, 2, GetParam()));
-  // at any time: a tenth of the solver's tolerance of 1e-5 m/s, over a metre; it rocked at 5e-4 rad/s
-  for (const Snapshot& snapshot : run.snapshots)
-    for (const BodyState& body : snapshot.bodies)
-      if (snapshot.time > 0.5) {
-        ASSERT_LT(body.V_WB.w.norm(), 1e-6) << snapshot.time;
-      }
-  EXPECT_LT(run.diagnostics.contact_sweeps, 3 * run.steps / 2);
+  for (const double tolerance : {1e-5, 1e-6, 1e-7}) {
+    Model model = boxes(places, 2, GetParam());
+    model.settings.solver_tolerance = tolerance;
+    const Recording run = simulate(model);
+    double fastest = 0;  // [rad/s] at any time
+    for (const Snapshot& snapshot : run.snapshots)
+      for (const BodyState& body : snapshot.bodies)
+        if (snapshot.time > 0.5) fastest = std::max(fastest, body.V_WB.w.norm());
+    // nothing but what the solver leaves turns a box, in proportion to its tolerance [m/s]: a few hundredths of it over a metre.
+    // It rocked at 5e-4 rad/s
+    EXPECT_LT(fastest, 0.03 * tolerance);
+    EXPECT_LT(run.diagnostics.contact_sweeps, 3 * run.steps / 2);
+  }
 }
 
 /// It was 500 times dearer at 4 ms than at 1 ms, with boxes 71 mm in each other. Steps and tolerances of the four profiles.
