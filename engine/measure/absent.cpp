@@ -87,9 +87,14 @@ std::vector<AbsentMetric> absent_metrics(const Model& model, const Recording& re
   const std::vector<Impact> impacts = impacts_of(model, recording);
   for (const Vehicle& v : model.vehicles) {
     absent.note("rest_x_m", v.name, "still moving when the run ends");
-    const bool struck =
-        std::any_of(there.begin(), there.end(), [&](const Metric& m) { return m.key == "delta_v_mps" && m.object == v.name; });
-    if (!struck)
+    const auto has = [&](const char* key) {
+      return std::any_of(there.begin(), there.end(), [&](const Metric& m) { return m.key == key && m.object == v.name; });
+    };
+    if (has("quarter_turns"))
+      absent.note("roll_drag_factor", v.name,
+                  has("rest_x_m") ? "it struck a vehicle or an object as it rolled, and what that took is no drag"
+                                  : "still moving when the run ends");
+    if (!has("delta_v_mps"))
       absent.note("delta_v_mps", v.name, model.bodies[v.body].fixed ? "it is fixed" : "it touched no person, vehicle or object");
     else
       absent_at_worst(v, impacts, absent);

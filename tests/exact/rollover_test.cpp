@@ -81,6 +81,8 @@ TEST(Rollover, IsMeasuredAsTheTrajectoryShowsIt) {
   EXPECT_GE(value("roll_distance_m"), straight - 0.02);
   EXPECT_LT(value("roll_distance_m"), 1.3 * straight);
   EXPECT_TRUE(std::isnan(value("roll_drag_factor"))) << "the kerb took most of its speed, which is no drag";
+  const std::vector<engine::AbsentMetric> absent = engine::absent_metrics(scene.model, run, engine::measure(scene.model, run));
+  EXPECT_TRUE(std::any_of(absent.begin(), absent.end(), [](const auto& a) { return a.key == "roll_drag_factor"; }));
 }
 
 /// What rocks on its springs has no halt that its slowing would foretell: rest is the first instant from which it is slow.
