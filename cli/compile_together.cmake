@@ -24,8 +24,11 @@ function(compile_together target)
     endif()
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # a source that is included looks like a header, whose classes had better hold nothing of an unnamed namespace
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    # a source that is included looks like a header, whose classes had better hold nothing of an unnamed namespace
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  else()
+    # a local name is no mistake because another source has a constant of that name; g++ knows them apart and goes on warning
+    target_compile_options(${target} PRIVATE -Wno-shadow)
   endif()
 endfunction()
