@@ -16,7 +16,7 @@ namespace hard_cases {
 namespace {
 
 constexpr int kGroups = 8;
-constexpr int kInGroup = 4;
+constexpr int kInGroup = 2;
 
 /// How far [m] anything stands in anything at a snapshot: of one vehicle in another, whose sheets would crumple there, or of the
 /// rest.
