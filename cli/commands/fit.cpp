@@ -119,7 +119,8 @@ int run(const FitWish& wish) {
         "effective runs "
         "in the middle\n",
         c.key, c.cases, c.inside_90, c.chi_squared, c.median_effective);
-  fmt::print("{}: posterior.csv, fit.json, best.toml, fit.pdf, fit.svg, fit.png\n", wish.folder);
+  fmt::print("{}: posterior.csv, fit.json, best.toml, fit.pdf, fit.svg, fit.png; finished runs in {}\n", wish.folder,
+             (folder / "runs").string());
   return kDone;
 }
 

@@ -57,6 +57,25 @@ int run_part(const scenes::Scene& scene, const SampleWish& wish, const Part& par
   return kDone;
 }
 
+/// A key none of whose values the scene takes is a slip, refused before the work; single ones may be rows with their reason.
+void refuse_slips(const scenes::Scene& scene, const std::vector<inference::GridAxis>& grid) {
+  for (const inference::GridAxis& axis : grid) {
+    std::string problem;
+    for (const std::string& value : axis.values) {
+      std::vector<std::string> overrides = scene.overrides;
+      overrides.push_back(axis.key + "=" + value);
+      try {
+        scenes::load(scene.file, overrides);
+        problem.clear();
+        break;
+      } catch (const scenes::SceneErrors& errors) {
+        if (problem.empty()) problem = errors.findings.front().what;
+      }
+    }
+    if (!problem.empty()) throw UsageError(fmt::format("--grid {}={}: {}", axis.key, axis.values.front(), problem));
+  }
+}
+
 int run(const SampleWish& wish) {
   const scenes::Scene scene = load_scene(wish.scene);
   plan_of(scene);  // refuses effects that do not exist
@@ -71,6 +90,7 @@ int run(const SampleWish& wish) {
   const int seed = parse_integer("--seed", wish.seed, 0, 1'000'000'000);
   const int jobs = wish.jobs.empty() ? study::available_cores() : parse_integer("--jobs", wish.jobs, 1, 1024);
   const Part part = part_of(wish.part);
+  refuse_slips(scene, grid);
   const std::filesystem::path folder = wish.folder;
   make_writable_folder(folder);
   if (part.of == 1)
@@ -98,8 +118,8 @@ int run(const SampleWish& wish) {
   if (wish.scene.json)
     fmt::print("{}\n", json.dump(2));
   else
-    fmt::print("{}{}: runs.csv, sample.json, sample.pdf, sample.svg, sample.png{}\n", inference::sample_text(scene, prior, sample),
-               wish.folder, rests);
+    fmt::print("{}{}: runs.csv, sample.json, sample.pdf, sample.svg, sample.png{}; finished runs in {}\n",
+               inference::sample_text(scene, prior, sample), wish.folder, rests, (folder / "runs").string());
   return kDone;
 }
 

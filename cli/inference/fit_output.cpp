@@ -83,9 +83,12 @@ std::string range_in_words(double low, double high, const scenes::WrittenUnit& u
 }
 
 std::string answer_in_words(const scenes::Uncertain& u, std::size_t i, const Fit& fit) {
+  constexpr double kNarrower = 0.9;  // of the range beforehand: what is wider was assumed rather than found
   const Interval& v = fit.inputs[i];
-  return fmt::format("{} {} (95 %), most probably near {}", u.key, range_in_words(v.low, v.high, u.unit),
-                     told(v.median, u.unit, (v.high - v.low) / 4));
+  const bool found = v.high - v.low < kNarrower * (quantile(u, 0.975) - quantile(u, 0.025));
+  return fmt::format("{} {} (95 %), as probably above as below {}{}", u.key, range_in_words(v.low, v.high, u.unit),
+                     told(v.median, u.unit, (v.high - v.low) / 4),
+                     found ? "" : "; so it was assumed, the evidence hardly narrows it");
 }
 
 void add_modes(const Prior& prior, const Fit& fit, std::vector<std::string>& out) {
@@ -99,6 +102,12 @@ void add_modes(const Prior& prior, const Fit& fit, std::vector<std::string>& out
   }
 }
 
+/// "11.7 m (10.2 to 13.4)", with the digits the width allows; of a measure that hardly varies, three.
+std::string middle_and_range(const Interval& v, const scenes::WrittenUnit& unit) {
+  const double fine = std::max((v.high - v.low) / 8, 1e-2 * std::abs(v.median));
+  return fmt::format("{} ({} to {})", told(v.median, unit, fine), told(v.low, {}, fine), told(v.high, {}, fine));
+}
+
 void add_but_for(const std::vector<ButFor>& all, std::vector<std::string>& out) {
   for (const ButFor& b : all) {
     std::string line = fmt::format("With {}: ", b.change);
@@ -110,12 +119,9 @@ void add_but_for(const std::vector<ButFor>& all, std::vector<std::string>& out) 
       line += fmt::format("the contact would not have occurred in {:.0f} % ({:.0f} to {:.0f}) of {} equally probable runs",
                           100 * b.avoided, 100 * b.low, 100 * b.high, b.met_before);
     for (const ButFor::Severity& s : b.severities) {
-      const std::string unit = study::unit_of(s.name);
-      if (std::isfinite(s.before.median))
-        line += fmt::format("; {} {:.3g} {} ({:.3g} to {:.3g})", study::words_of(s.name), s.before.median, unit, s.before.low,
-                            s.before.high);
-      if (std::isfinite(s.after.median))
-        line += fmt::format(" would be {:.3g} {} ({:.3g} to {:.3g})", s.after.median, unit, s.after.low, s.after.high);
+      const scenes::WrittenUnit unit{study::unit_of(s.name), 1};
+      if (std::isfinite(s.before.median)) line += fmt::format("; {} {}", study::words_of(s.name), middle_and_range(s.before, unit));
+      if (std::isfinite(s.after.median)) line += fmt::format(" would be {}", middle_and_range(s.after, unit));
     }
     if (b.failed > 0) line += fmt::format("; {} runs gave no answer", b.failed);
     out.push_back(line + ".");
@@ -140,9 +146,9 @@ std::vector<std::string> sentences(const scenes::Scene& scene, const Prior& prio
   for (const auto& u : prior.inputs()) assumed += fmt::format("{}{} {}", assumed.empty() ? "" : "; ", u.key, in_words(u));
   for (const auto& e : scene.inference.evidence) seen += fmt::format("{}{}", seen.empty() ? "" : ", ", e.name);
   out.push_back(
-      fmt::format("Assumed: the model as the scene has it; evidence {} independent, errors normal with its tolerance as standard "
-                  "deviation; beforehand {}.",
-                  seen, assumed));
+      fmt::format("Assumed: the model as the scene has it; evidence {}{}, errors normal with its tolerance as standard deviation; "
+                  "beforehand {}.",
+                  seen, scene.inference.evidence.size() > 1 ? " independent" : "", assumed));
   int failed = 0;
   for (const auto& [reason, count] : fit.failures) failed += count;
   out.push_back(fmt::format("{} runs, of which {:.0f} effective; {} gave no answer and count as not explaining the evidence{}.",

@@ -25,9 +25,9 @@ charts::Chart density_chart(const scenes::Uncertain& u, std::size_t i, const Fit
   charts::Chart chart;
   chart.title = u.key;
   chart.x_label = u.unit.name.empty() ? "value" : u.unit.name;
-  chart.y_label = "how probable, before and after";
+  chart.y_label = fmt::format("probability {}, before and after", u.unit.name.empty() ? "density" : "per " + u.unit.name);
   const double low = quantile(u, 0.001), high = quantile(u, 0.999), f = u.unit.factor;
-  charts::Band after{"after the evidence", {}};
+  charts::Band after{"after", {}};
   const Density d = density_of(fit.values[i], fit.posterior, low, high, kPoints);
   for (int k = 0; k < kPoints; ++k) after.points.push_back({d.x[k] / f, 0, 0, d.y[k] * f});
   charts::Line before{"before", {}, true, false, 0};
@@ -43,10 +43,9 @@ charts::Chart density_chart(const scenes::Uncertain& u, std::size_t i, const Fit
 charts::Chart choice_chart(const scenes::Uncertain& u, std::size_t i, const Fit& fit) {
   charts::Chart chart;
   chart.title = u.key;
-  chart.x_label = fmt::format("1: {}", u.choices.front());
-  for (std::size_t c = 1; c < u.choices.size(); ++c) chart.x_label += fmt::format(", {}: {}", c + 1, u.choices[c]);
+  chart.names = u.choices;
   chart.y_label = "probability before and after";
-  charts::Line before{"before", {}, false, false}, after{"after the evidence", {}, false, true};
+  charts::Line before{"before", {}, false, false}, after{"after", {}, false, true};
   for (std::size_t c = 0; c < u.choices.size(); ++c) {
     double share = 0;
     for (std::size_t r = 0; r < fit.values[i].size(); ++r)
@@ -79,26 +78,25 @@ charts::Chart joint_chart(const Prior& prior, const Fit& fit) {
   return chart;
 }
 
-/// Every piece of evidence in tolerances: where all runs that explain the whole have it.
+/// Every piece of evidence in tolerances, a place by its components: where all runs that explain the whole have it.
 charts::Chart residuals(const scenes::Scene& scene, const Fit& fit) {
   charts::Chart chart;
-  chart.title = "Residual of each piece of evidence (95 %)";
-  chart.y_label = "run less evidence, in tolerances";
+  chart.title = "Residuals of the evidence";
+  chart.y_label = "run less evidence, in tolerances: 95 % range";
   charts::Line line{"", {}, false, true};
-  double x = 0;
   for (std::size_t e = 0; e < fit.checks.size(); ++e) {
     const scenes::Evidence& seen = scene.inference.evidence[e];
-    chart.x_label += fmt::format("{}{}: {}", e == 0 ? "" : ", ", e + 1, seen.name);
-    ++x;
-    for (std::size_t k = 0; k < fit.checks[e].predicted.size(); ++k) {
-      const Interval& p = fit.checks[e].predicted[k];
+    const std::vector<Interval>& predicted = fit.checks[e].predicted;
+    for (std::size_t k = 0; k < predicted.size(); ++k) {
+      const Interval& p = predicted[k];
+      chart.names.push_back(predicted.size() == 1 ? seen.name : fmt::format("{} {}", seen.name, "xyz"[k]));
       if (!std::isfinite(p.mean)) continue;
       const auto off = [&](double v) { return (v - seen.value[k]) / seen.tolerance; };
-      line.points.push_back({x + 0.12 * static_cast<double>(k), off(p.median), off(p.low), off(p.high)});
+      line.points.push_back({static_cast<double>(chart.names.size()), off(p.median), off(p.low), off(p.high)});
     }
   }
   chart.lines.push_back(std::move(line));
-  chart.levels.push_back({0, 0, "as seen"});
+  chart.levels.push_back({0, 0, ""});
   return chart;
 }
 
@@ -113,7 +111,7 @@ charts::Bars leave_one_out(const Prior& prior, const Fit& fit, std::size_t main)
   charts::Bars bars;
   const scenes::Uncertain& u = prior.inputs()[main];
   bars.title = fmt::format("Which piece carries the answer: {} without it", u.key);
-  bars.parts = {"its 95 % range grows by", "without it"};
+  bars.parts = {"its 95 % range grows to", "without it"};
   const double width = fit.inputs[main].high - fit.inputs[main].low;
   for (const Check& c : fit.checks) {
     const Interval& r = c.removed[main];
@@ -129,7 +127,7 @@ charts::Bars leave_one_out(const Prior& prior, const Fit& fit, std::size_t main)
 charts::Table evidence_table(const scenes::Scene& scene, const Fit& fit) {
   charts::Table table;
   table.title =
-      "Evidence against what all runs that explain the whole have; p: how probable something as far off is by the others alone";
+      "Evidence against what all runs that explain the whole have; p: how probable something as far off is without that piece";
   table.head = {"evidence", "seen", "tolerance", "runs have (95 %)", "p", ""};
   for (std::size_t e = 0; e < fit.checks.size(); ++e) {
     const scenes::Evidence& seen = scene.inference.evidence[e];

@@ -86,6 +86,14 @@ charts::Chart answer_against_step(const Study& study, const Judgement& j) {
   return chart;
 }
 
+/// A measure that runs at an end of a range do not have, as no flight, has no share of it: that is not nought.
+std::string input_share(const Study& study, const std::string& quantity, const std::string& unit) {
+  if (study.inputs.empty()) return "not given";
+  const bool everywhere = std::all_of(study.inputs.begin(), study.inputs.end(),
+                                      [&quantity](const auto& input) { return input.half_width.contains(quantity); });
+  return everywhere ? with_unit(study.input_uncertainty(quantity), unit) : "not at each end";
+}
+
 /// Each quantity's share is told relative to its value, so that metres and seconds stand in one picture. More than all of it, as of
 /// a time that is nearly zero, would leave no room for the others.
 charts::Bars uncertainty_bars(const Study& study) {
@@ -109,8 +117,7 @@ charts::Bars uncertainty_bars(const Study& study) {
     const std::string unit = unit_of(j.quantity);
     bars.rows.push_back({words_of(j.quantity),
                          {a->uncertainty / size, sensitivity / size, input / size},
-                         {with_unit(a->uncertainty, unit), with_unit(sensitivity, unit),
-                          study.inputs.empty() ? "not given" : with_unit(input, unit)}});
+                         {with_unit(a->uncertainty, unit), with_unit(sensitivity, unit), input_share(study, j.quantity, unit)}});
   }
   return bars;
 }

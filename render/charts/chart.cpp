@@ -1,8 +1,11 @@
 #include "render/charts/chart.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace render::charts {
 namespace {
@@ -61,8 +64,24 @@ void span(const Chart& chart, Axis& x, Axis& y) {
   for (const Mark& level : chart.levels) y.take(level.y);
 }
 
+/// What stands below the ticks: the label of the axis, or what its numbers stand for.
+std::string key_of(const Chart& chart) {
+  std::string out = chart.names.empty() ? chart.x_label : "";
+  for (std::size_t i = 0; i < chart.names.size(); ++i) out += fmt::format("{}{}: {}", i == 0 ? "" : ", ", i + 1, chart.names[i]);
+  return out;
+}
+
+std::vector<double> ticks_across(const Chart& chart, const Axis& x) {
+  if (chart.names.empty()) return ticks(x.low, x.high, 6, x.log);
+  std::vector<double> out(chart.names.size());
+  std::iota(out.begin(), out.end(), 1.0);
+  return out;
+}
+
 void draw_axes(const Pen& pen, const Chart& chart, const Box& plot, const Axis& x, const Axis& y) {
-  const std::vector<double> across = ticks(x.low, x.high, 6, x.log), up = ticks(y.low, y.high, 5, y.log);
+  constexpr double kLeast = 1.7 * kTextSize;  // between ticks one above the other, so that their figures stay apart
+  const std::vector<double> across = ticks_across(chart, x);
+  const std::vector<double> up = ticks(y.low, y.high, std::clamp(static_cast<int>(plot.height / kLeast), 1, 5), y.log);
   const auto spacing = [](const std::vector<double>& at, bool log) { return log || at.size() < 2 ? 0 : at[1] - at[0]; };
   for (const double t : across) {
     pen.black(0.13);
@@ -79,7 +98,8 @@ void draw_axes(const Pen& pen, const Chart& chart, const Box& plot, const Axis& 
   }
   pen.black();
   pen.frame(plot, 0.7);
-  pen.text(chart.x_label, plot.x + plot.width / 2, plot.bottom() + 13, kTextSize, Align::centre);
+  pen.text(key_of(chart), plot.x + plot.width / 2, plot.bottom() + 13, kTextSize, Align::centre, false,
+           chart.names.empty() ? 0 : plot.width);
 }
 
 void draw_top_scale(const Pen& pen, const Chart& chart, const Box& plot, const Axis& x) {
@@ -181,9 +201,15 @@ void draw_chart(const Pen& pen, const Chart& chart, const Box& box) {
     pen.text(chart.empty, plot.x + plot.width / 2, plot.y + plot.height / 2, kTextSize, Align::centre);
     return;
   }
-  const double below = 26 + legend(pen, chart, plot.x, plot.width, -1);
+  const double key = chart.names.empty() ? 0
+                                         : pen.measure(key_of(chart), kTextSize, false, plot.width).height -
+                                               pen.measure("1", kTextSize).height;  // beyond its first line
+  const double below = 26 + key + legend(pen, chart, plot.x, plot.width, -1);
   plot.height = box.bottom() - below - plot.y;
-  x.widen();
+  if (chart.names.empty())
+    x.widen();
+  else
+    x.low = 0.5, x.high = static_cast<double>(chart.names.size()) + 0.5;
   y.widen();
   x.from = plot.x;
   x.to = plot.right();
@@ -218,7 +244,7 @@ void draw_chart(const Pen& pen, const Chart& chart, const Box& box) {
     pen.text(mark.text, place.x, place.y, kTextSize, Align::left, true);
   }
   cairo_restore(pen.cairo());
-  legend(pen, chart, plot.x, plot.width, plot.bottom() + 25);
+  legend(pen, chart, plot.x, plot.width, plot.bottom() + 25 + key);
 }
 
 void draw_bars(const Pen& pen, const Bars& bars, const Box& box) {

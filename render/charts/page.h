@@ -41,6 +41,7 @@ struct Chart {
   std::vector<Mark> levels;         // horizontal lines at y with a word; x is not used
   std::string top_label;            // of a second scale along the upper edge
   std::vector<Mark> top;            // its ticks at x; y is not used
+  std::vector<std::string> names;   // of x = 1, 2, ...: the only ticks, with a key below in place of x_label
   std::string empty = "no values";  // shown when there is nothing to draw
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/measure/definitions.h"
 #include "scenes/loader/metric_unit.h"
 #include "scenes/loader/uncertain.h"
 
@@ -40,24 +41,50 @@ void check_name(const Builder& builder, Reader& r, const char* key, const std::s
   r.fail(key, fmt::format("is nobody and nothing of the scene{}", near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
 }
 
-/// value and tolerance of one dimension, which is found from what was written.
+/// Of a measure by its key, as summary.json has it.
+const MetricUnit& measure_unit(std::string_view key) {
+  return *std::find_if(std::begin(kMetricUnits), std::end(kMetricUnits),
+                       [key](const MetricUnit& unit) { return key.ends_with(unit.suffix); });
+}
+
+void refuse_unknown_measure(Reader& r, const std::string& metric) {
+  std::vector<std::string> known(std::begin(kSpecial) + 1, std::end(kSpecial));
+  for (const engine::Definition& d : engine::definitions()) {
+    known.emplace_back(d.key);
+    known.back().resize(known.back().size() - measure_unit(d.key).suffix.size());
+  }
+  const std::string near = nearest(metric, known);
+  r.fail("metric", fmt::format("is no measure{}; `crashreel explain all` lists them",
+                               near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+}
+
+/// value and tolerance in the unit of the measure; without one the name may mean two: a landing has a place and a time.
 void read_measure(Reader& r, Evidence& out) {
   const Value *value = r.value().find("value"), *tolerance = r.value().find("tolerance");
-  std::string problem = "must be a value with a unit, and the tolerance with the same kind of unit";
-  for (const MetricUnit& unit : kMetricUnits) {
+  const char* wrong = nullptr;
+  std::string problem;
+  for (const engine::Definition& d : engine::definitions()) {
+    const MetricUnit& unit = measure_unit(d.key);
+    if (out.metric != d.key && out.metric + std::string(unit.suffix) != d.key) continue;
     const ReadValues v = read_values(*value, unit.dimension), t = read_values(*tolerance, unit.dimension);
-    const bool bare = tolerance->is_number() || (tolerance->kind == Value::Kind::text &&
-                                                 tolerance->text.find_first_not_of("0123456789.eE+- ") == std::string::npos);
-    if (bare != (unit.dimension == Dimension::none) || !v.problem.empty() || !t.problem.empty()) continue;
-    if (v.numbers.size() != 1 || t.numbers.size() != 1) problem = "must be one value";
-    if (v.numbers.size() != 1 || t.numbers.size() != 1) break;
-    if (!out.metric.ends_with(unit.suffix)) out.metric += unit.suffix;
-    out.value = {v.numbers[0] * unit.per_si};
-    out.tolerance = t.numbers[0] * unit.per_si;
-    out.unit = {v.unit.name, v.unit.factor * unit.per_si};
-    return;
+    if (v.problem.empty() && t.problem.empty() && v.numbers.size() == 1 && t.numbers.size() == 1) {
+      out.metric = d.key;
+      out.value = {v.numbers[0] * unit.per_si};
+      out.tolerance = t.numbers[0] * unit.per_si;
+      out.unit = {v.unit.name, v.unit.factor * unit.per_si};
+      return;
+    }
+    if (wrong) continue;
+    const bool by_value = !v.problem.empty() || v.numbers.size() != 1;
+    wrong = by_value ? "value" : "tolerance";
+    problem = by_value ? v.problem : t.problem;
+    // told as of any single value: a comma in it is that of a decimal
+    const Value& bad = by_value ? *value : *tolerance;
+    if (!problem.empty() && bad.kind == Value::Kind::text)
+      if (const Quantity single = parse_quantity(bad.text, unit.dimension); !single.problem.empty()) problem = single.problem;
   }
-  r.fail("value", problem);
+  if (!wrong) return refuse_unknown_measure(r, out.metric);
+  r.fail(wrong, problem.empty() ? "must be one value" : problem);
 }
 
 void read_quantities(Reader& r, Evidence& out, Dimension dimension, std::size_t least, std::size_t most) {

@@ -130,9 +130,10 @@ std::string similar_file(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   if (!std::filesystem::is_directory(folder, problem)) return fmt::format("; there is no folder {} either", folder.string());
   for (const auto& entry : std::filesystem::directory_iterator(folder, problem))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().filename().string());
-  const std::string near = nearest(file.filename().string(), names);
-  return near.empty() ? "" : fmt::format("; did you mean {}?", file.has_parent_path() ? (folder / near).string() : near);
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  // names of one or two letters are near to everything
+  const std::string stem = file.stem().string(), near = stem.size() < 3 ? "" : nearest(stem, names);
+  return near.empty() ? "" : fmt::format("; did you mean {}?", (file.parent_path() / (near + ".toml")).string());
 }
 
 }  // namespace

@@ -14,6 +14,8 @@
 namespace scenes {
 namespace {
 
+constexpr const char* kTwoValues = "must be two values, the lower one first, as in \"20 60 km/h\"";
+
 const Key kCorrelationKeys[] = {
     {"*", Type::number, Dimension::none, "", "The other key in quotes, and the correlation of the two (of their normal scores).",
      between(-1, 1)},
@@ -79,8 +81,7 @@ struct UncertainReader {
   }
 
   void read_uniform() {
-    if (read_numbers("uniform", 2, "must be two values, the lower one first") && !(out.numbers[0] < out.numbers[1]))
-      r.fail("uniform", "must be two values, the lower one first");
+    if (read_numbers("uniform", 2, kTwoValues) && !(out.numbers[0] < out.numbers[1])) r.fail("uniform", kTwoValues);
   }
   void read_normal() {
     if (read_numbers("normal", 2, "must be a mean and a standard deviation") && !(out.numbers[1] > 0))
@@ -137,8 +138,7 @@ struct UncertainReader {
       return r.fail("within", "is for normal and log_normal; the others have ends of their own");
     const ReadValues read = read_values(*r.value().find("within"), dimension);
     if (!read.problem.empty()) return r.fail("within", read.problem);
-    if (read.numbers.size() != 2 || !(read.numbers[0] < read.numbers[1]))
-      return r.fail("within", "must be two values, the lower one first");
+    if (read.numbers.size() != 2 || !(read.numbers[0] < read.numbers[1])) return r.fail("within", kTwoValues);
     out.lower = read.numbers[0];
     out.upper = read.numbers[1];
   }

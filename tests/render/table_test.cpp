@@ -11,16 +11,21 @@ namespace {
 
 constexpr Box kPlace{100, 50, 390, 160};  // [pt] the lower right of a page beside bars
 
-/// Where the ink of a table lies.
-Box ink_of(const Table& table) {
+/// Where the ink of what is drawn lies.
+template <typename Draw>
+Box ink_of_drawing(const Draw& draw) {
   cairo_surface_t* surface = cairo_recording_surface_create(CAIRO_CONTENT_COLOR_ALPHA, nullptr);
   cairo_t* c = cairo_create(surface);
-  draw_table(Pen(c), table, kPlace);
+  draw(Pen(c));
   Box out;
   cairo_recording_surface_ink_extents(surface, &out.x, &out.y, &out.width, &out.height);
   cairo_destroy(c);
   cairo_surface_destroy(surface);
   return out;
+}
+
+Box ink_of(const Table& table) {
+  return ink_of_drawing([&table](const Pen& pen) { draw_table(pen, table, kPlace); });
 }
 
 Table table_of(const std::string& name, const std::string& value, int rows) {
@@ -48,6 +53,22 @@ TEST(Table, KeepsItsSizeForRowsThatAreShown) {
   EXPECT_EQ(after.bottom(), full.bottom());
   EXPECT_GT(full.bottom(), before.bottom());
   EXPECT_LE(full.bottom(), kPlace.bottom() + 1);
+}
+
+TEST(Chart, TheKeyOfNamedTicksStaysInItsPlace) {
+  const Box place{100, 50, 178, 126};  // [pt] one of four charts side by side in two rows
+  Chart chart;
+  chart.title = "Residuals of the evidence";
+  chart.y_label = "run less evidence, in tolerances: 95 % range";
+  chart.lines.push_back({"", {}, false, true});
+  for (int i = 1; i <= 7; ++i) {
+    chart.names.push_back("rest place of the second car");
+    chart.lines.front().points.push_back({static_cast<double>(i), 0, -2, 2});
+    const Box ink = ink_of_drawing([&](const Pen& pen) { draw_chart(pen, chart, place); });
+    EXPECT_GE(ink.x, place.x - 1) << i;
+    EXPECT_LE(ink.right(), place.right() + 1) << i;
+    EXPECT_LE(ink.bottom(), place.bottom() + 1) << i;
+  }
 }
 
 TEST(Page, ChartsHaveTheRoomThatLittleBelowLeaves) {

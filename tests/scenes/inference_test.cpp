@@ -10,6 +10,7 @@ namespace scenes {
 namespace {
 
 using scenes::testing::folder;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -80,6 +81,8 @@ TEST(Uncertain, SaysWhatIsWrong) {
   EXPECT_THAT(errors("key = \"body.puck.masss\"\nuniform = \"1 2 kg\"\n"), ElementsAre(HasSubstr("did you mean \"mass\"?")));
   EXPECT_THAT(errors("key = \"body.puck.mass\"\nuniform = \"1 2 kg\"\nnormal = \"1 0.1 kg\"\n"),
               ElementsAre(HasSubstr("give one of them")));
+  EXPECT_THAT(errors("key = \"body.puck.mass\"\nuniform = \"1-2 kg\"\n"),
+              ElementsAre(HasSubstr("must be two values, the lower one first, as in \"20 60 km/h\"")));
   EXPECT_THAT(errors("key = \"body.puck.mass\"\nuniform = \"1 2 m\"\n"), ElementsAre(HasSubstr("must end in a unit of mass")));
   EXPECT_THAT(errors("key = \"body.puck.mass\"\n"), ElementsAre(HasSubstr("says nothing of body.puck.mass; give one of uniform")));
 }
@@ -117,10 +120,12 @@ TEST(Evidence, IsReadInTheUnitOfItsMeasure) {
       "[[evidence]]\nname = \"slide\"\nmetric = \"travel\"\nof = \"puck\"\nvalue = \"20 ft\"\ntolerance = \"1 ft\"\n"
       "[[evidence]]\nname = \"turned\"\nmetric = \"turned\"\nvalue = \"90 deg\"\ntolerance = \"5 deg\"\n"
       "[[evidence]]\nname = \"scuff\"\nmark = [\"0 0 m\", \"3 1 m\"]\nof = \"puck\"\ntolerance = \"0.2 m\"\n"
-      "[[evidence]]\nname = \"rest\"\nmetric = \"rest_place\"\nof = \"puck\"\nvalue = \"3 1 m\"\ntolerance = \"20 cm\"\n" +
+      "[[evidence]]\nname = \"rest\"\nmetric = \"rest_place\"\nof = \"puck\"\nvalue = \"3 1 m\"\ntolerance = \"20 cm\"\n"
+      "[[evidence]]\nname = \"down\"\nmetric = \"landing\"\nvalue = \"1.2 s\"\ntolerance = \"50 ms\"\n"
+      "[[evidence]]\nname = \"how far\"\nmetric = \"landing\"\nvalue = \"3 m\"\ntolerance = \"50 cm\"\n" +
       kPuck);
   const auto& all = scene.inference.evidence;
-  ASSERT_EQ(all.size(), 4u);
+  ASSERT_EQ(all.size(), 6u);
   EXPECT_EQ(all[0].metric, "travel_m");
   EXPECT_DOUBLE_EQ(all[0].value[0], 6.096);
   EXPECT_EQ(all[1].metric, "turned_deg");
@@ -128,6 +133,8 @@ TEST(Evidence, IsReadInTheUnitOfItsMeasure) {
   EXPECT_EQ(all[2].mark.size(), 2u);
   EXPECT_EQ(all[3].seen, Seen::rest_place);
   EXPECT_DOUBLE_EQ(all[3].tolerance, 0.2);
+  EXPECT_EQ(all[4].metric, "landing_s");
+  EXPECT_EQ(all[5].metric, "landing_m");
 }
 
 TEST(Evidence, SaysWhatIsWrong) {
@@ -137,7 +144,14 @@ TEST(Evidence, SaysWhatIsWrong) {
   EXPECT_THAT(errors("metric = \"travel\"\nvalue = \"2 m\"\ntolerance = \"0 m\"\n"),
               ElementsAre(HasSubstr("nothing is measured without error")));
   EXPECT_THAT(errors("metric = \"travel\"\nvalue = \"2 m\"\ntolerance = \"1 s\"\n"),
-              ElementsAre(HasSubstr("the same kind of unit")));
+              ElementsAre(AllOf(HasSubstr("evidence.x.tolerance is \"1 s\": must "), HasSubstr("length"))));
+  EXPECT_THAT(errors("metric = \"travel\"\nvalue = \"2 m\"\ntolerance = 0.5\n"),
+              ElementsAre(AllOf(HasSubstr(":5:13: evidence.x.tolerance"), HasSubstr("\"0.5 m\""))));
+  EXPECT_THAT(errors("metric = \"travel\"\nvalue = \"5,8 m\"\ntolerance = \"1 m\"\n"),
+              ElementsAre(AllOf(HasSubstr(":4:9: evidence.x.value is \"5,8 m\": "), HasSubstr("write \"5.8 m\""))));
+  EXPECT_THAT(errors("metric = \"travl\"\nvalue = \"2 m\"\ntolerance = \"1 m\"\n"),
+              ElementsAre("case.toml:3:10: evidence.x.metric is \"travl\": is no measure; did you mean \"travel\"?; "
+                          "`crashreel explain all` lists them"));
   EXPECT_THAT(errors("metric = \"travel\"\nvalue = \"2 m\"\n"),
               ElementsAre(HasSubstr("evidence.x.tolerance is missing; [[evidence]] needs it")));
   EXPECT_THAT(errors("of = \"puk\"\nmetric = \"travel\"\nvalue = \"2 m\"\ntolerance = \"1 m\"\n"),

@@ -158,7 +158,7 @@ TEST(Fit, SaysWhatIsMissing) {
   EXPECT_THAT(fit(folder, kGallery + "sample_puck.toml").err, HasSubstr("there is no evidence; add [[evidence]]"));
   const Result unknown = fit(folder, kGallery + "fit_puck.toml", {"-n", "16", "--set", "evidence.0.metric=travl"});
   EXPECT_EQ(unknown.code, 2);
-  EXPECT_THAT(unknown.err, HasSubstr("did you mean travel_m?"));
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean \"travel\"?"));
 }
 
 TEST(Fit, SaysWhatCannotBe) {

@@ -58,7 +58,7 @@ TEST(Sample, DrawsWhereRunsEnd) {
   const Folder folder;
   const Result result = run(folder, {"sample", kPuck, "-o", "out", "-n", "32", "--quiet"});
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("rest_cloud.pdf, rest_cloud.svg, rest_ghosts.png"));
+  EXPECT_THAT(result.out, HasSubstr("rest_cloud.pdf, rest_cloud.svg, rest_ghosts.png; finished runs in out/runs\n"));
   EXPECT_GT(contents(folder / "out/rest_cloud.svg").size(), 5000u);
   EXPECT_THAT(contents(folder / "out/rest_ghosts.png"), testing::StartsWith("\x89PNG"));
 }
@@ -110,6 +110,22 @@ TEST(Fit, AKnownTruthLiesInTheInterval) {
   EXPECT_GE(all["inputs"]["variables.friction"]["p97_5"].get<double>(), 0.42);
   // the landing alone tells the speed to its tolerance over the time of flight, 0.1 m in 0.7 s: 4 sd of that, and no wider
   EXPECT_LT(all["inputs"]["variables.speed"]["p97_5"].get<double>() - all["inputs"]["variables.speed"]["p2_5"].get<double>(), 0.57);
+}
+
+TEST(Fit, WhatTheEvidenceSaysNothingOfIsToldAsAssumed) {
+  const Folder folder;
+  std::string scene = contents(std::string(CRASHREEL_SOURCE_DIR) + "/scenes/gallery/fit_thrown_body.toml");
+  const std::string friction = "\nfriction = 0.4\n";
+  ASSERT_NE(scene.find(friction), std::string::npos);
+  scene.insert(scene.find(friction) + friction.size(), "idle = \"1 m\"\n");
+  folder.write("idle.toml", scene + "\n[[uncertain]]\nkey = \"variables.idle\"\nuniform = \"1 2 m\"\n");
+  const Result result = run(folder, {"fit", "idle.toml", "-o", "out", "-n", "800", "--quiet"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("variables.idle 1.0 to 2.0 m (95 %), as probably above as below 1.5 m; so it was assumed, the "
+                                    "evidence hardly narrows it.\n"));
+  // half and a tenth as wide as beforehand
+  EXPECT_THAT(result.out, testing::ContainsRegex("variables\\.friction [^\n]* as below 0\\.4[0-9]\\.\n"));
+  EXPECT_THAT(result.out, testing::ContainsRegex("variables\\.speed [^\n]* as below 6\\.5 m/s\\.\n"));
 }
 
 }  // namespace

@@ -138,6 +138,11 @@ TEST(Sample, RefusesWhatCannotBe) {
   EXPECT_EQ(nothing.code, 2);
   EXPECT_THAT(nothing.err, HasSubstr("nothing is uncertain; add [[uncertain]]"));
   EXPECT_EQ(sample(folder, "out", {"--grid", "speed"}).code, 2);
+  // not one run of the grid could begin: told before the work, and no folder left behind
+  const Result bare = run(folder, {"sample", "ball.toml", "-o", "none", "--grid", "body.ball.mass=1,2"});
+  EXPECT_EQ(bare.code, 2);
+  EXPECT_THAT(bare.err, HasSubstr("crashreel: --grid body.ball.mass=1: body.ball.mass = 1 needs a unit: write \"1 kg\""));
+  EXPECT_FALSE(std::filesystem::exists(folder / "none"));
 }
 
 TEST(ScrambledPoints, FillEveryAxisAndItsPairsEvenly) {
