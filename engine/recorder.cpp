@@ -215,6 +215,7 @@ void Recorder::tally_contact(const World& world, const Constraint& c, double tim
 }
 
 void Recorder::sample(const World& world, const State& state, Recording& recording) {
+  watch_waiting(world, state);
   watch_halt(world, state);
   const bool others_moved = kept_ != world.still.changes;
   keep(world, state);
@@ -251,6 +252,16 @@ void Recorder::sample(const World& world, const State& state, Recording& recordi
     for (const int b : world.still.others) note_peak(static_cast<std::size_t>(b));
   }
   sampled_ = state.time;
+}
+
+/// Who lies there in the zero condition, or asleep, goes on lying: its support is in balance, and no contact of it is solved.
+void Recorder::watch_waiting(const World& world, const State& state) {
+  for (std::size_t p = 0; p < world.model.persons.size(); ++p) {
+    const int tree = world.topology.tree_of_body[world.model.persons[p].bodies.front()];
+    const bool waits = !state.released[p] || (tree >= 0 && !state.asleep.empty() && state.asleep[tree]);
+    if (!waits || last_trunk_[p] < 0 || watched_ - last_trunk_[p] > kAirborne) continue;
+    last_ground_[p] = last_trunk_[p] = state.time;
+  }
 }
 
 /// A body by itself slides to rest at once, and friction may change on its last steps: the step after which it would stop within

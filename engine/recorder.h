@@ -46,6 +46,7 @@ class Recorder {
   void note_head(const Constraint&, double time);
   void watch_rest(const World&, const State&, double since);
   void watch_halt(const World&, const State&);
+  void watch_waiting(const World&, const State&);
   void watch_events(const World&, const Constraint&, double time);
   void watch_vehicle(const World&, const Constraint&, int person, double time);
   void watch_ground(const Constraint&, int person, double time);

@@ -32,15 +32,17 @@ void absent_throw(const Model& model, const Recording& recording, int p, Absence
     absent.note("throw_distance_m", name, "no vehicle touched it");
     return;
   }
-  absent.note("landing_s", name, "the trunk did not come down on the ground after the first touch");
-  absent.note("first_ground_contact_s", name, "the trunk did not come down on the ground after the first touch");
+  const char* up =
+      t->lay ? "it lay on the ground when it was struck" : "the trunk did not come down on the ground after the first touch";
+  absent.note("landing_s", name, up);
+  absent.note("first_ground_contact_s", name, up);
   absent.note("carried_m", name, "never as fast as the vehicle while it pushed");
-  const char* reason = t->landed ? "never off vehicle and ground for 50 ms before it landed" : "it did not land";
-  absent.note("airborne_m", name, reason);
+  const char* no_landing = t->lay ? "it lay on the ground when it was struck" : "it did not land";
+  absent.note("airborne_m", name, t->landed ? "never off vehicle and ground for 50 ms before it landed" : no_landing);
   const char* flew = t->flew ? "it flew for 50 ms or more" : "a vehicle pushed it until it landed";
-  absent.note("fall_m", name, t->landed ? flew : "it did not land");
-  absent.note("landing_m", name, "it did not land");
-  absent.note("slide_m", name, "it did not land");
+  absent.note("fall_m", name, t->landed ? flew : no_landing);
+  absent.note("landing_m", name, no_landing);
+  absent.note("slide_m", name, t->lay ? "a vehicle pushed it until it rested, or the run ended" : "it did not land");
 }
 
 void absent_head(const Model& model, const Recording& recording, int p, Absences& absent) {
@@ -86,7 +88,8 @@ std::vector<AbsentMetric> absent_metrics(const Model& model, const Recording& re
   }
   const std::vector<Impact> impacts = impacts_of(model, recording);
   for (const Vehicle& v : model.vehicles) {
-    absent.note("rest_x_m", v.name, "still moving when the run ends");
+    for (const char* key : {"rest_s", "rest_x_m", "rest_y_m", "rest_heading_deg"})
+      absent.note(key, v.name, "still moving when the run ends");
     const auto has = [&](const char* key) {
       return std::any_of(there.begin(), there.end(), [&](const Metric& m) { return m.key == key && m.object == v.name; });
     };

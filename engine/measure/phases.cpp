@@ -52,6 +52,12 @@ bool on_ground(const Model& model, const Party& party, const Snapshot& s) {
   });
 }
 
+/// Whether the trunk is on the ground at some instant from `from` to `to`. The recorder tells a landing of all but who lay there.
+bool lies_after(const Model& model, const Recording& recording, const Party& trunk, double from, double to) {
+  return std::any_of(recording.snapshots.begin(), recording.snapshots.end(),
+                     [&](const Snapshot& s) { return s.time >= from && s.time <= to && on_ground(model, trunk, s); });
+}
+
 /// By anything but itself.
 bool touched(const Party& party, const Snapshot& s) {
   return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
@@ -123,6 +129,7 @@ void add_phases(const Model& model, const Recording& recording, const Party& par
     begins.emplace_back("landing", *t.landed);
     begins.emplace_back("slide", settled_after(model, recording, party, *t.landed, t.end));
   }
+  if (t.lay && t.separated) begins.emplace_back("slide", *t.separated);
   if (t.rest) begins.emplace_back("rest", *t.rest);
   const double length = t.thrown.norm();
   const Vec3 line = length > 0 ? Vec3(t.thrown / length) : t.along;
@@ -176,6 +183,7 @@ std::optional<Throw> throw_of_person(const Model& model, const Recording& record
   }
   // a rider that nothing but its mount was struck with leaves with that blow
   if (!t.separated && t.landed) t.separated = t.hit;
+  t.lay = !t.landed && lies_after(model, recording, {p, -1, trunk_of(model, p)}, t.hit, t.end);
   t.flew = t.landed && flew_between(recording, party, *t.separated, *t.landed);
   add_phases(model, recording, party, t);
   return t;

@@ -26,6 +26,7 @@ struct Throw {
   std::optional<double> rest;       // [s]
   double end = 0;                   // [s] rest, or the end of the run
   bool flew = false;                // nothing touched it for 50 ms or more between the last push and landing
+  bool lay = false;                 // struck as it lay on the ground, and not thrown off it: it does not land
   bool dragged = false;             // a vehicle pushed it again after it had come down
   Vec3 along = Vec3::UnitX();       // unit, level: the way of the faster vehicle at the first touch
   Vec3 thrown = Vec3::Zero();       // [m] of the centre of mass from hit to end, level

@@ -293,6 +293,42 @@ TEST(ThrowMetrics, WhoFallsOffAStruckMountHasNoContactOfItsOwn) {
   EXPECT_TRUE(std::isnan(of_rider("contact_m")) && std::isnan(of_rider("carried_m")));
 }
 
+/// Lies on the road, is pushed by a car from 0.2 to 0.6 s, and slides on to rest at 1.4 s without having been off the ground: the
+/// recorder tells no landing.
+TEST(ThrowMetrics, WhoLayThereDoesNotLandAndSlidesFromTheLastPush) {
+  Model model = person_and_car();
+  model.persons[0].hips = kHips;
+  Recording run;
+  run.interval = 0.02;
+  for (int i = 0; i <= 100; ++i) {  // 2 m/s while it is pushed, then 2.5 m/s^2
+    Snapshot s = still(0.02 * i);
+    const double pushed = std::clamp(s.time - 0.2, 0.0, 0.4), free = std::clamp(s.time - 0.6, 0.0, 0.8);
+    for (const int b : {kHead, kHips}) {
+      s.bodies.own()[b].X_WB.p = {2 * pushed + 2 * free - 1.25 * free * free, 0, 0.1};
+      s.bodies.own()[b].V_WB.v = {pushed > 0 ? 2 - 2.5 * free : 0, 0, 0};
+    }
+    s.bodies.own()[kCar].V_WB.v = {3, 0, 0};
+    if (i >= 10) s.contacts.push_back(push(kHips, -1, kOnGround, {0, 0, 8}));
+    if (i >= 11 && i <= 30) s.contacts.push_back(push(kHips, kCar, kOnVehicle, {9, 0, 0}));
+    run.snapshots.push_back(s);
+  }
+  run.events = {{0.2, "first_contact", kHips, kCar, Vec3::Zero(), 3}, {1.4, "rest", kHips, -1, Vec3::Zero(), 0}};
+  std::vector<Metric> out;
+  measure_throw(model, run, 0, out);
+  EXPECT_FALSE(value_of(out, "landing_s") || value_of(out, "first_ground_contact_s") || value_of(out, "landing_m"));
+  EXPECT_NEAR(value_of(out, "contact_m").value(), 0.8, kAlmost);
+  EXPECT_NEAR(value_of(out, "slide_m").value(), 0.8, kAlmost);
+  EXPECT_NEAR(value_of(out, "throw_distance_m").value(), 1.6, kAlmost);
+  EXPECT_FALSE(throw_of_person(model, run, 0)->dragged) << "free from the last push on: friction follows from that slide";
+  const auto reason = [&](const char* key) {
+    for (const AbsentMetric& a : absent_metrics(model, run, out))
+      if (a.key == key && a.object == "pedestrian") return a.reason;
+    return std::string();
+  };
+  EXPECT_EQ(reason("landing_s"), "it lay on the ground when it was struck");
+  EXPECT_EQ(reason("fall_m"), "it lay on the ground when it was struck");
+}
+
 TEST(ThrowMetrics, WhoIsRunOverIsToldByTheFirstWheelThatStandsOnIt) {
   Model model = person_and_car();
   model.bodies[kHips].name = "pedestrian/hips";
