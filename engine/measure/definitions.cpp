@@ -20,6 +20,7 @@ constexpr const char* kPhase =
 constexpr const char* kMoving = "still moving when the run ends";
 constexpr const char* kNoDeltaV = "the vehicle touched no person, vehicle or object, or is fixed";
 constexpr const char* kNotRolled = "the vehicle did not roll onto its side or farther; or it is a two-wheeler";
+constexpr const char* kNoStrike = "as ground_strikes; or the bodywork never came down so hard";
 constexpr const char* kRolls = "bodywork is rigid: what it ploughs and crushes is not in it";
 
 constexpr Definition kDefinitions[] = {
@@ -53,8 +54,10 @@ constexpr Definition kDefinitions[] = {
      kNotLanded, kPhase},
     {"slide_m", "m", "slide",
      "Distance of the phase slide: from the end of the bounces to rest, or the end of the run; a vehicle that comes over the "
-     "person may push or drag it meanwhile: reports say so, and no friction follows from such a way.",
-     kNotLanded, kPhase, true},
+     "person may push or drag it meanwhile: reports say so, and no friction follows from such a way. Of who lay on the ground when "
+     "struck, and stayed on it, from the vehicle's last push.",
+     "the trunk did not come down on the ground after the first touch; or it lay there, and a vehicle pushed it to the end", kPhase,
+     true},
     {"landing_s", "s", "landing",
      "Time at which hips, head or what joins them first touch the ground, or a body fixed to it that they can lie on, after the "
      "first touch with a vehicle; of who lay there, after having been off it for 50 ms. Feet and hands do not count.",
@@ -165,6 +168,21 @@ constexpr Definition kDefinitions[] = {
      kNotRolled, "to the recorded interval", true},
     {"roll_distance_m", "m", "roll distance",
      "Length of the level path of its centre of mass from the trip to rest, or to the end of the run.", kNotRolled, kRolls, true},
+    {"ground_strikes", "", "ground strikes",
+     "How often the bodywork of a vehicle that rolled over came down on the ground from the trip to rest: the ground pushed it by "
+     "more "
+     "than 0.8 km/h times its mass within 20 ms, as collision phases are counted. The table of impacts has no rows of the ground. "
+     "Scraping and what the wheels bear do not count.",
+     kNotRolled, kRolls, true},
+    {"ground_strike_s", "s", "hardest ground strike", "Time at which the hardest of them began.", kNoStrike, kRolls, true},
+    {"ground_strike_mps", "m/s", "delta-v, ground strike",
+     "Impulse of the ground on the bodywork in the hardest of them over the vehicle's mass: what it changes of the velocity, "
+     "upwards "
+     "included.",
+     kNoStrike, kRolls, true},
+    {"ground_strike_panel", "", "panel, ground strike",
+     "What of the vehicle took the hardest push of it, by the names of head_impact_panel.", kNoStrike, "on an edge either of two",
+     true},
     {"roll_drag_factor", "", "roll drag factor",
      "Mean deceleration over the roll distance as a share of gravity: v^2 / 2 g d, v the level speed of the centre of mass at the "
      "trip (Orlowski, Moffatt, Bundorf and Holcomb, SAE 890857, 1989).",

@@ -5,15 +5,15 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace engine {
 namespace {
 
-constexpr double kWindow = 0.02;       // [s] 49 CFR 563.5, end of event time
-constexpr double kChange = 0.8 / 3.6;  // [m/s] in that window: 0.8 km/h
-constexpr double kLongest = 0.25;      // [s] 49 CFR 563.7, delta-v is recorded from 0 to 250 ms
-constexpr double kShareOfMost = 0.1;   // [-] of a pair's strongest window, where none reaches the bound
+constexpr double kWindow = 0.02;      // [s] 49 CFR 563.5, end of event time
+constexpr double kLongest = 0.25;     // [s] 49 CFR 563.7, delta-v is recorded from 0 to 250 ms
+constexpr double kShareOfMost = 0.1;  // [-] of a pair's strongest window, where none reaches the bound
 
 /// Two parties that touch, named by the first body of each.
 struct Pair {
@@ -43,11 +43,6 @@ std::vector<Pair> pairs_of(const Model& model, const Recording& recording) {
   return out;
 }
 
-/// First and last snapshot whose contacts belong to a phase.
-struct Stretch {
-  std::size_t first = 0, last = 0;
-};
-
 /// Impulse [N s] on a since the snapshot before, per snapshot.
 std::vector<Vec3> pushes(const Recording& recording, const Pair& pair) {
   std::vector<Vec3> out;
@@ -60,39 +55,6 @@ std::vector<Vec3> pushes(const Recording& recording, const Pair& pair) {
   return out;
 }
 
-std::vector<Stretch> stretches(const Recording& recording, const std::vector<Vec3>& push, double bound) {
-  const std::size_t n = push.size();
-  // what is exchanged from each snapshot on within the window
-  std::vector<double> within(n, 0);
-  for (std::size_t i = 0; i < n; ++i) {
-    Vec3 sum = push[i];
-    for (std::size_t k = i + 1; k < n && recording.snapshots[k].time - recording.snapshots[i].time < kWindow - 1e-9; ++k)
-      sum += push[k];
-    within[i] = sum.norm();
-  }
-  const double most = n == 0 ? 0 : *std::max_element(within.begin(), within.end());
-  if (most < bound) bound = kShareOfMost * most;
-  std::vector<Stretch> out;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!(within[i] > bound) || push[i].isZero(0)) continue;
-    Stretch s{i, i};
-    const double begin = recording.snapshots[i > 0 ? i - 1 : 0].time;  // the first push may be as old
-    const auto time = [&](std::size_t k) { return recording.snapshots[k].time; };
-    // on to the last instant from which enough is exchanged, over lulls no longer than the window
-    for (std::size_t k = i + 1; k < n && time(k) - time(i) <= kWindow + 1e-9 && time(k) - begin <= kLongest; ++k)
-      if (within[k] > bound) i = k;
-    // the last window of the phase is part of it
-    const double last = std::min(time(i) + kWindow, begin + kLongest);
-    for (s.last = i; s.last + 1 < n && time(s.last + 1) < last - 1e-9;) ++s.last;
-    while (s.last > s.first && push[s.last].isZero(0)) --s.last;
-    // what goes on pressing, dragging or carrying beyond that is no further collision
-    while (i + 1 < n && within[i + 1] > bound) ++i;
-    i = std::max(i, s.last);
-    out.push_back(s);
-  }
-  return out;
-}
-
 /// Velocity [m/s] of the body's point at `p`.
 Vec3 velocity_of_point(int b, const Snapshot& s, const Vec3& p) {
   const BodyState& body = s.bodies[b];
@@ -101,8 +63,8 @@ Vec3 velocity_of_point(int b, const Snapshot& s, const Vec3& p) {
 
 /// How fast [m/s] a person and a vehicle close where they first touch, of the part that does. Over a phase in which somebody wraps
 /// round a front the mean plane leans by half a right angle: nobody closes along that.
-double first_closing(const Recording& recording, const Pair& pair, const Stretch& span) {
-  const Snapshot &before = recording.snapshots[span.first > 0 ? span.first - 1 : 0], &first = recording.snapshots[span.first];
+double first_closing(const Recording& recording, const Pair& pair, std::size_t touch) {
+  const Snapshot &before = recording.snapshots[touch > 0 ? touch - 1 : 0], &first = recording.snapshots[touch];
   const ContactRecord* earliest = nullptr;
   for (const ContactRecord& c : first.contacts)
     if (between(pair, c) && !c.impulse.isZero(0) && (!earliest || c.begun < earliest->begun)) earliest = &c;
@@ -114,6 +76,24 @@ double first_closing(const Recording& recording, const Pair& pair, const Stretch
       return e.value;
   const Vec3& p = earliest->point;
   return -(velocity_of_point(earliest->body_a, before, p) - velocity_of_point(earliest->body_b, before, p)).dot(earliest->normal);
+}
+
+/// Snapshot of the touch that leads to a pair's first phase: a hand or a foot may be met first, and too softly to count. Along with
+/// the car since then, the part met next tells no closing speed any more.
+std::size_t touch_of(const Recording& recording, const std::vector<Vec3>& push, std::size_t first) {
+  const auto time = [&](std::size_t i) { return recording.snapshots[i].time; };
+  std::size_t touch = first;
+  for (std::size_t i = first; i-- > 0 && time(touch) - time(i) <= kWindow + 1e-9 && time(first) - time(i) <= kLongest;)
+    if (!push[i].isZero(0)) touch = i;
+  return touch;
+}
+
+/// One value for one thing: what an exchange at an instant told as its event.
+std::optional<double> told_closing(const Recording& recording, const Impact& impact) {
+  const auto bodies = std::minmax(impact.a.party.bodies.front(), impact.b.party.bodies.front());
+  for (const Event& e : recording.events)
+    if (e.kind == "impact" && std::minmax(e.body_a, e.body_b) == bodies && e.time == impact.time) return e.value;
+  return std::nullopt;
 }
 
 /// Direction [deg] a level push came from, seen from a vehicle's heading. One that lies on its side or roof has no front, right and
@@ -243,7 +223,7 @@ double duration_of(const Recording& recording, const Pair& pair, const Stretch& 
   return last - from;
 }
 
-Impact impact_of(const Model& model, const Recording& recording, const Pair& pair, const Stretch& span) {
+Impact impact_of(const Model& model, const Recording& recording, const Pair& pair, const Stretch& span, std::size_t touch) {
   Impact out;
   out.time = sum_contacts(recording, pair, span, out);
   const Snapshot& before = recording.snapshots[span.first > 0 ? span.first - 1 : 0];
@@ -251,10 +231,11 @@ Impact impact_of(const Model& model, const Recording& recording, const Pair& pai
   out.a = side_of(model, recording, pair.a, span);
   out.b = side_of(model, recording, pair.b, span);
   const bool person = pair.a.person >= 0 || pair.b.person >= 0;
-  out.closing_speed = person ? first_closing(recording, pair, span)
-                             : -(velocity_of_point(pair.a.bodies.front(), before, out.point) -
-                                 velocity_of_point(pair.b.bodies.front(), before, out.point))
-                                    .dot(out.normal);
+  const auto at_point = [&](const Party& party) { return velocity_of_point(party.bodies.front(), before, out.point); };
+  out.closing_speed = person ? first_closing(recording, pair, touch) : -(at_point(pair.a) - at_point(pair.b)).dot(out.normal);
+  if (const auto told = told_closing(recording, out)) out.closing_speed = *told;
+  // two that touch already and are pressed harder, as by a third one, or dragged: nothing closes
+  if (!(out.closing_speed > 0)) out.closing_speed = kUnknown;
   for (const ContactRecord& c : recording.snapshots[span.first].contacts) {
     if (!between(pair, c) || c.impulse.isZero(0)) continue;
     out.law = law_of(model, pair, c);
@@ -266,6 +247,39 @@ Impact impact_of(const Model& model, const Recording& recording, const Pair& pai
 
 }  // namespace
 
+std::vector<Stretch> stretches(const Recording& recording, const std::vector<Vec3>& push, double bound) {
+  const std::size_t n = push.size();
+  // what is exchanged from each snapshot on within the window
+  std::vector<double> within(n, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    Vec3 sum = push[i];
+    for (std::size_t k = i + 1; k < n && recording.snapshots[k].time - recording.snapshots[i].time < kWindow - 1e-9; ++k)
+      sum += push[k];
+    within[i] = sum.norm();
+  }
+  const double most = n == 0 ? 0 : *std::max_element(within.begin(), within.end());
+  if (most < bound) bound = kShareOfMost * most;
+  std::vector<Stretch> out;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!(within[i] > bound) || push[i].isZero(0)) continue;
+    Stretch s{i, i};
+    const double begin = recording.snapshots[i > 0 ? i - 1 : 0].time;  // the first push may be as old
+    const auto time = [&](std::size_t k) { return recording.snapshots[k].time; };
+    // on to the last instant from which enough is exchanged, over lulls no longer than the window
+    for (std::size_t k = i + 1; k < n && time(k) - time(i) <= kWindow + 1e-9 && time(k) - begin <= kLongest; ++k)
+      if (within[k] > bound) i = k;
+    // the last window of the phase is part of it
+    const double last = std::min(time(i) + kWindow, begin + kLongest);
+    for (s.last = i; s.last + 1 < n && time(s.last + 1) < last - 1e-9;) ++s.last;
+    while (s.last > s.first && push[s.last].isZero(0)) --s.last;
+    // what goes on pressing, dragging or carrying beyond that is no further collision
+    while (i + 1 < n && within[i + 1] > bound) ++i;
+    i = std::max(i, s.last);
+    out.push_back(s);
+  }
+  return out;
+}
+
 std::vector<Impact> impacts_of(const Model& model, const Recording& recording) {
   std::vector<Impact> out;
   for (const Pair& pair : pairs_of(model, recording)) {
@@ -273,8 +287,10 @@ std::vector<Impact> impacts_of(const Model& model, const Recording& recording) {
     for (const Party* party : {&pair.a, &pair.b})
       if (!model.bodies[party->bodies.front()].fixed) lighter = std::min(lighter, mass_of(model, *party));
     int phase = 0;
-    for (const Stretch& span : stretches(recording, pushes(recording, pair), kChange * lighter)) {
-      out.push_back(impact_of(model, recording, pair, span));
+    const std::vector<Vec3> push = pushes(recording, pair);
+    for (const Stretch& span : stretches(recording, push, kChange * lighter)) {
+      const std::size_t touch = phase == 0 ? touch_of(recording, push, span.first) : span.first;
+      out.push_back(impact_of(model, recording, pair, span, touch));
       out.back().phase = ++phase;
     }
   }

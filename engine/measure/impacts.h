@@ -33,13 +33,24 @@ struct Impact {
   const char* law = "";              // "kudlich_slibar", "default_auto", "compliant"
   Vec3 point = Vec3::Zero();         // [m] world, mean by impulse
   Vec3 normal = Vec3::UnitZ();       // unit, from b to a: of the contact plane, mean by impulse
-  double closing_speed = kUnknown;   // [m/s] along the normal at the point, before; with a person those of the first touch
+  double closing_speed = kUnknown;   // [m/s] along the normal at the point, before; with a person those of the first touch. Of two
+                                     // that touch already, and do not close, there is none
   Vec3 impulse = Vec3::Zero();       // [N s] on a, world
   double friction_used = kUnknown;   // [-] tangential over normal impulse, each contact along its own surface
   double friction_limit = kUnknown;  // [-] most it could have been: coefficient of the surfaces and what a dent adds
   double energy_lost = 0;            // [J] deformation and friction between the two
   const char* ees_rule = "";         // how that was shared: "by stiffness", "by mass", "all to the one that moves"
 };
+
+/// First and last snapshot whose contacts belong to a phase.
+struct Stretch {
+  std::size_t first = 0, last = 0;
+};
+
+constexpr double kChange = 0.8 / 3.6;  // [m/s] within 20 ms: more is a collision
+
+/// The phases of a series of pushes [N s], one a snapshot: those in which more than `bound` [N s] is exchanged within 20 ms.
+std::vector<Stretch> stretches(const Recording&, const std::vector<Vec3>& push, double bound);
 
 /// In order of time.
 std::vector<Impact> impacts_of(const Model&, const Recording&);

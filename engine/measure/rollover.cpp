@@ -1,4 +1,5 @@
-// What is quoted of a vehicle that rolls over: quarter turns, distance and mean drag factor from the trip to rest.
+// What is quoted of a vehicle that rolls over: quarter turns, distance and mean drag factor from the trip to rest, and how its
+// bodywork came down on the ground meanwhile.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -38,6 +39,64 @@ bool struck_something(const std::vector<Impact>& impacts, int v, double from, do
     const bool its_own = (i.a.party.vehicle == v && i.b.party.person < 0) || (i.b.party.vehicle == v && i.a.party.person < 0);
     return its_own && i.time + i.duration >= from && i.time <= to;
   });
+}
+
+/// One time the bodywork came down.
+struct Strike {
+  double time = 0;               // [s]
+  Vec3 impulse = Vec3::Zero();   // [N s] on the vehicle
+  ContactRecord hardest;         // of its contacts
+  const Snapshot* at = nullptr;  // of that
+};
+
+bool is_strike(const Party& party, const ContactRecord& c) {
+  return c.body_b < 0 && holds(party, c.body_a) && !c.impulse.isZero(0);
+}
+
+Strike strike_of(const Recording& recording, const Party& party, const Stretch& span) {
+  const auto& all = recording.snapshots;
+  Strike out;
+  out.time = all[span.first].time;
+  for (std::size_t i = span.first; i <= span.last; ++i)
+    for (const ContactRecord& c : all[i].contacts) {
+      if (!is_strike(party, c)) continue;
+      out.impulse += c.impulse;
+      if (i == span.first) out.time = std::min(out.time, std::max(c.begun, all[i > 0 ? i - 1 : 0].time));
+      if (!out.at || c.normal_impulse > out.hardest.normal_impulse) out.hardest = c, out.at = &all[i];
+    }
+  return out;
+}
+
+/// Scraping along is none: what is exchanged has to make a collision, as in the table of impacts.
+std::vector<Strike> ground_strikes(const Model& model, const Recording& recording, const Party& party, double from, double to) {
+  std::vector<Vec3> push;
+  for (const Snapshot& s : recording.snapshots) {
+    Vec3 sum = Vec3::Zero();
+    for (const ContactRecord& c : s.contacts)
+      if (s.time >= from && s.time <= to && is_strike(party, c)) sum += c.impulse;
+    push.push_back(sum);
+  }
+  const double bound = kChange * mass_of(model, party);
+  std::vector<Strike> out;
+  for (const Stretch& span : stretches(recording, push, bound))
+    if (const Strike strike = strike_of(recording, party, span); strike.impulse.norm() > bound) out.push_back(strike);
+  return out;
+}
+
+void measure_strikes(const Model& model, const Vehicle& vehicle, const std::vector<Strike>& strikes, std::vector<Metric>& out) {
+  out.push_back({"ground_strikes", vehicle.name, static_cast<double>(strikes.size())});
+  const auto hardest = std::max_element(strikes.begin(), strikes.end(),
+                                        [](const Strike& a, const Strike& b) { return a.impulse.norm() < b.impulse.norm(); });
+  if (hardest == strikes.end()) return;
+  out.push_back({"ground_strike_s", vehicle.name, hardest->time});
+  const Body& body = model.bodies[static_cast<std::size_t>(vehicle.body)];
+  out.push_back({"ground_strike_mps", vehicle.name, hardest->impulse.norm() / mass_of(model, party_of(model, vehicle.body))});
+  const auto* shape = std::get_if<MeshShape>(&body.shape);
+  if (!shape || !shape->panels || hardest->hardest.body_a != vehicle.body) return;
+  const Pose X_MW = (hardest->at->bodies[static_cast<std::size_t>(vehicle.body)].X_WB * shape->X_BM).inverse();
+  const Panel panel =
+      panel_at(*shape->mesh, *shape->panels, X_MW * hardest->hardest.point, X_MW.q * Vec3(-hardest->hardest.normal));
+  if (panel != Panel::unknown) out.push_back({"ground_strike_panel", vehicle.name, 0, name_of(panel)});
 }
 
 /// Adds up how far a body has turned about its long axis: the way of the vertical in its cross plane.
@@ -87,6 +146,7 @@ void measure_rollover(const Model& model, const Recording& recording, const std:
   out.push_back({"quarter_turns", vehicle.name, quarters});
   out.push_back({"trip_s", vehicle.name, trip->time});
   out.push_back({"roll_distance_m", vehicle.name, way});
+  measure_strikes(model, vehicle, ground_strikes(model, recording, party, trip->time, end), out);
   const double speed = velocity_of(model, party, *trip).head<2>().norm(), g = model.settings.gravity.norm();
   if (rest && way > 0 && g > 0 && !struck_something(impacts, v, trip->time, end))
     out.push_back({"roll_drag_factor", vehicle.name, speed * speed / (2 * g * way)});

@@ -217,6 +217,47 @@ TEST(ImpactTable, WhoIsStruckClosesAlongTheFirstTouchAndNotAlongTheMeanOfTheWrap
   EXPECT_EQ(impacts_of(model, run).at(0).closing_speed, 10.9) << "as the event of that touch says";
 }
 
+/// A car backs at 4 m/s against somebody who stands. A hand is met first, and too softly for a collision; the trunk 30 ms later,
+/// along with the hand by then. Half a second later the car drags who lies under it.
+TEST(ImpactTable, AClosingSpeedIsThatOfTheTouchThatLedToThePhaseAndWhatIsDraggedHasNone) {
+  const Model model = person_and_car();
+  Recording run;
+  run.interval = 0.01;
+  for (int i = 0; i < 80; ++i) {
+    run.snapshots.push_back(still(0.01 * i));
+    run.snapshots.back().bodies.own()[kCar].V_WB.v = {-4, 0, 0};
+    for (const int b : {kHips, kHead})
+      run.snapshots.back().bodies.own()[b].V_WB.v = {i < 12 ? (b == kHips ? -3.5 : 0) : -4.1, 0, 0};
+  }
+  const auto touch = [&](std::size_t i, int part, double amount) {
+    ContactRecord c = push(part, kCar, kOnVehicle, {-amount, 0, 0});
+    c.normal = -Vec3::UnitX();
+    c.begun = run.snapshots[i - 1].time;
+    run.snapshots[i].contacts.push_back(c);
+  };
+  for (const std::size_t i : {9u, 10u, 11u}) touch(i, kHead, 0.1);
+  for (const std::size_t i : {12u, 13u, 14u, 60u, 61u, 62u}) touch(i, kHips, 40);
+  const std::vector<Impact> all = impacts_of(model, run);
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_GE(all[0].time, 0.1) << "what the hand exchanged is no collision yet";
+  EXPECT_NEAR(all[0].closing_speed, 4, kAlmost);
+  EXPECT_TRUE(std::isnan(all[1].closing_speed)) << "it goes ahead of the car by 0.1 m/s";
+}
+
+TEST(ImpactTable, AnExchangeAtAnInstantHasTheClosingSpeedOfItsEvent) {
+  Model model = person_and_car();
+  model.bodies[kHips].person = -1;
+  Recording run;
+  run.interval = 0.01;
+  for (int i = 0; i < 8; ++i) run.snapshots.push_back(still(0.01 * i));
+  ContactRecord c = push(kCar, kHips, kVehicles, {-6000, 0, 0});
+  c.exchange = true;
+  c.begun = 0.0437;
+  run.snapshots[5].contacts = {c};
+  run.events = {{0.0437, "impact", kCar, kHips, Vec3::Zero(), 10.3}};
+  EXPECT_EQ(impacts_of(model, run).at(0).closing_speed, 10.3);
+}
+
 TEST(ImpactTable, AnExchangeAtAnInstantHasItsTimeAndLastsNone) {
   Model model = person_and_car();
   model.bodies[kHips].person = -1;
@@ -311,6 +352,39 @@ TEST(Rollover, OfACylinderHasItsQuarterTurnsAndTheDragThatStopsIt) {
     }
   // what it lies on is seldom level: to the nearest quarter
   EXPECT_EQ(value_of(rollover_of(model, rolled_like_a_cylinder(2.3)), "quarter_turns"), 2.0);
+}
+
+TEST(Rollover, TellsHowOftenAndHowHardTheBodyworkCameDown) {
+  Model model = car_with_a_track();
+  MeshShape& shape = std::get<MeshShape>(model.bodies[kCar].shape);
+  // two triangles a side of the box: the top is the roof
+  Panels panels(shape.mesh->triangles().size(), Panel::side);
+  panels[2] = panels[3] = Panel::roof;
+  shape.panels = std::make_shared<Panels>(panels);
+  Recording run = rolled_like_a_cylinder(4);
+  EXPECT_EQ(value_of(rollover_of(model, run), "ground_strikes"), 0.0);
+  EXPECT_FALSE(value_of(rollover_of(model, run), "ground_strike_s"));
+  const auto strike = [&](std::size_t i, double amount) {
+    ContactRecord c = push(kCar, -1, {ShapeKind::mesh, ShapeKind::plane}, {0, 0, amount});
+    const BodyState& car = run.snapshots[i].bodies[kCar];
+    c.point = car.X_WB * Vec3(0, 0, 0.5);  // the middle of its top
+    c.normal = -(car.X_WB.q * Vec3::UnitZ());
+    c.begun = run.snapshots[i].time - 0.004;
+    run.snapshots[i].contacts.push_back(c);
+  };
+  strike(80, 9000);                                          // before the trip
+  for (const std::size_t i : {190u, 191u}) strike(i, 1500);  // 3 m/s in two intervals
+  strike(250, 800);                                          // on its side
+  for (std::size_t i = 260; i < 290; ++i) strike(i, 40);     // scraping: 0.08 m/s within 20 ms
+  strike(340, 5000);                                         // after rest
+  const std::vector<Metric> out = rollover_of(model, run);
+  EXPECT_EQ(value_of(out, "ground_strikes"), 2.0);
+  EXPECT_NEAR(value_of(out, "ground_strike_s").value(), 1.896, kAlmost);
+  EXPECT_NEAR(value_of(out, "ground_strike_mps").value(), 3, kAlmost);
+  const auto panel = std::find_if(out.begin(), out.end(), [](const Metric& m) { return m.key == "ground_strike_panel"; });
+  ASSERT_NE(panel, out.end());
+  EXPECT_EQ(panel->text, "roof");
+  EXPECT_TRUE(value_of(out, "roll_drag_factor")) << "the ground is what drags";
 }
 
 TEST(Rollover, IsNoneOfWhoTipsAndFallsBackPitchesOrHasTwoWheels) {
