@@ -63,7 +63,7 @@ void absent_head(const Model& model, const Recording& recording, int p, Absences
 }
 
 /// What the hardest impact of a vehicle does not tell of it.
-void absent_at_worst(const Vehicle& v, const std::vector<Impact>& impacts, Absences& absent) {
+void absent_at_worst(const Model& model, const Vehicle& v, const std::vector<Impact>& impacts, Absences& absent) {
   const Impact* worst = nullptr;
   double most = -1;
   for (const Impact& i : impacts)
@@ -71,10 +71,17 @@ void absent_at_worst(const Vehicle& v, const std::vector<Impact>& impacts, Absen
       if (side->party.bodies.front() == v.body && side->delta_v.norm() > most) most = side->delta_v.norm(), worst = &i;
   if (!worst) return;
   const bool person = worst->a.party.person >= 0 || worst->b.party.person >= 0;
-  const char* of_a_pair = worst->energy_lost > 0 ? "its hardest impact was that of a two-wheeler and a car, and the scene does not "
-                                                   "tell their stiffnesses apart: the rule of masses is that of cars"
-                                                 : "its hardest impact cost no energy";
-  absent.note("ees_mps", v.name, person ? "its hardest impact was with a person, who deforms no car" : of_a_pair);
+  const bool fixed = model.bodies[worst->a.party.bodies.front()].fixed || model.bodies[worst->b.party.bodies.front()].fixed;
+  const char* reason =
+      "its hardest impact was that of a two-wheeler and a car, and the scene does not tell their stiffnesses "
+      "apart: the rule of masses is that of cars";
+  if (person)
+    reason = "its hardest impact was with a person, who deforms no car";
+  else if (!(worst->energy_lost > 0))
+    reason = "its hardest impact cost no energy";
+  else if (fixed)
+    reason = "its hardest impact was that of its wheels with something low, such as a kerb: no bodywork is crushed";
+  absent.note("ees_mps", v.name, reason);
   absent.note("pdof_deg", v.name, most > 0 ? "it lay on its side or roof" : "its velocity did not change");
 }
 
@@ -100,7 +107,7 @@ std::vector<AbsentMetric> absent_metrics(const Model& model, const Recording& re
     if (!has("delta_v_mps"))
       absent.note("delta_v_mps", v.name, model.bodies[v.body].fixed ? "it is fixed" : "it touched no person, vehicle or object");
     else
-      absent_at_worst(v, impacts, absent);
+      absent_at_worst(model, v, impacts, absent);
   }
   return absent.out;
 }

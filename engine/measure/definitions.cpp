@@ -149,7 +149,7 @@ constexpr Definition kDefinitions[] = {
      "phase. Two under the same force share it in inverse proportion to stiffness where the scene tells the stiffnesses apart, "
      "else to mass; what is fixed has none. impacts.csv names the rule.",
      "as delta_v_mps; or the hardest phase was with a person, or of a two-wheeler with a car whose stiffnesses nobody told apart: "
-     "the rule of masses is that of cars",
+     "the rule of masses is that of cars; or below the hubs against something fixed, as a kerb: wheels crush no bodywork",
      "the energy contains what friction between the two took", true},
     {"rest_x_m", "m", "rest x", "Place of the vehicle's centre of mass at rest, world x.", kMoving, "to the recorded interval",
      true},

@@ -160,19 +160,31 @@ ImpactSide side_of(const Model& model, const Recording& recording, const Party& 
   return side;
 }
 
+/// Against a kerb or another low thing that is fixed: below the hubs there is no bodywork, only tyres, wheels and suspension.
+bool below_hubs(const Model& model, const Snapshot& before, const Party& party, const Vec3& point) {
+  if (party.vehicle < 0) return false;
+  const auto& wheels = model.vehicles[party.vehicle].wheels;
+  const double z = (before.bodies[party.bodies.front()].X_WB.inverse() * point).z();
+  return !wheels.empty() && std::all_of(wheels.begin(), wheels.end(), [&](const Wheel& w) { return z < w.hub_B.z(); });
+}
+
 /// The two are pressed together by the same force: each takes up energy as it gives way, in inverse proportion to stiffness. Where
 /// nobody has told their stiffnesses apart they go with the masses, as crash tests of cars of all classes show on the whole.
-void share_energy(const Model& model, double time, Impact& impact) {
+void share_energy(const Model& model, const Snapshot& before, Impact& impact) {
   const int a = impact.a.party.bodies.front(), b = impact.b.party.bodies.front();
   const Body &A = model.bodies[a], &B = model.bodies[b];
   if (impact.a.party.person >= 0 || impact.b.party.person >= 0 || !(impact.energy_lost > 0)) return;
-  const double S_a = A.surface.stiffness.at(time), S_b = B.surface.stiffness.at(time);
+  const double S_a = A.surface.stiffness.at(impact.time), S_b = B.surface.stiffness.at(impact.time);
   double of_a = B.mass / (A.mass + B.mass);
   const char* rule = "by mass";
   if (S_a != S_b) of_a = S_b / (S_a + S_b), rule = "by stiffness";
   if (A.fixed || B.fixed) of_a = A.fixed ? 0 : 1, rule = "all to the one that moves";
   // a two-wheeler and a car: no rule of cars' masses is theirs
   if (rule == std::string("by mass") && has_two_wheels(model, impact.a.party) != has_two_wheels(model, impact.b.party)) return;
+  // an energy equivalent speed is told from what bodywork crushes: that of wheels against a kerb has no such scale
+  if ((A.fixed && below_hubs(model, before, impact.b.party, impact.point)) ||
+      (B.fixed && below_hubs(model, before, impact.a.party, impact.point)))
+    return;
   impact.ees_rule = rule;
   const auto speed = [&](double share, double mass) { return std::sqrt(2 * share * impact.energy_lost / mass); };
   if (impact.a.party.vehicle >= 0 && !A.fixed) impact.a.ees = speed(of_a, A.mass);
@@ -241,7 +253,7 @@ Impact impact_of(const Model& model, const Recording& recording, const Pair& pai
     out.law = law_of(model, pair, c);
     break;
   }
-  share_energy(model, out.time, out);
+  share_energy(model, before, out);
   return out;
 }
 

@@ -70,7 +70,8 @@ TEST(VehicleMetrics, RestIsPlaceHeadingAndLengthOfThePath) {
 }
 
 /// A car of 1000 kg at 10 m/s and a block of a given mass that stands; they lose `energy` at 0.05 s.
-std::vector<Impact> car_against_block(double mass, double energy, double stiffness = 400e3, bool fixed = false, int wheels = 4) {
+std::vector<Impact> car_against_block(double mass, double energy, double stiffness = 400e3, bool fixed = false, int wheels = 4,
+                                      double height = 0.6) {
   Model model = person_and_car();
   model.vehicles[0].wheels.resize(static_cast<std::size_t>(wheels));
   Body& block = model.bodies[kHips];
@@ -87,6 +88,7 @@ std::vector<Impact> car_against_block(double mass, double energy, double stiffne
   }
   ContactRecord c = push(kCar, kHips, kVehicles, {-6000, 0, 0});
   c.normal = {-1, 0, 0};
+  c.point = {2, 0, height};
   c.friction_limit = 0.3 * c.normal_impulse;
   c.energy_lost = energy;
   c.begun = 0.043;
@@ -105,6 +107,16 @@ TEST(ImpactTable, EnergyGoesToTheSofterOrLighterAndNotByHalves) {
   const Impact barrier = car_against_block(1000, 20e3, 400e3, true).at(0);
   EXPECT_NEAR(barrier.a.ees, std::sqrt(2 * 20e3 / 1000), 1e-9);
   EXPECT_STREQ(barrier.ees_rule, "all to the one that moves");
+}
+
+/// Hubs are 0.3 m above the ground: what stops wheels at half of that crushes no bodywork, and has no speed that its energy equals.
+TEST(ImpactTable, WheelsAgainstAKerbHaveNoEnergyEquivalentSpeed) {
+  const Impact kerb = car_against_block(1000, 20e3, 400e3, true, 1, 0.15).at(0);
+  EXPECT_TRUE(std::isnan(kerb.a.ees));
+  EXPECT_STREQ(kerb.ees_rule, "");
+  EXPECT_NEAR(kerb.energy_lost, 20e3, kAlmost) << "which stands in the row";
+  EXPECT_NEAR(car_against_block(1000, 20e3, 400e3, true, 1, 0.35).at(0).a.ees, std::sqrt(2 * 20e3 / 1000), 1e-9) << "a wall";
+  EXPECT_FALSE(std::isnan(car_against_block(1000, 20e3, 400e3, false, 1, 0.15).at(0).a.ees)) << "under another's bumper";
 }
 
 TEST(ImpactTable, ATwoWheelerAndACarShareNoEnergyByARuleOfCars) {
