@@ -1,6 +1,7 @@
 // crashreel figure SCENE -o DIR: report figures of one run.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -60,6 +61,7 @@ render::PersonFacts facts_of(const engine::Model& model, const engine::Recording
     facts.landed = thrown->landed;
     if (thrown->flew) facts.released = thrown->separated;
     facts.rest = thrown->rest;
+    facts.dragged = thrown->dragged;
     for (const engine::ThrowPhase& phase : thrown->phases)
       facts.phases.push_back({phase.name, phase.from, phase.to, phase.distance});
   } else {
@@ -78,11 +80,13 @@ std::vector<std::string> impact_lines(const std::vector<engine::Impact>& impacts
   std::vector<std::string> out;
   std::size_t later = 0;
   for (const engine::Impact& i : impacts) {
-    if (i.phase > 1)
+    if (i.phase > 1) {
       ++later;
-    else
-      out.push_back(fmt::format("{} / {}  {:.3f} s: closing {:.2f} m/s, delta-v {:.2f} / {:.2f} m/s", i.a.name, i.b.name, i.time,
-                                i.closing_speed, i.a.delta_v.norm(), i.b.delta_v.norm()));
+      continue;
+    }
+    const std::string closing = std::isfinite(i.closing_speed) ? fmt::format("closing {:.2f} m/s, ", i.closing_speed) : "";
+    out.push_back(fmt::format("{} / {}  {:.3f} s: {}delta-v {:.2f} / {:.2f} m/s", i.a.name, i.b.name, i.time, closing,
+                              i.a.delta_v.norm(), i.b.delta_v.norm()));
   }
   if (later > 0) out.push_back(fmt::format("and {} later {} of the same: impacts.csv", later, later == 1 ? "phase" : "phases"));
   return out;

@@ -82,7 +82,7 @@ Json events_json(const engine::Model& model, const engine::Recording& recording)
     const bool touches = e.kind.find("contact") != std::string::npos || e.kind.find("impact") != std::string::npos;
     line["b"] = e.body_b >= 0 || touches ? Json(body_name(recording, e.body_b)) : Json(nullptr);
     line["point_m"] = vector_json(e.point);
-    line["value"] = e.value;
+    line["value"] = number_json(e.value);
     line["unit"] = unit_of(e);
     out.push_back(line);
   }
@@ -279,13 +279,21 @@ std::string without_sign_of_zero(std::string number) {
   return number;
 }
 
+/// A direction, counted above -180 deg: straight from behind is one direction and has one number.
+std::string angle_text(double degrees) {
+  const std::string number = without_sign_of_zero(fmt::format("{:.1f}", degrees));
+  return number == "-180.0" ? "180.0" : number;
+}
+
 /// As many digits as the measure bears: the rest of a number that hangs on stances and panels is noise. What a free body does is
 /// exact to the step and keeps six.
-std::string digits_of(const engine::Metric& metric, const engine::Definition* known) {
+std::string digits_of(const engine::Metric& metric, const engine::Definition* known, bool of_person) {
   const std::string unit = known ? known->unit : "", key = metric.key;
-  if (key == "travel_m" || key == "turned_deg" || key == "rebound_height_m" || !known) return fmt::format("{:.6g}", metric.value);
+  const bool exact = key == "travel_m" || key == "turned_deg" || key == "rebound_height_m";
+  if ((exact && !of_person) || !known) return fmt::format("{:.6g}", metric.value);
+  if (key == "quarter_turns" || key == "ground_strikes") return fmt::format("{:.0f}", metric.value);
   if (unit == "s") return fmt::format("{:.3f}", metric.value);
-  if (unit == "deg") return without_sign_of_zero(fmt::format("{:.1f}", metric.value));
+  if (unit == "deg") return angle_text(metric.value);
   if (unit == "g" || key.starts_with("hic")) return fmt::format("{:.0f}", metric.value);
   return without_sign_of_zero(fmt::format("{:.2f}", metric.value));
 }
@@ -316,6 +324,11 @@ const char* dragged(const engine::Metric& metric, const scenes::Scene& scene, co
     if (thrown && thrown->dragged) return ", pushed by a vehicle on the way";
   }
   return "";
+}
+
+bool is_person(const scenes::Scene& scene, const std::string& name) {
+  const auto& persons = scene.model.persons;
+  return std::any_of(persons.begin(), persons.end(), [&](const engine::Person& p) { return p.name == name; });
 }
 
 /// Beside a way to rest of who does not rest yet: a longer run gives another number.
@@ -351,13 +364,14 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
     const engine::Definition* known = engine::definition_of(metric.key);
     if (known && !known->main) continue;
     line(metric.object.empty() ? metric.key : metric.key + " " + metric.object,
-         metric.text.empty() ? digits_of(metric, known) + scattered(metric, metrics) + unfinished(metric, absent) +
-                                   dragged(metric, scene, recording)
+         metric.text.empty() ? digits_of(metric, known, is_person(scene, metric.object)) + scattered(metric, metrics) +
+                                   unfinished(metric, absent) + dragged(metric, scene, recording)
                              : metric.text);
   }
   // whose it is, where another has it
   std::vector<std::string> missing_names;
   for (const engine::AbsentMetric& a : absent) {
+    if (a.key.starts_with("rest_") && a.key != "rest_s") continue;  // place and heading of who does not rest
     const bool elsewhere = std::any_of(metrics.begin(), metrics.end(), [&](const auto& m) { return m.key == a.key; });
     const std::string name = elsewhere && !a.object.empty() ? a.key + " " + a.object : a.key;
     if (std::find(missing_names.begin(), missing_names.end(), name) == missing_names.end()) missing_names.push_back(name);

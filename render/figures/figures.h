@@ -30,6 +30,7 @@ struct PersonFacts {
   std::optional<double> hit, landed, rest;                 // [s]
   std::optional<double> released;                          // [s] when the flight began
   std::vector<PhaseFacts> phases;                          // of the throw, in order
+  bool dragged = false;                                    // a vehicle pushed it on as it slid
   int vehicle_body = -1;                                   // that struck
   std::vector<std::pair<std::string, double>> dimensions;  // [m] "throw distance", "airborne", ... as measured
 };

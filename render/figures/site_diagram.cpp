@@ -107,6 +107,12 @@ void draw_dimension(cairo_t* c, const Site& site, const Vec3& from, const Vec3& 
   cairo_restore(c);
 }
 
+/// No friction follows from a slide on which a vehicle pushed: the sheet says so where it gives its length.
+std::string name_of_phase(const PersonFacts& facts, const std::string& phase) {
+  if (phase == "flight") return "airborne";
+  return phase == "slide" && facts.dragged ? "slide, pushed" : phase;
+}
+
 void draw_dimensions(cairo_t* c, const Site& site, const PersonFacts& facts) {
   if (!facts.hit) return;
   auto com = [&](double t) { return centre_of_mass(facts, site.recording, t); };
@@ -120,7 +126,7 @@ void draw_dimensions(cairo_t* c, const Site& site, const PersonFacts& facts) {
     if (line < 3) continue;
     if (crowded || line < kLeastLine) row += 8;
     crowded = line < kLeastLine;
-    draw_dimension(c, site, com(phase.from), com(phase.to), phase.distance, phase.name == "flight" ? "airborne" : phase.name, row);
+    draw_dimension(c, site, com(phase.from), com(phase.to), phase.distance, name_of_phase(facts, phase.name), row);
   }
   for (const auto& [name, value] : facts.dimensions)
     if (name == "throw distance") draw_dimension(c, site, com(*facts.hit), com(end), value, facts.rest ? name : "so far", row + 12);
@@ -158,7 +164,7 @@ std::vector<std::string> key_of(const engine::Recording& recording, const Figure
     out.push_back(text);
     text.clear();
     for (const auto& [name, value] : facts.dimensions) {
-      const std::string next = fmt::format("{} {:.2f} m", name, value);
+      const std::string next = fmt::format("{} {:.2f} m", name_of_phase(facts, name), value);
       if (!text.empty() && text.size() + next.size() > kLongest) out.push_back(std::exchange(text, "") + ",");
       text += (text.empty() ? "" : ", ") + next;
     }

@@ -147,6 +147,18 @@ TEST(Simulate, TellsWhatDecidedAHeadInjuryCriterion) {
   EXPECT_THAT(text(7, 5), testing::ContainsRegex("hic15 p +36, of neither vehicle nor road alone\n"));
 }
 
+TEST(Simulate, CountsTurnsInWholesAndHasOneNumberForStraightFromBehind) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  const scenes::Scene scene = scenes::load(folder / "ball.toml");
+  const engine::Recording run = engine::simulate(scene.model);
+  const std::string text = cli::summary_text(
+      scene, run, {{"quarter_turns", "car", 4}, {"pdof_deg", "car", -179.99}, {"rest_heading_deg", "car", -179.9}});
+  EXPECT_THAT(text, testing::ContainsRegex("quarter_turns car +4\n"));
+  EXPECT_THAT(text, testing::ContainsRegex("pdof_deg car +180\\.0\n"));
+  EXPECT_THAT(text, testing::ContainsRegex("rest_heading_deg car +-179\\.9\n"));
+}
+
 TEST(Simulate, PrintsOneColumnUnderWhatWasChanged) {
   const Folder folder;
   const std::string scene = std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/sedan_pedestrian_40kmh.toml";
