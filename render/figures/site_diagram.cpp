@@ -110,7 +110,7 @@ void draw_dimension(cairo_t* c, const Site& site, const Vec3& from, const Vec3& 
 /// No friction follows from a slide on which a vehicle pushed: the sheet says so where it gives its length.
 std::string name_of_phase(const PersonFacts& facts, const std::string& phase) {
   if (phase == "flight") return "airborne";
-  return phase == "slide" && facts.dragged ? "slide, pushed" : phase;
+  return phase == "slide" && facts.dragged ? "pushed slide" : phase;
 }
 
 void draw_dimensions(cairo_t* c, const Site& site, const PersonFacts& facts) {

@@ -46,7 +46,9 @@ TEST_P(RunOverLying, IsPressedInAsFarAsTheLawSaysAtAnyStep) {
     for (const engine::Event& e : it.recording.events) {
       if (e.kind == "first_contact") touched = e.time;
       // it lies there, though nobody solves its contacts until the car comes: 50 ms off the road are the least to land again
-      if (e.kind == "ground_contact") EXPECT_GT(e.time, touched + 0.05);
+      if (e.kind == "ground_contact") {
+        EXPECT_GT(e.time, touched + 0.05);
+      }
     }
     EXPECT_LT(touched, 2.0);
     places.push_back(it.last(1).X_WB.p);
