@@ -106,7 +106,8 @@ constexpr Definition kDefinitions[] = {
     {"wrap_around_distance_m", "m", "wrap-around distance",
      "Length of a taut tape in the vertical fore and aft plane through the head's place of touch: from the ground vertically "
      "below the foremost part over front and bonnet to that place (Euro NCAP, Pedestrian Testing Protocol, wrap around distance).",
-     "the head met no vehicle that came with its front, as they went before the first touch; or a place no tape from the front "
+     "the head met no vehicle that came with its front, as they went before the first touch, by 0.3 m/s or more; or a place no "
+     "tape from the front "
      "reaches (flank, side window, underside)",
      "in 14 cases of Fahlstedt, Halldin and Kleiven, Traffic Inj. Prev. 17, 2016, a multibody person always wrapped farther than a "
      "finite-element one",

@@ -21,7 +21,8 @@ bool came_with_its_front(const Model& model, const Recording& recording, const E
     if (s.time <= first) before = &s;
   const BodyState& vehicle = before->bodies[head.body_b];
   const Vec3 person_B = vehicle.X_WB.q.conjugate() * (velocity_of(model, person, *before) - vehicle.V_WB.v);
-  return person_B.x() < 0 && -person_B.x() > std::abs(person_B.y());
+  constexpr double kNears = 0.3;  // [m/s] slower, it rides along: who slides off a roof did not wrap round the front
+  return -person_B.x() > std::max(kNears, std::abs(person_B.y()));
 }
 
 bool is_beside(Panel panel) {

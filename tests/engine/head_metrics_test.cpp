@@ -199,6 +199,22 @@ TEST(HeadMetrics, CriteriaAreToldApartByPartner) {
   EXPECT_TRUE(value_of(out, "hic15")) << "a head that meets only the road has a criterion too";
 }
 
+/// Who rides on a car's roof, a little slower for the air, slides off it forwards and strikes the bonnet with the head.
+TEST(HeadMetrics, WhoRodeAlongDidNotWrapRoundTheFront) {
+  const Model model = person_and_car();
+  Recording run = head_on_bonnet();
+  std::vector<Metric> out;
+  measure_head(model, run, 0, out);
+  EXPECT_TRUE(value_of(out, "wrap_around_distance_m"));
+  for (std::size_t i = 0; i < 2; ++i)
+    for (const int b : {kHead, kHips}) run.snapshots[i].bodies.own()[b].V_WB.v = {11.9, 0, -0.02};
+  run.events.insert(run.events.begin(), {0.1, "first_contact", kHips, kCar, Vec3::Zero(), 0.02});
+  out.clear();
+  measure_head(model, run, 0, out);
+  EXPECT_FALSE(value_of(out, "wrap_around_distance_m"));
+  EXPECT_TRUE(value_of(out, "head_impact_s"));
+}
+
 /// A head that lies on the road is struck there by a car: the blow is the car's, and what the road does before and after its own.
 TEST(HeadMetrics, ABlowOnAHeadThatLiesIsOfTheOneThatPushesHarder) {
   Model model = person_and_car();
