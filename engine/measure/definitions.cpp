@@ -171,15 +171,13 @@ constexpr Definition kDefinitions[] = {
      "Length of the level path of its centre of mass from the trip to rest, or to the end of the run.", kNotRolled, kRolls, true},
     {"ground_strikes", "", "ground strikes",
      "How often the bodywork of a vehicle that rolled over came down on the ground from the trip to rest: the ground pushed it by "
-     "more "
-     "than 0.8 km/h times its mass within 20 ms, as collision phases are counted. The table of impacts has no rows of the ground. "
-     "Scraping and what the wheels bear do not count.",
+     "more than 0.8 km/h times its mass within 20 ms, as collision phases are counted. The table of impacts has no rows of the "
+     "ground. Scraping and what the wheels bear do not count.",
      kNotRolled, kRolls, true},
     {"ground_strike_s", "s", "hardest ground strike", "Time at which the hardest of them began.", kNoStrike, kRolls, true},
     {"ground_strike_mps", "m/s", "delta-v, ground strike",
      "Impulse of the ground on the bodywork in the hardest of them over the vehicle's mass: what it changes of the velocity, "
-     "upwards "
-     "included.",
+     "upwards included.",
      kNoStrike, kRolls, true},
     {"ground_strike_panel", "", "panel, ground strike",
      "What of the vehicle took the hardest push of it, by the names of head_impact_panel.", kNoStrike, "on an edge either of two",
