@@ -2,7 +2,8 @@
 //   FAULT_CALL   write, open, rename, fsync, fork or malloc
 //   FAULT_AT     the first call that fails, counted from 1 in each process
 //   FAULT_ON     once, or on: from then on
-//   FAULT_FILE   the calls counted, as bytes appended to this file; for a first run without FAULT_AT
+//   FAULT_FILE   how often each process makes each of these calls, a line of six numbers appended; for a first run without
+//   FAULT_CALL
 // Only calls on files that are written count: the loader's and the libraries' own reading is not what is tested here.
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -19,14 +20,17 @@
 
 namespace {
 
+enum Call { kWrite, kOpen, kRename, kFsync, kMalloc, kFork, kCalls };
+constexpr const char* kNames[kCalls] = {"write", "open", "rename", "fsync", "malloc", "fork"};
+
 struct Fault {
-  char call[16] = "";
+  int call = kCalls;  // that fails; none
   long at = 0;
   bool on = false;
   bool read = false;
 };
 Fault fault;
-std::atomic<long> calls{0};
+std::atomic<long> calls[kCalls];
 pid_t counted_in = 0;
 // libraries allocate while they are loaded; what they do without is not the program's to answer
 bool in_main = false;
@@ -34,22 +38,23 @@ bool in_main = false;
 void read_wish() {
   fault.read = true;
   counted_in = getpid();
-  if (const char* call = getenv("FAULT_CALL")) strncpy(fault.call, call, sizeof fault.call - 1);
+  if (const char* name = getenv("FAULT_CALL"))
+    for (fault.call = 0; fault.call < kCalls && strcmp(name, kNames[fault.call]) != 0;) ++fault.call;
   if (const char* at = getenv("FAULT_AT")) fault.at = atol(at);
   const char* on = getenv("FAULT_ON");
   fault.on = on && strcmp(on, "on") == 0;
 }
 
 /// Whether this call of that kind is the one to fail. A forked process counts on its own.
-bool fails(const char* call) {
+bool fails(Call call) {
   if (!in_main) return false;
   if (!fault.read) read_wish();
-  if (strcmp(call, fault.call) != 0) return false;
+  if (fault.at > 0 && call != fault.call) return false;
   if (const pid_t here = static_cast<pid_t>(syscall(SYS_getpid)); here != counted_in) {
     counted_in = here;
-    calls = 0;
+    for (auto& count : calls) count = 0;
   }
-  const long n = ++calls;
+  const long n = ++calls[call];
   return fault.at > 0 && (fault.on ? n >= fault.at : n == fault.at);
 }
 
@@ -82,8 +87,10 @@ thread_local bool looking_up = false;
 void report_calls() {
   const char* file = getenv("FAULT_FILE");
   if (!file || counted_in != static_cast<pid_t>(syscall(SYS_getpid))) return;
-  char line[32];
-  const int size = snprintf(line, sizeof line, "%ld\n", calls.load());
+  char line[160];
+  int size = 0;
+  for (const auto& count : calls) size += snprintf(line + size, sizeof line - size, "%ld ", count.load());
+  line[size - 1] = '\n';
   const long to = syscall(SYS_openat, AT_FDCWD, file, O_WRONLY | O_CREAT | O_APPEND, 0666);
   if (to < 0) return;
   if (syscall(SYS_write, to, line, size) < 0) return;
@@ -112,7 +119,7 @@ int __libc_start_main(int (*main)(int, char**, char**), int argc, char** argv, v
 
 ssize_t write(int file, const void* data, size_t size) {
   static const auto real = next<ssize_t (*)(int, const void*, size_t)>("write");
-  if (file > 2 && fails("write")) {
+  if (file > 2 && fails(kWrite)) {
     errno = ENOSPC;
     return -1;
   }
@@ -121,7 +128,7 @@ ssize_t write(int file, const void* data, size_t size) {
 
 ssize_t writev(int file, const struct iovec* parts, int count) {
   static const auto real = next<ssize_t (*)(int, const struct iovec*, int)>("writev");
-  if (file > 2 && fails("write")) {
+  if (file > 2 && fails(kWrite)) {
     errno = ENOSPC;
     return -1;
   }
@@ -133,7 +140,7 @@ int open(const char* path, int flags, ...) {
   va_start(more, flags);
   const mode_t mode = flags & O_CREAT ? va_arg(more, mode_t) : 0;
   va_end(more);
-  if (for_writing(flags) && fails("open")) {
+  if (for_writing(flags) && fails(kOpen)) {
     errno = EMFILE;
     return -1;
   }
@@ -149,7 +156,7 @@ int open64(const char* path, int flags, ...) {
 
 FILE* fopen(const char* path, const char* mode) {
   static const auto real = next<FILE* (*)(const char*, const char*)>("fopen");
-  if (mode[0] != 'r' && fails("open")) {
+  if (mode[0] != 'r' && fails(kOpen)) {
     errno = EMFILE;
     return nullptr;
   }
@@ -162,7 +169,7 @@ FILE* fopen64(const char* path, const char* mode) {
 // what stdio writes at last it writes past the calls above
 size_t fwrite(const void* data, size_t size, size_t count, FILE* file) {
   static const auto real = next<size_t (*)(const void*, size_t, size_t, FILE*)>("fwrite");
-  if (file != stdout && file != stderr && fails("write")) {
+  if (file != stdout && file != stderr && fails(kWrite)) {
     errno = ENOSPC;
     return 0;
   }
@@ -172,7 +179,7 @@ int fclose(FILE* file) {
   static const auto real = next<int (*)(FILE*)>("fclose");
   const int flags = fcntl(fileno(file), F_GETFL);
   const int result = real(file);
-  if (flags >= 0 && for_writing(flags) && fails("write")) {
+  if (flags >= 0 && for_writing(flags) && fails(kWrite)) {
     errno = ENOSPC;
     return EOF;
   }
@@ -181,7 +188,7 @@ int fclose(FILE* file) {
 
 int rename(const char* from, const char* to) {
   static const auto real = next<int (*)(const char*, const char*)>("rename");
-  if (fails("rename")) {
+  if (fails(kRename)) {
     errno = EIO;
     return -1;
   }
@@ -190,7 +197,7 @@ int rename(const char* from, const char* to) {
 
 int fsync(int file) {
   static const auto real = next<int (*)(int)>("fsync");
-  if (fails("fsync")) {
+  if (fails(kFsync)) {
     errno = EIO;
     return -1;
   }
@@ -206,7 +213,7 @@ void _exit(int code) {
 
 pid_t fork() {
   static const auto real = next<pid_t (*)()>("fork");
-  if (fails("fork")) {
+  if (fails(kFork)) {
     errno = EAGAIN;
     return -1;
   }
@@ -220,7 +227,7 @@ void* malloc(size_t size) {
     real_malloc = next<Malloc>("malloc");
     looking_up = false;
   }
-  if (fails("malloc")) {
+  if (fails(kMalloc)) {
     errno = ENOMEM;
     return nullptr;
   }
