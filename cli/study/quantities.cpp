@@ -34,11 +34,14 @@ std::vector<Quantity> quantities_of(const engine::Model& model, const engine::Re
 std::vector<Quantity> quantities_of(const engine::Model& model, const engine::Recording& recording,
                                     const std::vector<engine::Metric>& metrics) {
   std::vector<Quantity> out;
+  const std::vector<engine::AbsentMetric> absent = engine::absent_metrics(model, recording, metrics);
   const auto owners = model.persons.size() + model.vehicles.size() + model.bodies.size();
   for (const engine::Metric& metric : metrics) {
     if (!metric.text.empty()) continue;  // a word has no error
-    const auto same = [&metric](const engine::Metric& other) { return other.key == metric.key; };
-    const bool alone = std::count_if(metrics.begin(), metrics.end(), same) == 1 || owners == 1;
+    const auto anothers = [&metric](const auto& other) { return other.key == metric.key && other.object != metric.object; };
+    // in every run the same name: of two, one may not come to rest in some
+    const bool alone = owners == 1 || (std::none_of(metrics.begin(), metrics.end(), anothers) &&
+                                       std::none_of(absent.begin(), absent.end(), anothers));
     out.push_back({alone ? metric.key : metric.key + " " + metric.object, metric.value});
   }
   if (!model.joints.empty()) out.push_back({"joint_gap_m", recording.diagnostics.max_joint_gap});

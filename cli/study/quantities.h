@@ -11,7 +11,7 @@
 namespace cli::study {
 
 struct Quantity {
-  std::string name;  // "throw_distance_m", "delta_v_mps red": key of summary.json, and whose, where several have it
+  std::string name;  // "throw_distance_m", "delta_v_mps red": key of summary.json, and whose, where several may have it
   double value = 0;  // in the unit of its name
 };
 

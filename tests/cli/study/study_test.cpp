@@ -11,6 +11,9 @@
 #include <sstream>
 
 #include "../program.h"
+#include "cli/study/quantities.h"
+#include "engine/simulate.h"
+#include "scenes/scene.h"
 
 namespace cli_tests {
 namespace {
@@ -121,6 +124,16 @@ TEST(Study, ForgetsAFormulaThatIsNoLongerThatOfTheScene) {
   ASSERT_EQ(study_puck(folder, {"--set", "body.puck.friction=0.5"}).code, 0);
   const auto written = nlohmann::json::parse(contents(folder / "out/study.json"));
   for (const auto& quantity : written["quantities"]) EXPECT_NE(quantity["error_kind"], "closed_form");
+}
+
+/// The run ends when the car has come to rest and the person has not: whose rest it is stands in the name as in a longer run.
+TEST(Study, AMeasureHasOneNameInEveryRun) {
+  const scenes::Scene scene = scenes::load(kScenes + "cases/sedan_pedestrian_40kmh.toml", {"simulation.duration=2.3 s"});
+  std::vector<std::string> names;
+  for (const auto& q : cli::study::quantities_of(scene.model, engine::simulate(scene.model))) names.push_back(q.name);
+  EXPECT_THAT(names, ::testing::Contains("rest_s sedan"));
+  EXPECT_THAT(names, ::testing::Not(::testing::Contains(::testing::AnyOf("rest_s", "rest_s pedestrian"))));
+  EXPECT_THAT(names, ::testing::Contains("throw_distance_m")) << "nobody else could have one";
 }
 
 TEST(Study, RefusesAnInputThatIsNoRange) {
