@@ -12,12 +12,18 @@
 namespace engine {
 namespace {
 
+/// So many snapshots at intervals of 0.01 s.
+Recording standing_still(int instants) {
+  Recording run;
+  run.interval = 0.01;
+  for (int i = 0; i < instants; ++i) run.snapshots.push_back(still(0.01 * i));
+  return run;
+}
+
 TEST(VehicleMetrics, DeltaVIsTheChangeOfVelocityOfTheCollisionAndNotOfTheRun) {
   Model model = person_and_car();
   model.settings.gravity.setZero();
-  Recording run;
-  run.interval = 0.01;
-  for (int i = 0; i < 60; ++i) run.snapshots.push_back(still(0.01 * i));
+  Recording run = standing_still(60);
   // the car heads along +y when it is struck and turns afterwards, which must not matter
   const Vec3 after(-3, -3, 0);
   for (int i = 0; i < 60; ++i) {
@@ -80,11 +86,9 @@ std::vector<Impact> car_against_block(double mass, double energy, double stiffne
   block.fixed = fixed;
   block.surface.stiffness = stiffness;
   block.shape = model.bodies[kCar].shape;
-  Recording run;
-  run.interval = 0.01;
+  Recording run = standing_still(20);
   for (int i = 0; i < 20; ++i) {
-    run.snapshots.push_back(still(0.01 * i));
-    run.snapshots.back().bodies.own()[kCar].V_WB.v = {i < 5 ? 10.0 : 4.0, 0, 0};
+    run.snapshots[i].bodies.own()[kCar].V_WB.v = {i < 5 ? 10.0 : 4.0, 0, 0};
   }
   ContactRecord c = push(kCar, kHips, kVehicles, {-6000, 0, 0});
   c.normal = {-1, 0, 0};
@@ -130,9 +134,7 @@ TEST(ImpactTable, ATwoWheelerAndACarShareNoEnergyByARuleOfCars) {
 TEST(ImpactTable, FrictionIsThatOfEachContactAlongItsOwnSurface) {
   // a limb lies in an edge: two faces at right angles, each with half of the friction it could have; dents make it 0.4 and 0.6
   Model model = person_and_car();
-  Recording run;
-  run.interval = 0.01;
-  for (int i = 0; i < 4; ++i) run.snapshots.push_back(still(0.01 * i));
+  Recording run = standing_still(4);
   for (const Vec3& normal : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitZ())}) {
     ContactRecord c = push(kHips, kCar, kOnVehicle, 100 * normal + (normal.x() > 0 ? 20 : 30) * Vec3::UnitY());
     c.normal = normal;
@@ -149,13 +151,11 @@ TEST(ImpactTable, FrictionIsThatOfEachContactAlongItsOwnSurface) {
 
 TEST(ImpactTable, APhaseLastsAQuarterOfASecondAtMost) {
   Model model = person_and_car();
-  Recording run;
-  run.interval = 0.01;
+  Recording run = standing_still(60);
   for (int i = 0; i < 60; ++i) {
-    run.snapshots.push_back(still(0.01 * i));
     if (i == 0) continue;
-    run.snapshots.back().contacts = {push(kHips, kCar, kOnVehicle, {100, 0, 0})};
-    run.snapshots.back().contacts[0].begun = 0.01 * (i - 1) + 1e-3;
+    run.snapshots[i].contacts = {push(kHips, kCar, kOnVehicle, {100, 0, 0})};
+    run.snapshots[i].contacts[0].begun = 0.01 * (i - 1) + 1e-3;
   }
   const std::vector<Impact> all = impacts_of(model, run);
   ASSERT_EQ(all.size(), 1u);
@@ -182,12 +182,10 @@ TEST(ImpactTable, ARowHasTheCollisionFromBothSides) {
 std::vector<Impact> stopped_car(const Quat& attitude) {
   Model model = person_and_car();
   model.settings.gravity.setZero();
-  Recording run;
-  run.interval = 0.01;
+  Recording run = standing_still(10);
   for (int i = 0; i < 10; ++i) {
-    run.snapshots.push_back(still(0.01 * i));
-    run.snapshots.back().bodies.own()[kCar].X_WB.q = attitude;
-    run.snapshots.back().bodies.own()[kCar].V_WB.v = i < 5 ? Vec3(10, 0, 0) : Vec3(Vec3::Zero());
+    run.snapshots[i].bodies.own()[kCar].X_WB.q = attitude;
+    run.snapshots[i].bodies.own()[kCar].V_WB.v = i < 5 ? Vec3(10, 0, 0) : Vec3(Vec3::Zero());
   }
   model.bodies[kHips].person = -1;
   run.snapshots[5].contacts = {push(kCar, kHips, kVehicles, {-10000, 0, 0})};
@@ -207,12 +205,10 @@ TEST(ImpactTable, AVehicleOnItsSideOrRoofHasNoDirectionOfForce) {
 
 TEST(ImpactTable, WhoIsStruckClosesAlongTheFirstTouchAndNotAlongTheMeanOfTheWrap) {
   const Model model = person_and_car();
-  Recording run;
-  run.interval = 0.01;
+  Recording run = standing_still(8);
   for (int i = 0; i < 8; ++i) {
-    run.snapshots.push_back(still(0.01 * i));
-    run.snapshots.back().bodies.own()[kCar].V_WB.v = {11, 0, 0};
-    run.snapshots.back().bodies.own()[kHips].V_WB.v = {0, 4, 0};
+    run.snapshots[i].bodies.own()[kCar].V_WB.v = {11, 0, 0};
+    run.snapshots[i].bodies.own()[kHips].V_WB.v = {0, 4, 0};
   }
   // struck by the front, then laid on the bonnet: the normal turns from level to upright
   for (int i = 2; i < 6; ++i) {
@@ -233,13 +229,10 @@ TEST(ImpactTable, WhoIsStruckClosesAlongTheFirstTouchAndNotAlongTheMeanOfTheWrap
 /// along with the hand by then. Half a second later the car drags who lies under it.
 TEST(ImpactTable, AClosingSpeedIsThatOfTheTouchThatLedToThePhaseAndWhatIsDraggedHasNone) {
   const Model model = person_and_car();
-  Recording run;
-  run.interval = 0.01;
+  Recording run = standing_still(80);
   for (int i = 0; i < 80; ++i) {
-    run.snapshots.push_back(still(0.01 * i));
-    run.snapshots.back().bodies.own()[kCar].V_WB.v = {-4, 0, 0};
-    for (const int b : {kHips, kHead})
-      run.snapshots.back().bodies.own()[b].V_WB.v = {i < 12 ? (b == kHips ? -3.5 : 0) : -4.1, 0, 0};
+    run.snapshots[i].bodies.own()[kCar].V_WB.v = {-4, 0, 0};
+    for (const int b : {kHips, kHead}) run.snapshots[i].bodies.own()[b].V_WB.v = {i < 12 ? (b == kHips ? -3.5 : 0) : -4.1, 0, 0};
   }
   const auto touch = [&](std::size_t i, int part, double amount) {
     ContactRecord c = push(part, kCar, kOnVehicle, {-amount, 0, 0});
@@ -259,9 +252,7 @@ TEST(ImpactTable, AClosingSpeedIsThatOfTheTouchThatLedToThePhaseAndWhatIsDragged
 TEST(ImpactTable, AnExchangeAtAnInstantHasTimeAndClosingSpeedOfItsEventAndLastsNone) {
   Model model = person_and_car();
   model.bodies[kHips].person = -1;
-  Recording run;
-  run.interval = 0.01;
-  for (int i = 0; i < 8; ++i) run.snapshots.push_back(still(0.01 * i));
+  Recording run = standing_still(8);
   ContactRecord c = push(kCar, kHips, kVehicles, {-6000, 0, 0});
   c.exchange = true;
   c.begun = 0.0437;
@@ -277,9 +268,7 @@ TEST(ImpactTable, AnExchangeAtAnInstantHasTimeAndClosingSpeedOfItsEventAndLastsN
 TEST(ToldEvents, ARigidCollisionIsToldOnceAPair) {
   Model model = person_and_car();
   model.bodies[kHips].person = -1;
-  Recording run;
-  run.interval = 0.01;
-  for (int i = 0; i < 80; ++i) run.snapshots.push_back(still(0.01 * i));
+  Recording run = standing_still(80);
   for (const std::size_t i : {5u, 60u}) {  // two phases of the same pair
     run.snapshots[i].contacts = {push(kCar, kHips, kVehicles, {-6000, 0, 0})};
     run.snapshots[i].contacts[0].begun = run.snapshots[i - 1].time;
@@ -413,9 +402,7 @@ TEST(Rollover, StillUnderWayHasNoDragFactorAndOneThatStartsInTheAirTripsAtTheSta
 
 TEST(AbsentMetrics, AVehicleSaysWhichOfTheReasonsIsItsOwn) {
   Model model = person_and_car();
-  Recording run;
-  run.interval = 0.01;
-  for (int i = 0; i < 8; ++i) run.snapshots.push_back(still(0.01 * i));
+  Recording run = standing_still(8);
   const auto reason = [&](const char* key) {
     std::vector<Metric> there;
     measure_vehicle(model, run, impacts_of(model, run), 0, there);
