@@ -41,24 +41,34 @@ double weight_of(const Model& model, const State& state, int b) {
   return body.fixed ? 0 : body.mass * model.settings.gravity.dot(state.X_WB[b].p);
 }
 
-/// Fastest body of a tree among those wanted, by what counts as still.
-template <class Wanted>
-double motion_of(const World& world, const State& state, std::size_t tree, const Wanted& wanted) {
+/// How fast a body of that motion is, by what counts as still.
+double pace_of(const Twist& V) {
+  return std::max(V.v.norm() / kStillSpeed, V.w.norm() / kStillTurn);
+}
+
+/// Of the fastest body of a tree, whatever it does.
+double motion_of(const World& world, const State& state, std::size_t tree) {
   double motion = 0;
-  for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
-    const int b = world.topology.links[l].body;
-    if (!wanted(b)) continue;
-    const Twist& V = state.V_WB[b];
-    motion = std::max({motion, V.v.norm() / kStillSpeed, V.w.norm() / kStillTurn});
-  }
+  for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l)
+    motion = std::max(motion, pace_of(state.V_WB[world.topology.links[l].body]));
   return motion;
 }
 
-double motion_of(const World& world, const State& state, std::size_t tree) {
-  return motion_of(world, state, tree, [](int) { return true; });
-}
-
 }  // namespace
+
+Twist travel_of(const Model& model, int b, const Pose& X, const Twist& V) {
+  constexpr double kUpright = 0.7;  // [-] cosine: leaning by 45 deg it is about to fall on its side
+  constexpr double kRocks = 1;      // [rad/s] more is no rocking
+  const int v = model.bodies[b].vehicle;
+  if (v < 0 || model.vehicles[v].body != b || model.vehicles[v].wheels.empty()) return V;
+  const Vec3 up = X.q * Vec3::UnitZ();
+  const double yaw = up.dot(V.w);
+  if (up.z() < kUpright || (V.w - yaw * up).norm() > kRocks) return V;
+  double height = 0;  // of the road, from the centre
+  for (const Wheel& wheel : model.vehicles[v].wheels) height += wheel.hub_B.z() - wheel.radius;
+  const Vec3 at_road = V.v + height / static_cast<double>(model.vehicles[v].wheels.size()) * V.w.cross(up);
+  return {yaw * up, at_road - up.dot(at_road) * up};
+}
 
 Recorder::Recorder(const World& world, const State& state)
     : still_since_(world.topology.trees.size(), -1),
@@ -264,6 +274,17 @@ void Recorder::watch_waiting(const World& world, const State& state) {
   }
 }
 
+/// Of the fastest body that tells when the tree rests, by its way. A person rests with its trunk: a foot may go on sinking.
+double Recorder::travel_of_tree(const World& world, const State& state, std::size_t tree) const {
+  double motion = 0;
+  for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+    const int b = world.topology.links[l].body;
+    if (has_trunk_[tree] && !trunk_[b]) continue;
+    motion = std::max(motion, pace_of(travel_of(world.model, b, state.X_WB[b], state.V_WB[b])));
+  }
+  return motion;
+}
+
 /// A body by itself slides to rest at once, and friction may change on its last steps: the step after which it would stop within
 /// two more tells when, but not the one in which it stops. Limbs settle for long: of them the recorded interval tells.
 void Recorder::watch_halt(const World& world, const State& state) {
@@ -272,7 +293,7 @@ void Recorder::watch_halt(const World& world, const State& state) {
   watched_ = state.time;
   for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
     if (world.topology.trees[t].end - world.topology.trees[t].begin != 1) continue;
-    const double motion = motion_of(world, state, t), slowed = step_motion_[t] - motion;
+    const double motion = travel_of_tree(world, state, t), slowed = step_motion_[t] - motion;
     step_motion_[t] = motion;
     if (motion < 1 && motion > std::max(0.5 * slowed, kHum) && motion < 2 * slowed)
       halted_[t] = state.time + motion / slowed * step;
@@ -287,8 +308,7 @@ void Recorder::watch_rest(const World& world, const State& state, double since) 
       still_since_[t] = -1;
     else if (still_since_[t] < 0)
       still_since_[t] = state.time;
-    // a person rests with its trunk, while a foot may go on sinking for seconds
-    const double motion = has_trunk_[t] ? motion_of(world, state, t, [this](int b) { return trunk_[b] != 0; }) : any;
+    const double motion = travel_of_tree(world, state, t);
     if (!(motion < 1)) {
       rest_since_[t] = -1;
     } else if (rest_since_[t] < 0) {

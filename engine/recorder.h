@@ -10,6 +10,10 @@
 
 namespace engine {
 
+/// How a body moves over the ground. A vehicle may go on rocking on its springs where it has stopped: of one that is on its wheels
+/// the motion of the point at the road under its centre, along the road, and the yaw. Of all else its whole motion.
+Twist travel_of(const Model&, int body, const Pose&, const Twist&);
+
 class Recorder {
  public:
   Recorder(const World&, const State&);
@@ -44,6 +48,7 @@ class Recorder {
   void keep_still(const World&, const State&);
   double potential(const World&, const State&);
   void note_head(const Constraint&, double time);
+  double travel_of_tree(const World&, const State&, std::size_t tree) const;
   void watch_rest(const World&, const State&, double since);
   void watch_halt(const World&, const State&);
   void watch_waiting(const World&, const State&);

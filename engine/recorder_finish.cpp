@@ -32,14 +32,16 @@ void warn_of_idle_impacts(const World& world, std::vector<std::string>& warnings
   }
 }
 
-/// Whether a tree stands from `time` on. What rocks on its springs or edges is slow there, and goes on: it has no halt.
+/// Whether a tree stands from `time` on. What rocks on its edges is slow there, and goes on: it has no halt.
 bool halts(const World& world, const Recording& recording, std::size_t tree, double time) {
   constexpr double kStands = 5e-3;  // [m/s] and [rad/s]
   const auto& all = recording.snapshots;
   if (time > all.back().time) return false;
   for (auto s = all.rbegin(); s != all.rend() && s->time > time; ++s)
     for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
-      const Twist& V = s->bodies[static_cast<std::size_t>(world.topology.links[l].body)].V_WB;
+      const int b = world.topology.links[l].body;
+      const BodyState& body = s->bodies[static_cast<std::size_t>(b)];
+      const Twist V = travel_of(world.model, b, body.X_WB, body.V_WB);
       if (V.v.norm() > kStands || V.w.norm() > kStands) return false;
     }
   return true;

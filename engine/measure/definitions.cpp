@@ -76,8 +76,8 @@ constexpr Definition kDefinitions[] = {
     {"rest_s", "s", "rest",
      "Time from which nothing of it moves faster than 0.05 m/s or 0.3 rad/s until the run ends, for 0.25 s or more; of what slides "
      "to a halt then, and no longer moves at all, the halt. Of a person its trunk: hips, head and what joins them. A hand or a "
-     "foot "
-     "may settle later. Of rider and mount each its own.",
+     "foot may settle later. Of a vehicle on its wheels its way along the road and its yaw: it may go on rocking on its springs. "
+     "Of rider and mount each its own.",
      kMoving, "to the recorded interval", true},
     {"travel_m", "m", "way", "Level distance from start to end of who or what no vehicle touched.", "a person that was struck",
      kPath, true},

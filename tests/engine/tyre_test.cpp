@@ -218,6 +218,24 @@ TEST(Braking, StopsAfterTheDistanceOfCoulombFriction) {
   EXPECT_NEAR(last_of(run).bodies[0].V_WB.v.norm(), 0, 1e-3);
 }
 
+TEST(Braking, RestsWhereItStandsOnTheRoadAndRocksOn) {
+  constexpr double kSpeed = 15, kInterval = 4e-3;
+  Model model = on_ground(4);
+  add_reference_car(model, 0, kSpeed);
+  model.vehicles[0].sequence = {braking(0, 1e6)};
+  model.settings.record_interval = kInterval;
+  const Recording run = simulate(model);
+  const auto rest = std::find_if(run.events.begin(), run.events.end(), [](const Event& e) { return e.kind == "rest"; });
+  ASSERT_NE(rest, run.events.end());
+  // Coulomb friction, within the waver of the loads above; slow from 0.05 m/s on, and seen at a recorded instant
+  const double want = kSpeed / (0.76 * kGravity);
+  EXPECT_NEAR(rest->time, want, 5e-3 * want + kInterval);
+  double rocks = 0;  // [m/s]
+  for (const Snapshot& s : run.snapshots)
+    if (s.time > rest->time) rocks = std::max(rocks, s.bodies[0].V_WB.v.norm());
+  EXPECT_GT(rocks, 0.05);  // what counts as still
+}
+
 TEST(Braking, PartialLevelLagAndBuildUpAreThoseAsked) {
   Model model = on_ground(2);
   add_reference_car(model, 0, 25);
