@@ -6,11 +6,11 @@
 #include <fstream>
 #include <set>
 
+#include "cli/build_id.h"
 #include "cli/exit.h"
 #include "cli/inference/crew.h"
 #include "cli/output/whole_file.h"
 #include "cli/process.h"
-#include "cli/study/trial.h"
 #include "scenes/loader/sha256.h"
 
 namespace cli::inference {
@@ -22,7 +22,7 @@ std::string name_of(const std::vector<std::string>& overrides) {
 
 /// What every line of a journal rests on.
 std::string head_of(const scenes::Scene& scene) {
-  return "crashreel runs " + scenes::sha256(scene.sha256 + scene.assets_sha256 + study::program_hash()) + "\n";
+  return "crashreel runs " + scenes::sha256(scene.sha256 + scene.assets_sha256 + build_id()) + "\n";
 }
 
 }  // namespace

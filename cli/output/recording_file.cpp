@@ -6,7 +6,7 @@
 #include <iterator>
 #include <tuple>
 
-#include "cli/study/trial.h"
+#include "cli/build_id.h"
 #include "engine/bytes.h"
 #include "engine/contact/pair_table.h"
 #include "scenes/loader/sha256.h"
@@ -117,7 +117,7 @@ struct Reader {
 /// First in the file: of which scene, by which program, and that it is whole.
 std::string key_of(const scenes::Scene& scene, const engine::Bytes& payload) {
   const std::string_view bytes(reinterpret_cast<const char*>(payload.data()), payload.size());
-  return scenes::sha256(study::program_hash() + scene.sha256 + scene.assets_sha256 + scenes::sha256(bytes));
+  return scenes::sha256(build_id() + scene.sha256 + scene.assets_sha256 + scenes::sha256(bytes));
 }
 
 /// Whether every number in it that counts or chooses something can be one of a run of this scene.

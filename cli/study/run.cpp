@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/build_id.h"
 #include "cli/exit.h"
 #include "cli/output/whole_file.h"
 #include "cli/study/pool.h"
@@ -16,7 +17,7 @@ namespace {
 struct Batch {
   std::vector<Trial> trials;
   bool timed = true;
-  std::string program = program_hash();
+  std::string program = build_id();
   std::shared_ptr<scenes::MeshShelf> meshes = std::make_shared<scenes::MeshShelf>();
 
   void add(const scenes::Scene& scene, const Setting& setting, double cost) {

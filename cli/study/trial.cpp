@@ -6,7 +6,6 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "cli/exit.h"
 #include "cli/output/whole_file.h"
@@ -24,17 +23,7 @@ constexpr double kEnough = 0.4;      // [s] of measuring one trial; a long run i
 constexpr int kMostRepetitions = 7;  // more do not move a median
 constexpr double kLong = 0.25;       // [s] a run this long has warmed up within itself
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 }  // namespace
-
-std::string program_hash() {
-  return scenes::sha256(bytes_of("/proc/self/exe"));
-}
 
 std::string fingerprint_of(const Trial& trial, const scenes::Scene& scene, const std::string& program) {
   return scenes::sha256(

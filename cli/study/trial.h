@@ -34,10 +34,8 @@ struct Outcome {
   std::string recording;              // its hash, as `simulate` prints it
 };
 
-/// What the trial's answer depends on; `loaded` is the scene with the trial's overrides.
-std::string fingerprint_of(const Trial&, const scenes::Scene& loaded, const std::string& program_hash);
-/// SHA-256 of the running program: a new build may give new answers.
-std::string program_hash();
+/// What the trial's answer depends on; `loaded` is the scene with the trial's overrides, `program` its build ID.
+std::string fingerprint_of(const Trial&, const scenes::Scene& loaded, const std::string& program);
 
 /// Runs the trial on the calling process' core until its time is known: at least three repetitions if it is short.
 Outcome run(const Trial&);
