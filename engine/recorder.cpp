@@ -58,12 +58,12 @@ double motion_of(const World& world, const State& state, std::size_t tree) {
 
 Twist travel_of(const Model& model, int b, const Pose& X, const Twist& V) {
   constexpr double kUpright = 0.7;  // [-] cosine: leaning by 45 deg it is about to fall on its side
-  constexpr double kRocks = 1;      // [rad/s] more is no rocking
+  constexpr double kRocks = 0.5, kBounces = 0.3;  // [rad/s], [m/s] more is no rocking on springs
   const int v = model.bodies[b].vehicle;
   if (v < 0 || model.vehicles[v].body != b || model.vehicles[v].wheels.empty()) return V;
   const Vec3 up = X.q * Vec3::UnitZ();
   const double yaw = up.dot(V.w);
-  if (up.z() < kUpright || (V.w - yaw * up).norm() > kRocks) return V;
+  if (up.z() < kUpright || (V.w - yaw * up).norm() > kRocks || std::abs(up.dot(V.v)) > kBounces) return V;
   double height = 0;  // of the road, from the centre
   for (const Wheel& wheel : model.vehicles[v].wheels) height += wheel.hub_B.z() - wheel.radius;
   const Vec3 at_road = V.v + height / static_cast<double>(model.vehicles[v].wheels.size()) * V.w.cross(up);

@@ -73,7 +73,7 @@ const std::vector<Library> kLibraries = {
     {"assimp/.*", {"scenes/cage/"}},
     {"seccomp\\.h", {"scenes/cage/"}},
     {"execinfo\\.h", {"cli/process.cpp"}},
-    {"link\\.h", {"cli/commands/version.cpp"}},
+    {"link\\.h", {"cli/commands/version.cpp", "cli/build_id.cpp"}},
     {"CLI/.*", {"cli/command.cpp"}},
     {"boost/.*", {"cli/inference/"}},
     {"nlohmann/.*", {"scenes/", "cli/"}},
