@@ -59,8 +59,8 @@ render::Camera out_of_vehicle(const engine::Model& model) {
   const double roof = shape ? shape->mesh->bounds().upper.z() + shape->X_BM.p.z() : 0.9;
   const double nose = shape ? shape->mesh->bounds().upper.x() + shape->X_BM.p.x() : 2;
   camera.position = {nose - 1.75, 0.36, roof - 0.28};
-  camera.target = camera.position + Vec3(10, 0, -1.2);
-  camera.vertical_fov = 1.0;
+  camera.target = camera.position + Vec3(10, 0, -0.5);
+  camera.vertical_fov = 0.8;
   return camera;
 }
 

@@ -7,6 +7,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include "cli/exit.h"
@@ -138,13 +139,26 @@ std::vector<std::string> option_names(const CLI::App& app) {
   return names;
 }
 
-[[noreturn]] void refuse_leftovers(const CLI::App& app, const std::string& who) {
+/// A shell parts a name with spaces: words that together name a file.
+std::string quotes_for(const std::string& word, const std::vector<std::string>& words) {
+  const auto end = std::find(words.begin(), words.end(), word);
+  std::string name = word;
+  for (auto begin = end; end != words.end() && begin != words.begin();) {
+    name = *--begin + " " + name;
+    std::error_code none;
+    if (std::filesystem::exists(name, none)) return fmt::format("; a name with spaces stands in quotes: \"{}\"", name);
+  }
+  return "";
+}
+
+/// `words` are those of the command line, as typed.
+[[noreturn]] void refuse_leftovers(const CLI::App& app, const std::string& who, const std::vector<std::string>& words) {
   const std::string first = app.remaining().front();
   if (first.starts_with("-")) {
     const std::string name = first.substr(0, first.find('='));
     throw UsageError(fmt::format("{}: unknown option {}{}", who, name, instead_of_option(name, option_names(app))));
   }
-  throw UsageError(fmt::format("{}: unexpected argument \"{}\"", who, first));
+  throw UsageError(fmt::format("{}: unexpected argument \"{}\"{}", who, first, quotes_for(first, words)));
 }
 
 /// A missing option as it is typed: "-o DIR is required".
@@ -282,16 +296,15 @@ int run_command_line(int argc, const char* const* argv) {
 
   // what was typed wrong is told by us: in our words, with our exit code
   std::string who = "crashreel";
-  std::vector<std::string> words = as_commands(argc, argv);
-  std::reverse(words.begin(), words.end());  // as the library takes them
+  const std::vector<std::string> words = as_commands(argc, argv);
   try {
-    app.parse(std::move(words));
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // as the library takes them
     const auto chosen = app.get_subcommands();
     if (chosen.empty()) refuse_command(app.remaining().empty() ? "" : app.remaining().front());
     const CLI::App& sub = *chosen.front();
     who += " " + sub.get_name();
-    if (!sub.remaining().empty()) refuse_leftovers(sub, who);
-    if (!app.remaining().empty()) refuse_leftovers(app, who);
+    if (!sub.remaining().empty()) refuse_leftovers(sub, who, words);
+    if (!app.remaining().empty()) refuse_leftovers(app, who, words);
     return actions.at(&sub)();
   } catch (const CLI::CallForHelp&) {
     const auto asked = app.get_subcommands();
@@ -303,7 +316,7 @@ int run_command_line(int argc, const char* const* argv) {
     if (!chosen.empty()) {
       who = "crashreel " + chosen.front()->get_name();
       // a missing scene is often a mistyped option that swallowed it
-      if (!chosen.front()->remaining().empty()) refuse_leftovers(*chosen.front(), who);
+      if (!chosen.front()->remaining().empty()) refuse_leftovers(*chosen.front(), who, words);
     }
     const std::string what = chosen.empty() ? error.what() : as_typed(*chosen.front(), error.what());
     throw UsageError(fmt::format("{}: {}; see {} --help", who, what, who));

@@ -126,11 +126,17 @@ int line_that_loses_parser(std::string_view text) {
 /// "; did you mean case.toml?" of the files beside it.
 std::string similar_file(const std::filesystem::path& file) {
   std::vector<std::string> names;
+  std::string parted;  // a shell parts a name with spaces
   std::error_code problem;
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   if (!std::filesystem::is_directory(folder, problem)) return fmt::format("; there is no folder {} either", folder.string());
-  for (const auto& entry : std::filesystem::directory_iterator(folder, problem))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder, problem)) {
+    if (entry.path().extension() != ".toml") continue;
+    names.push_back(entry.path().stem().string());
+    if (names.back().starts_with(file.filename().string() + " ")) parted = names.back() + ".toml";
+  }
+  if (!parted.empty())
+    return fmt::format("; did you mean \"{}\"? A name with spaces stands in quotes", (file.parent_path() / parted).string());
   // names of one or two letters are near to everything
   const std::string stem = file.stem().string(), near = stem.size() < 3 ? "" : nearest(stem, names);
   return near.empty() ? "" : fmt::format("; did you mean {}?", (file.parent_path() / (near + ".toml")).string());

@@ -134,6 +134,7 @@ TEST_P(BadCommandIsRefused, WithItsMessageAndExitCode) {
   folder.write("ball.toml", kBall);
   folder.write("there.mp4", "something");
   folder.write("there.png", "something");
+  folder.write("my case.toml", kBall);
   std::filesystem::create_directory(folder / "frames");
   folder.write("frames/frame_00007.png", "something");
   const Result result = run(folder, GetParam().arguments);
@@ -158,6 +159,10 @@ INSTANTIATE_TEST_SUITE_P(
                    " render: unknown option --siz; did you mean --size?"},
         BadCommand{"unknown_option_alone", {"--verbos"}, kAuthor, ": unknown option --verbos"},
         BadCommand{"second_scene", {"render", "ball.toml", "other.toml"}, kAuthor, " render: unexpected argument \"other.toml\""},
+        BadCommand{"a_name_without_quotes",
+                   {"render", "my", "case.toml"},
+                   kAuthor,
+                   " render: unexpected argument \"case.toml\"; a name with spaces stands in quotes: \"my case.toml\""},
         BadCommand{"no_scene", {"render"}, kAuthor, " render: SCENE is required; see crashreel render --help"},
         BadCommand{"no_folder", {"simulate", "ball.toml"}, kAuthor, " simulate: -o DIR is required; see crashreel simulate --help"},
         BadCommand{"bad_quality",

@@ -145,6 +145,9 @@ TEST(Mistakes, ASceneFileThatIsNotThere) {
   EXPECT_EQ(run(folder, {"check", "nosuch.toml"}).err, "nosuch.toml: there is no such file\n");
   EXPECT_EQ(run(folder, {"check", "cas.toml"}).err, "cas.toml: there is no such file; did you mean case.toml?\n");
   EXPECT_EQ(run(folder, {"check", "lane1.toml"}).err, "lane1.toml: there is no such file\n");
+  folder.write("my case.toml", kBall);
+  EXPECT_EQ(run(folder, {"check", "my"}).err,
+            "my: there is no such file; did you mean \"my case.toml\"? A name with spaces stands in quotes\n");
   EXPECT_EQ(run(folder, {"check", "."}).err, ".: is a folder; name a scene file in it\n");
   EXPECT_EQ(run(folder, {"check", "-"}).err, "-: there is no such file; standard input is /dev/stdin\n");
   EXPECT_EQ(run(folder, {"check", "none/case.toml"}).err,
