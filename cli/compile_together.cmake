@@ -1,7 +1,7 @@
 # Several sources of a target compiled as one: most of a source's time goes into headers and templates that its neighbours need too.
 # Sources far apart in the list go together, whose unnamed namespaces seldom share names. A name that clashes all the same wants to be
 # a better one; where that is not so, the source is compiled alone.
-set(compiled_alone "/effects/table.cpp|/solver/wide_products.cpp|/sliding_joint_test.cpp|/generate/(truck|van).cpp|/render/(gl_painter|gl_picture|mark_picture)_test.cpp|/scenes/(person|joint|skin)_test.cpp")
+set(compiled_alone "/(effects|overlays)/table.cpp|/solver/wide_products.cpp|/sliding_joint_test.cpp|/generate/(truck|van).cpp|/render/(gl_painter|gl_picture|mark_picture)_test.cpp|/scenes/(person|joint|skin)_test.cpp")
 # The more in one, the less is compiled twice: of sixteen, the program takes a tenth less processor time than of eight. Pictures have
 # many constants of one name.
 function(compile_together target)

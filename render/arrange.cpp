@@ -78,9 +78,8 @@ void add_scene(DrawList& list, const Stage& stage, const engine::Snapshot& now) 
 }
 
 bool wanted(const Overlay& overlay, Layer layer, const Camera& camera) {
-  // an eye sees the scene and its skid marks, not what is drawn over them
-  if (camera.kind == CameraKind::eye && !overlay.whole_picture && &overlay != &kSkidMarks) return false;
-  return layer == Layer::all || overlay.whole_picture == (layer == Layer::sheet);
+  if (camera.kind == CameraKind::eye && overlay.belongs == Belongs::over_scene) return false;
+  return layer == Layer::all || (overlay.belongs == Belongs::picture) == (layer == Layer::sheet);
 }
 
 }  // namespace
@@ -95,7 +94,7 @@ DrawList arrange(const Stage& stage, const engine::Recording& recording, const M
   if (layer != Layer::sheet) add_scene(list, stage, now);
   const Frame frame{stage, recording, now, moment, camera, aspect};
   for (const Overlay* overlay : overlay_table())
-    if (wanted(*overlay, layer, camera) && overlay->shown(frame)) overlay->add(frame, list);
+    if (wanted(*overlay, layer, camera) && overlay->shown_in(frame)) overlay->add(frame, list);
   return list;
 }
 

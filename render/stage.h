@@ -4,10 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/geometry/hyper_ellipsoid.h"
@@ -200,27 +203,36 @@ struct Dimension {
 
 enum class ContactColour { time, impulse };
 
-struct Overlays {
-  bool contacts = true;        // point and normal
-  bool forces = true;          // arrows, length by force
-  bool caption = true;         // time, speeds, camera
-  bool traces = false;         // path of head and hips
-  bool vehicle_paths = false;  // on the ground
-  bool wheel_traces = false;
-  bool disclaimer = true;           // "simulation, not footage", provenance
-  bool scale_bar = true;            // top cameras
-  double newtons_per_metre = 10e3;  // [N/m] arrow length scale
+/// A key of [overlays]: a switch, or a number.
+struct OverlayKey {
+  const char* name;
+  double fallback;                                                    // SI; of a switch 0 or 1; of a number 0: none
+  const char* doc;                                                    // a sentence
+  const char* unit = "";                                              // SI; empty: a switch
+  double lower = 0, upper = std::numeric_limits<double>::infinity();  // of a number, which is positive
+};
+
+/// Those of all overlays.
+std::vector<OverlayKey> overlay_keys();
+
+/// What is drawn over the picture. Switches and numbers go by their keys in [overlays]; each stands in the file of its overlay
+/// (overlays/overlay.h). A key that no overlay has throws std::out_of_range.
+class Overlays {
+ public:
+  Overlays();                                                                     // as of a scene that says nothing
+  double of(std::string_view key) const { return values_.at(std::string(key)); }  // SI; 0: a number that is not given
+  bool on(std::string_view key) const { return of(key) > 0; }
+  void set(std::string_view key, double value = 1) { values_.at(std::string(key)) = value; }
+  void hide(std::initializer_list<std::string_view> keys) {
+    for (const std::string_view key : keys) set(key, 0);
+  }
+
   std::vector<std::string> trace_bodies;
-  bool legend = false;           // colours of arrows and marks, scale of arrows
-  bool contact_history = false;  // marks on vehicle and person where they touched so far
   ContactColour contact_colour = ContactColour::time;
-  double ghost_interval = 0;  // [s] between stroboscopic figures; 0: none
-  double ghost_distance = 0;  // [m] travelled between them; 0: none
-  bool velocities = false;    // arrows at the bodies whose speed the caption tells
-  double velocity_scale = 8;  // [m/s per m] of those arrows
-  bool speed_chart = false;   // running with the film
-  bool energy_chart = false;
   std::vector<Dimension> dimensions;
+
+ private:
+  std::map<std::string, double> values_;
 };
 
 struct Stage {

@@ -90,11 +90,9 @@ std::vector<std::string> stroboscopic_still(const Stage& stage, const engine::Re
   for (std::size_t i = job.persons.size() + stage.ellipsoids.size(), n = i; i < points.size(); i += n)
     way += (points[i] - points[i - n]).norm();
   // equal ways, not equal times: a figure at rest would otherwise be drawn over and over
-  scene.overlays.ghost_distance = std::max(way / kFigures, 0.3);
-  scene.overlays.ghost_interval = 0;
-  scene.overlays.traces = true;
-  scene.overlays.contacts = scene.overlays.forces = false;
-  scene.overlays.speed_chart = scene.overlays.energy_chart = scene.overlays.legend = false;
+  scene.overlays.set("ghost_distance", std::max(way / kFigures, 0.3));
+  scene.overlays.set("traces");
+  scene.overlays.hide({"ghost_interval", "contacts", "forces", "speed_chart", "energy_chart", "legend"});
   Painter painter(job.width, job.height, job.quality);
   Image image;
   painter.paint(scene, recording, {to, "stroboscopic", 1}, image);
@@ -114,8 +112,8 @@ std::vector<std::string> rest_ghosts(const Stage& stage, const engine::Recording
   Stage scene = stage;
   scene.cameras.insert(scene.cameras.begin(), beside(points, static_cast<double>(job.width) / job.height));
   scene.overlays = {};
-  scene.overlays.ghost_interval = 0.5;  // of instants a second apart
-  scene.overlays.contacts = scene.overlays.forces = scene.overlays.caption = false;
+  scene.overlays.set("ghost_interval", 0.5);  // of instants a second apart
+  scene.overlays.hide({"contacts", "forces", "caption"});
   Painter painter(job.width, job.height, job.quality);
   Image image;
   painter.paint(scene, ends, {ends.end_time(), "stroboscopic", 1}, image);
@@ -153,10 +151,9 @@ std::vector<std::string> contact_sheet(const Stage& stage, const engine::Recordi
   const int w = job.width / kColumns, h = static_cast<int>(std::lround(w / kAspectOfFilm));
   Stage scene = stage;
   if (!job.persons.empty()) scene.cameras.insert(scene.cameras.begin(), beside_person(job.persons.front(), recording));
-  scene.overlays.contacts = scene.overlays.forces = false;  // their labels would be too small to read
-  scene.overlays.contact_history = true;
-  scene.overlays.disclaimer = scene.overlays.caption = scene.overlays.legend = false;
-  scene.overlays.speed_chart = scene.overlays.energy_chart = false;
+  // labels would be too small to read
+  scene.overlays.hide({"contacts", "forces", "disclaimer", "caption", "legend", "speed_chart", "energy_chart"});
+  scene.overlays.set("contact_history");
   scene.warnings.clear();  // they stand in the foot, where they can be read
   Painter painter(w, h, job.quality);
   Image sheet, still;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "render/matrix.h"
-#include "render/overlays/overlay.h"
+#include "render/overlays/registration.h"
 
 namespace render {
 namespace {
@@ -63,7 +63,7 @@ void add_disclaimer(const Frame& frame, DrawList& list) {
   label.sizes[0] = 19;
   // without the caption a warning stands here: it can not be switched off
   for (const std::string& warning : frame.stage.warnings) {
-    if (frame.stage.overlays.caption) break;
+    if (frame.stage.overlays.on("caption")) break;
     label.lines.push_back(warning);
     label.sizes.push_back(18);
     label.colours.push_back(kWarning);
@@ -88,7 +88,7 @@ void add_scale_bar(const Frame& frame, DrawList& list) {
   };
   const double half_width = 0.5 * seen * frame.aspect;
   const double x1 = half_width * 0.95, x0 = x1 - length,
-               y = (frame.stage.overlays.legend ? -0.38 : 0.40) * seen;  // the legend's corner
+               y = (frame.stage.overlays.on("legend") ? -0.38 : 0.40) * seen;  // the legend's corner
   auto line = [&](double ax, double ay, double bx, double by) {
     LineItem item;
     item.points = {to_float(on_ground(ax, ay)), to_float(on_ground(bx, by))};
@@ -108,7 +108,7 @@ void add_scale_bar(const Frame& frame, DrawList& list) {
   list.labels.push_back(label);
   const double bearing = frame.stage.north.value_or(0);
   const Vec3 along = Vec3(std::cos(bearing), std::sin(bearing), 0);
-  const bool charts = frame.stage.overlays.speed_chart || frame.stage.overlays.energy_chart;
+  const bool charts = frame.stage.overlays.on("speed_chart") || frame.stage.overlays.on("energy_chart");
   const Vec3 middle = on_ground(-half_width * 0.92 + 0.045 * seen, (charts ? -0.16 : 0.34) * seen);
   list.arrows.push_back({to_float(middle - 0.045 * seen * along), to_float(middle + 0.045 * seen * along), {1, 1, 1, 1}, 4});
   LabelItem north = label;
@@ -121,14 +121,29 @@ void add_scale_bar(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kCaption{"caption", [](const Frame& f) { return f.stage.overlays.caption; }, add_caption, true};
-const Overlay kScaleBar{"scale_bar", [](const Frame& f) { return f.stage.overlays.scale_bar && f.camera.kind == CameraKind::top; },
-                        add_scale_bar};
-const Overlay kDisclaimer{"disclaimer",
-                          [](const Frame& f) {
-                            const bool unsaid = !f.stage.warnings.empty() && !f.stage.overlays.caption;
-                            return f.stage.overlays.disclaimer || unsaid;
-                          },
-                          add_disclaimer, true};
+struct Caption {
+  static constexpr OverlayKey kKeys[] = {{"caption", 1, "Time, speeds, camera."}};
+  static constexpr Overlay kOverlay{"caption", kKeys, add_caption, nullptr, Belongs::picture};
+};
+template struct Drawn<Caption>;
+
+struct ScaleBar {
+  static constexpr OverlayKey kKeys[] = {{"scale_bar", 1, "A bar of metres in top views."}};
+  static constexpr Overlay kOverlay{"scale_bar", kKeys, add_scale_bar, [](const Frame& f) {
+                                      return f.stage.overlays.on("scale_bar") && f.camera.kind == CameraKind::top;
+                                    }};
+};
+template struct Drawn<ScaleBar>;
+
+struct Disclaimer {
+  static constexpr OverlayKey kKeys[] = {{"disclaimer", 1, "\"Simulation, not footage\" and the provenance at the foot."}};
+  static constexpr Overlay kOverlay{"disclaimer", kKeys, add_disclaimer,
+                                    [](const Frame& f) {
+                                      const bool unsaid = !f.stage.warnings.empty() && !f.stage.overlays.on("caption");
+                                      return f.stage.overlays.on("disclaimer") || unsaid;
+                                    },
+                                    Belongs::picture};
+};
+template struct Drawn<Disclaimer>;
 
 }  // namespace render

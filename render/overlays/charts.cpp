@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "render/overlays/overlay.h"
+#include "render/overlays/registration.h"
 
 namespace render {
 namespace {
@@ -54,7 +54,7 @@ ChartItem empty_chart(const Frame& frame, const std::string& title, std::size_t 
 
 void add_charts(const Frame& frame, DrawList& list) {
   const Overlays& o = frame.stage.overlays;
-  if (o.speed_chart && !frame.stage.speeds.empty()) {
+  if (o.on("speed_chart") && !frame.stage.speeds.empty()) {
     ChartItem chart = empty_chart(frame, "speed, km/h", list.charts.size());
     constexpr Float4 kColours[] = {{1, 0.70f, 0.25f, 1}, {0.45f, 0.85f, 1, 1}, {0.62f, 0.92f, 0.40f, 1}, {0.95f, 0.55f, 0.90f, 1}};
     for (const auto& [body, name] : frame.stage.speeds)
@@ -62,7 +62,7 @@ void add_charts(const Frame& frame, DrawList& list) {
                  [b = static_cast<std::size_t>(body)](const engine::Snapshot& s) { return 3.6 * s.bodies[b].V_WB.v.norm(); });
     list.charts.push_back(std::move(chart));
   }
-  if (o.energy_chart) {
+  if (o.on("energy_chart")) {
     ChartItem chart = empty_chart(frame, "energy, kJ", list.charts.size());
     add_series(frame, chart, "kinetic", {0.45f, 0.85f, 1, 1}, [](const engine::Snapshot& s) { return s.energies.kinetic / 1000; });
     add_series(frame, chart, "dissipated", {1, 0.50f, 0.35f, 1}, [](const engine::Snapshot& s) {
@@ -74,7 +74,13 @@ void add_charts(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kCharts{"charts", [](const Frame& f) { return f.stage.overlays.speed_chart || f.stage.overlays.energy_chart; },
-                      add_charts, true};
+struct Charts {
+  static constexpr OverlayKey kKeys[] = {{"speed_chart", 0, "Speeds over time, running with the film."},
+                                         {"energy_chart", 0, "Energies over time, running with the film."}};
+  static constexpr Overlay kOverlay{
+      "charts", kKeys, add_charts,
+      [](const Frame& f) { return f.stage.overlays.on("speed_chart") || f.stage.overlays.on("energy_chart"); }, Belongs::picture};
+};
+template struct Drawn<Charts>;
 
 }  // namespace render

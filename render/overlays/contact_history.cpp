@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "render/matrix.h"
-#include "render/overlays/overlay.h"
+#include "render/overlays/registration.h"
 
 namespace render {
 namespace {
@@ -57,7 +57,10 @@ void add_contact_history(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kContactHistory{"contact_history", [](const Frame& f) { return f.stage.overlays.contact_history; },
-                              add_contact_history};
+struct ContactHistory {
+  static constexpr OverlayKey kKeys[] = {{"contact_history", 0, "Marks on vehicles and persons where they touched so far."}};
+  static constexpr Overlay kOverlay{"contact_history", kKeys, add_contact_history};
+};
+template struct Drawn<ContactHistory>;
 
 }  // namespace render

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "render/matrix.h"
-#include "render/overlays/overlay.h"
+#include "render/overlays/registration.h"
 
 namespace render {
 namespace {
@@ -46,7 +46,7 @@ void add_forces(const Frame& frame, DrawList& list) {
     if (!of_interest(c)) continue;
     const std::string& part = frame.recording.body_names[static_cast<std::size_t>(c.body_a)];
     const double force = c.force.norm();
-    const Vec3 tip = c.point + c.force / force * std::max(0.12, arrow_length(force, frame.stage.overlays.newtons_per_metre));
+    const Vec3 tip = c.point + c.force / force * std::max(0.12, arrow_length(force, frame.stage.overlays.of("force_scale")));
     list.arrows.push_back({to_float(c.point), to_float(tip), colour_of_part(part), 4.5f});
     if (c.shapes.on_vehicle() && (!largest || force > largest->force.norm())) largest = &c;
   }
@@ -85,7 +85,17 @@ void add_forces(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kContacts{"contacts", [](const Frame& f) { return f.stage.overlays.contacts; }, add_contacts};
-const Overlay kForces{"forces", [](const Frame& f) { return f.stage.overlays.forces; }, add_forces};
+struct Contacts {
+  static constexpr OverlayKey kKeys[] = {{"contacts", 1, "Contact points and normals."}};
+  static constexpr Overlay kOverlay{"contacts", kKeys, add_contacts};
+};
+template struct Drawn<Contacts>;
+
+struct Forces {
+  static constexpr OverlayKey kKeys[] = {{"forces", 1, "Arrows, long by force."},
+                                         {"force_scale", 10e3, "Force that one metre of arrow stands for.", "N/m"}};
+  static constexpr Overlay kOverlay{"forces", kKeys, add_forces};
+};
+template struct Drawn<Forces>;
 
 }  // namespace render

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "render/matrix.h"
-#include "render/overlays/overlay.h"
+#include "render/overlays/registration.h"
 
 namespace render {
 namespace {
@@ -57,6 +57,10 @@ void add_dimensions(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kDimensions{"dimensions", [](const Frame& f) { return !f.stage.overlays.dimensions.empty(); }, add_dimensions};
+struct Dimensions {
+  static constexpr Overlay kOverlay{
+      "dimensions", {}, add_dimensions, [](const Frame& f) { return !f.stage.overlays.dimensions.empty(); }};
+};
+template struct Drawn<Dimensions>;
 
 }  // namespace render

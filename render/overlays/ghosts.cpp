@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "render/matrix.h"
-#include "render/overlays/overlay.h"
+#include "render/overlays/registration.h"
 
 namespace render {
 namespace {
@@ -19,7 +19,7 @@ Material pale(Material m) {
 
 /// Instants before now at which `body` leaves a ghost.
 std::vector<const engine::Snapshot*> instants(const Frame& frame, int body) {
-  const Overlays& o = frame.stage.overlays;
+  const double interval = frame.stage.overlays.of("ghost_interval"), distance = frame.stage.overlays.of("ghost_distance");
   const auto b = static_cast<std::size_t>(body);
   const Vec3 here = frame.now.bodies[b].X_WB.p;
   std::vector<const engine::Snapshot*> out;
@@ -29,10 +29,10 @@ std::vector<const engine::Snapshot*> instants(const Frame& frame, int body) {
     if (s.time > frame.now.time || out.size() == kMost) break;
     if (before) travelled += (s.bodies[b].X_WB.p - before->bodies[b].X_WB.p).norm();
     before = &s;
-    const bool due = (o.ghost_interval > 0 && s.time >= due_time - 1e-9) || (o.ghost_distance > 0 && travelled >= due_distance);
+    const bool due = (interval > 0 && s.time >= due_time - 1e-9) || (distance > 0 && travelled >= due_distance);
     if (!due) continue;
-    if (o.ghost_interval > 0) due_time += o.ghost_interval;
-    if (o.ghost_distance > 0) due_distance = travelled + o.ghost_distance;
+    if (interval > 0) due_time += interval;
+    if (distance > 0) due_distance = travelled + distance;
     if ((s.bodies[b].X_WB.p - here).norm() > kClear) out.push_back(&s);
   }
   return out;
@@ -64,8 +64,14 @@ void add_ghosts(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kGhosts{"ghosts",
-                      [](const Frame& f) { return f.stage.overlays.ghost_interval > 0 || f.stage.overlays.ghost_distance > 0; },
-                      add_ghosts};
+struct Ghosts {
+  static constexpr OverlayKey kKeys[] = {
+      {"ghost_interval", 0, "Pale figures of persons and free bodies at equal times.", "s", 0.005, 60},
+      {"ghost_distance", 0, "Pale figures at equal distances travelled.", "m", 0.02, 1000}};
+  static constexpr Overlay kOverlay{"ghosts", kKeys, add_ghosts, [](const Frame& f) {
+                                      return f.stage.overlays.on("ghost_interval") || f.stage.overlays.on("ghost_distance");
+                                    }};
+};
+template struct Drawn<Ghosts>;
 
 }  // namespace render

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "render/matrix.h"
-#include "render/overlays/overlay.h"
+#include "render/overlays/registration.h"
 
 namespace render {
 namespace {
@@ -15,10 +15,6 @@ constexpr double kShown = 0.4;                           // [s] of simulated tim
 constexpr double kNewtonSecondsAMetre = 4e3;             // that one metre of arrow stands for
 constexpr double kMinor = 0.1;                           // of the run's largest: cars that rub along each other; an arrow is enough
 constexpr double kPlaneWidth = 1.6, kPlaneHeight = 1.0;  // [m]
-
-bool shown(const Frame& frame) {
-  return frame.stage.overlays.contacts;
-}
 
 void add_plane(const engine::ContactRecord& c, DrawList& list) {
   const Vec3 across = std::abs(c.normal.z()) < 0.9 ? Vec3(Vec3::UnitZ().cross(c.normal).normalized()) : Vec3(Vec3::UnitX());
@@ -66,6 +62,9 @@ void add_impulse(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kImpulse{"impulse", shown, add_impulse};
+struct Impulses {
+  static constexpr Overlay kOverlay{"impulse", {}, add_impulse, [](const Frame& f) { return f.stage.overlays.on("contacts"); }};
+};
+template struct Drawn<Impulses>;
 
 }  // namespace render

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "render/overlays/overlay.h"
+#include "render/overlays/registration.h"
 
 namespace render {
 namespace {
@@ -44,17 +44,21 @@ void add_legend(const Frame& frame, DrawList& list) {
   LabelItem label;
   label.anchor = {0.984f, 0.028f};
   label.pivot = {1, 0};
-  if (o.forces || o.traces) add_parts(frame, label);
-  if (o.forces) line(label, fmt::format("force: 1 m of arrow = {:g} kN", o.newtons_per_metre / 1000), kPale);
-  if (o.velocities) line(label, fmt::format("velocity: 1 m of arrow = {:g} km/h", 3.6 * o.velocity_scale), kPale);
-  if (o.contact_history) add_history(frame, label);
-  if (o.ghost_interval > 0) line(label, fmt::format("pale figures every {:g} s", o.ghost_interval), kPale);
-  if (o.ghost_distance > 0) line(label, fmt::format("pale figures every {:g} m", o.ghost_distance), kPale);
+  if (o.on("forces") || o.on("traces")) add_parts(frame, label);
+  if (o.on("forces")) line(label, fmt::format("force: 1 m of arrow = {:g} kN", o.of("force_scale") / 1000), kPale);
+  if (o.on("velocities")) line(label, fmt::format("velocity: 1 m of arrow = {:g} km/h", 3.6 * o.of("velocity_scale")), kPale);
+  if (o.on("contact_history")) add_history(frame, label);
+  if (o.on("ghost_interval")) line(label, fmt::format("pale figures every {:g} s", o.of("ghost_interval")), kPale);
+  if (o.on("ghost_distance")) line(label, fmt::format("pale figures every {:g} m", o.of("ghost_distance")), kPale);
   if (!label.lines.empty()) list.labels.push_back(label);
 }
 
 }  // namespace
 
-const Overlay kLegend{"legend", [](const Frame& f) { return f.stage.overlays.legend; }, add_legend, true};
+struct Legend {
+  static constexpr OverlayKey kKeys[] = {{"legend", 0, "What colours and lengths of arrows and marks mean."}};
+  static constexpr Overlay kOverlay{"legend", kKeys, add_legend, nullptr, Belongs::picture};
+};
+template struct Drawn<Legend>;
 
 }  // namespace render

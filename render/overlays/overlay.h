@@ -1,5 +1,5 @@
-// An overlay adds lines, arrows, markers or labels to a frame. One file each, one line each in table.cpp; one that a stage does not
-// show is not computed.
+// An overlay adds lines, arrows, markers or labels to a frame. One file each, with its keys of [overlays], and one line in
+// table.cpp; one that a stage does not show is not computed.
 #pragma once
 
 #include <span>
@@ -18,11 +18,23 @@ struct Frame {
   double aspect = 1.78;
 };
 
+/// To the scene, as an eye in it sees it too; over it, in each pane of the picture; or to the picture as a whole.
+enum class Belongs { scene, over_scene, picture };
+
 struct Overlay {
   const char* name = "";
-  bool (*shown)(const Frame&) = nullptr;
+  std::span<const OverlayKey> keys;
   void (*add)(const Frame&, DrawList&) = nullptr;
-  bool whole_picture = false;  // belongs to the picture, not to one of its panes
+  bool (*shown)(const Frame&) = nullptr;  // none: while its first key is on
+  Belongs belongs = Belongs::over_scene;
+
+  bool shown_in(const Frame& frame) const { return shown ? shown(frame) : frame.stage.overlays.on(keys.front().name); }
+};
+
+/// Each overlay's file ends with that of its class.
+template <class T>
+struct Drawn {
+  static const Overlay overlay;
 };
 
 std::span<const Overlay* const> overlay_table();
@@ -35,22 +47,5 @@ std::string readable(const std::string& body_name);
 
 /// Ramp from dark blue to yellow whose lightness only rises, for 0..1: it reads in black and white too.
 Float4 colour_of_share(double share);
-
-extern const Overlay kSkidMarks;
-extern const Overlay kGhosts;
-extern const Overlay kContactHistory;
-extern const Overlay kVelocities;
-extern const Overlay kDimensions;
-extern const Overlay kLegend;
-extern const Overlay kCharts;
-extern const Overlay kTraces;
-extern const Overlay kVehiclePaths;
-extern const Overlay kWheelTraces;
-extern const Overlay kContacts;
-extern const Overlay kForces;
-extern const Overlay kImpulse;
-extern const Overlay kCaption;
-extern const Overlay kScaleBar;
-extern const Overlay kDisclaimer;
 
 }  // namespace render

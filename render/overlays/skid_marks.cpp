@@ -3,7 +3,7 @@
 
 #include "render/matrix.h"
 #include "render/overlays/on_ground.h"
-#include "render/overlays/overlay.h"
+#include "render/overlays/registration.h"
 
 namespace render {
 namespace {
@@ -77,6 +77,10 @@ void add_skid_marks(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kSkidMarks{"skid_marks", [](const Frame& f) { return !f.now.wheels.empty(); }, add_skid_marks};
+struct SkidMarks {
+  static constexpr Overlay kOverlay{
+      "skid_marks", {}, add_skid_marks, [](const Frame& f) { return !f.now.wheels.empty(); }, Belongs::scene};
+};
+template struct Drawn<SkidMarks>;
 
 }  // namespace render

@@ -1,16 +1,49 @@
+// The table of all overlays. Each is defined in the file of its name.
 #include <algorithm>
 #include <array>
 
 #include "render/overlays/overlay.h"
 
 namespace render {
+namespace {
+
+template <class... Overlays>
+constexpr std::array<const Overlay*, sizeof...(Overlays)> table() {
+  return {&Drawn<Overlays>::overlay...};
+}
+
+}  // namespace
+
+// labels placed first keep their place: caption and scale before the labels that may move aside
+constexpr auto kTable = table<struct SkidMarks,       //
+                              struct WheelTraces,     //
+                              struct VehiclePaths,    //
+                              struct Ghosts,          //
+                              struct Traces,          //
+                              struct ContactHistory,  //
+                              struct Contacts,        //
+                              struct Caption,         //
+                              struct Disclaimer,      //
+                              struct Charts,          //
+                              struct Legend,          //
+                              struct ScaleBar,        //
+                              struct Dimensions,      //
+                              struct Velocities,      //
+                              struct Forces,          //
+                              struct Impulses>();
 
 std::span<const Overlay* const> overlay_table() {
-  // labels placed first keep their place: caption and scale before the labels that may move aside
-  static constexpr std::array kTable{&kSkidMarks,  &kWheelTraces, &kVehiclePaths, &kGhosts, &kTraces, &kContactHistory,
-                                     &kContacts,   &kCaption,     &kDisclaimer,   &kCharts, &kLegend, &kScaleBar,
-                                     &kDimensions, &kVelocities,  &kForces,       &kImpulse};
   return kTable;
+}
+
+std::vector<OverlayKey> overlay_keys() {
+  std::vector<OverlayKey> out;
+  for (const Overlay* overlay : kTable) out.insert(out.end(), overlay->keys.begin(), overlay->keys.end());
+  return out;
+}
+
+Overlays::Overlays() {
+  for (const OverlayKey& key : overlay_keys()) values_.emplace(key.name, key.fallback);
 }
 
 Float4 colour_of_part(const std::string& name) {

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "render/matrix.h"
-#include "render/overlays/overlay.h"
+#include "render/overlays/registration.h"
 
 namespace render {
 namespace {
@@ -37,6 +37,10 @@ void add_traces(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kTraces{"traces", [](const Frame& f) { return f.stage.overlays.traces; }, add_traces};
+struct Traces {
+  static constexpr OverlayKey kKeys[] = {{"traces", 0, "Paths of the bodies in trace_bodies."}};
+  static constexpr Overlay kOverlay{"traces", kKeys, add_traces};
+};
+template struct Drawn<Traces>;
 
 }  // namespace render

@@ -1,7 +1,7 @@
 // The way of each vehicle's centre of mass up to now, laid on the ground it drove over.
 #include "render/matrix.h"
 #include "render/overlays/on_ground.h"
-#include "render/overlays/overlay.h"
+#include "render/overlays/registration.h"
 
 namespace render {
 namespace {
@@ -42,6 +42,10 @@ void add_vehicle_paths(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kVehiclePaths{"vehicle_paths", [](const Frame& f) { return f.stage.overlays.vehicle_paths; }, add_vehicle_paths};
+struct VehiclePaths {
+  static constexpr OverlayKey kKeys[] = {{"vehicle_paths", 0, "The way of each vehicle, on the ground."}};
+  static constexpr Overlay kOverlay{"vehicle_paths", kKeys, add_vehicle_paths};
+};
+template struct Drawn<VehiclePaths>;
 
 }  // namespace render

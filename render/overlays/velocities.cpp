@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "render/matrix.h"
-#include "render/overlays/overlay.h"
+#include "render/overlays/registration.h"
 
 namespace render {
 namespace {
@@ -15,7 +15,7 @@ void add_velocities(const Frame& frame, DrawList& list) {
     const engine::BodyState& b = frame.now.bodies[static_cast<std::size_t>(body)];
     const double speed = b.V_WB.v.norm();
     if (speed < kLeastSpeed) continue;
-    const Vec3 tip = b.X_WB.p + b.V_WB.v / frame.stage.overlays.velocity_scale;
+    const Vec3 tip = b.X_WB.p + b.V_WB.v / frame.stage.overlays.of("velocity_scale");
     list.arrows.push_back({to_float(b.X_WB.p), to_float(tip), kVelocityColour, 5});
     LabelItem label;
     label.lines = {fmt::format("{} {:.1f} km/h", name, 3.6 * speed)};
@@ -30,6 +30,11 @@ void add_velocities(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kVelocities{"velocities", [](const Frame& f) { return f.stage.overlays.velocities; }, add_velocities};
+struct Velocities {
+  static constexpr OverlayKey kKeys[] = {{"velocities", 0, "Velocity arrows of vehicles and persons, with numbers."},
+                                         {"velocity_scale", 8, "Speed that one metre of arrow stands for.", "m/s"}};
+  static constexpr Overlay kOverlay{"velocities", kKeys, add_velocities};
+};
+template struct Drawn<Velocities>;
 
 }  // namespace render

@@ -1,7 +1,7 @@
 // Where each wheel rolled: a thin line through its contacts while it carried load. Where it slid its mark tells.
 #include "render/matrix.h"
 #include "render/overlays/on_ground.h"
-#include "render/overlays/overlay.h"
+#include "render/overlays/registration.h"
 
 namespace render {
 namespace {
@@ -39,6 +39,11 @@ void add_wheel_traces(const Frame& frame, DrawList& list) {
 
 }  // namespace
 
-const Overlay kWheelTraces{"wheel_traces", [](const Frame& f) { return f.stage.overlays.wheel_traces; }, add_wheel_traces};
+struct WheelTraces {
+  static constexpr OverlayKey kKeys[] = {
+      {"wheel_traces", 0, "Where each wheel rolled. (Skid marks, where tyres slid, are always drawn.)"}};
+  static constexpr Overlay kOverlay{"wheel_traces", kKeys, add_wheel_traces};
+};
+template struct Drawn<WheelTraces>;
 
 }  // namespace render

@@ -1,6 +1,8 @@
 // [overlays]: what is drawn over the picture.
 #include <fmt/format.h>
 
+#include <deque>
+
 #include "scenes/loader/builder.h"
 
 namespace scenes {
@@ -16,42 +18,35 @@ const Key kDimensionKeys[] = {
 const Section kDimensionSection{"overlays.dimension", "[[overlays.dimension]]", "A line with its length in numbers.",
                                 kDimensionKeys};
 
-const Key kOverlayKeys[] = {
-    bound<&render::Overlays::contacts>({"contacts", Type::boolean, Dimension::none, "true", "Contact points and normals."}),
-    bound<&render::Overlays::forces>({"forces", Type::boolean, Dimension::none, "true", "Arrows, long by force."}),
-    bound<&render::Overlays::caption>({"caption", Type::boolean, Dimension::none, "true", "Time, speeds, camera."}),
-    bound<&render::Overlays::traces>({"traces", Type::boolean, Dimension::none, "false", "Paths of the bodies in trace_bodies."}),
-    bound<&render::Overlays::vehicle_paths>(
-        {"vehicle_paths", Type::boolean, Dimension::none, "false", "The way of each vehicle, on the ground."}),
-    bound<&render::Overlays::wheel_traces>({"wheel_traces", Type::boolean, Dimension::none, "false",
-                                            "Where each wheel rolled. (Skid marks, where tyres slid, are always drawn.)"}),
+const Key kListKeys[] = {
     bound<&render::Overlays::trace_bodies>({"trace_bodies", Type::texts, Dimension::none, "[]",
                                             "Bodies whose paths are drawn; empty: head and hips of every person."}),
-    bound<&render::Overlays::disclaimer>(
-        {"disclaimer", Type::boolean, Dimension::none, "true", "\"Simulation, not footage\" and the provenance at the foot."}),
-    bound<&render::Overlays::scale_bar>({"scale_bar", Type::boolean, Dimension::none, "true", "A bar of metres in top views."}),
-    bound<&render::Overlays::legend>(
-        {"legend", Type::boolean, Dimension::none, "false", "What colours and lengths of arrows and marks mean."}),
-    bound<&render::Overlays::contact_history>(
-        {"contact_history", Type::boolean, Dimension::none, "false", "Marks on vehicles and persons where they touched so far."}),
     bound<&render::Overlays::contact_colour>({"contact_colour", Type::choice, Dimension::none, "'time'",
-                                              "Their colours: when it touched, or how hard.", kAny, "time|impulse"}),
-    bound<&render::Overlays::ghost_interval>({"ghost_interval", Type::number, Dimension::time, "",
-                                              "Pale figures of persons and free bodies at equal times.", between(0.005, 60)}),
-    bound<&render::Overlays::ghost_distance>(
-        {"ghost_distance", Type::number, Dimension::length, "", "Pale figures at equal distances travelled.", between(0.02, 1000)}),
-    bound<&render::Overlays::velocities>(
-        {"velocities", Type::boolean, Dimension::none, "false", "Velocity arrows of vehicles and persons, with numbers."}),
-    bound<&render::Overlays::velocity_scale>(
-        {"velocity_scale", Type::number, Dimension::speed, "'8 m/s'", "Speed that one metre of arrow stands for.", kPositive}),
-    bound<&render::Overlays::speed_chart>(
-        {"speed_chart", Type::boolean, Dimension::none, "false", "Speeds over time, running with the film."}),
-    bound<&render::Overlays::energy_chart>(
-        {"energy_chart", Type::boolean, Dimension::none, "false", "Energies over time, running with the film."}),
+                                              "Colours of the marks of contact_history: when it touched, or how hard.", kAny,
+                                              "time|impulse"}),
     {"dimension", Type::tables, Dimension::none, "", "Lengths with their numbers.", kAny, {}, &kDimensionSection},
-    bound<&render::Overlays::newtons_per_metre>(
-        {"force_scale", Type::number, Dimension::stiffness, "'10 kN/m'", "Force that one metre of arrow stands for.", kPositive}),
 };
+
+/// As in a scene file.
+std::string fallback_of(const render::OverlayKey& key) {
+  if (*key.unit == 0) return key.fallback > 0 ? "true" : "false";
+  return key.fallback > 0 ? fmt::format("'{} {}'", key.fallback, key.unit) : "";
+}
+
+/// Keys of the overlays' own files, from their table, and lists.
+const std::vector<Key>& section_keys() {
+  static std::deque<std::string> texts;  // that the keys look at; they do not move
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> out;
+    for (const render::OverlayKey& key : render::overlay_keys())
+      out.push_back({key.name, *key.unit == 0 ? Type::boolean : Type::number, dimension_of(key.unit),
+                     texts.emplace_back(fallback_of(key)), key.doc,
+                     *key.unit == 0 ? kAny : Range{key.lower, key.upper, key.lower == 0}});
+    out.insert(out.end(), std::begin(kListKeys), std::end(kListKeys));
+    return out;
+  }();
+  return keys;
+}
 
 /// Body of the Model that a body, vehicle or person goes by; -1: none.
 int body_of(const Builder& builder, const std::string& name) {
@@ -80,11 +75,14 @@ void read_dimension(Builder& builder, Reader& r) {
 
 }  // namespace
 
-const Section kOverlaysSection{"overlays", "[overlays]", "What is drawn over the picture.", kOverlayKeys};
+const Section kOverlaysSection{"overlays", "[overlays]", "What is drawn over the picture.", section_keys()};
 
 void read_overlays(Builder& builder, Reader r) {
   render::Overlays& o = builder.scene.stage.overlays;
   r.fill(o);
+  for (const Key& key : section_keys())
+    if ((key.type == Type::boolean || key.type == Type::number) && (r.has(key.name) || !key.fallback.empty()))
+      o.set(key.name, key.type == Type::boolean ? r.boolean(key.name) : r.number(key.name));
   for (Reader& dimension : r.tables("dimension")) read_dimension(builder, dimension);
   for (const std::string& name : o.trace_bodies) {
     const bool told = !builder.errors.empty() && builder.is_declared(name);

@@ -211,8 +211,8 @@ TEST(Panes, LieInTheFrameAndSplitOnesDoNotOverlap) {
 
 TEST(OverlayNumbers, VelocityArrowsAreAsLongAsTheSpeedBidsThem) {
   Stage s = stage();
-  s.overlays.velocities = true;
-  s.overlays.velocity_scale = 4;
+  s.overlays.set("velocities");
+  s.overlays.set("velocity_scale", 4);
   const DrawList list = arrange(s, run(), {0.5, "side", 1}, 1.5);
   ASSERT_EQ(list.arrows.size(), 1u);
   EXPECT_NEAR(list.arrows[0].to[0] - list.arrows[0].from[0], 2.0 / 4, kFloat);
@@ -229,7 +229,7 @@ TEST(OverlayNumbers, ADimensionCountsTheWayOfItsBody) {
 
 TEST(OverlayNumbers, AMarkStaysOnBothWhereTheyTouched) {
   Stage s = stage();
-  s.overlays.contact_history = true;
+  s.overlays.set("contact_history");
   EXPECT_TRUE(arrange(s, run(), {0.4, "side", 1}, 1.5).lines.empty()) << "not yet touched";
   const DrawList list = arrange(s, run(), {1.0, "side", 1}, 1.5);
   ASSERT_EQ(list.lines.size(), 2u) << "one on the person, one on the car";
@@ -245,10 +245,10 @@ TEST(OverlayNumbers, GhostsAreWhereTheBodyWasAtEqualTimesOrWays) {
   ball.body = 0;
   ball.shape = {Vec3::Constant(0.1), 2};
   s.ellipsoids.push_back(ball);
-  s.overlays.ghost_interval = 0.3;
+  s.overlays.set("ghost_interval", 0.3);
   EXPECT_EQ(arrange(s, run(), {1.0, "side", 1}, 1.5).ellipsoids.size(), 1u + 4u) << "0, 0.3, 0.6, 0.9 s";
-  s.overlays.ghost_interval = 0;
-  s.overlays.ghost_distance = 0.8;
+  s.overlays.set("ghost_interval", 0);
+  s.overlays.set("ghost_distance", 0.8);
   const DrawList list = arrange(s, run(), {1.0, "side", 1}, 1.5);
   ASSERT_EQ(list.ellipsoids.size(), 1u + 3u) << "0, 0.8, 1.6 m";
   EXPECT_NEAR(list.ellipsoids[2].model[12] - list.ellipsoids[1].model[12], 0.8, kFloat);
@@ -256,7 +256,7 @@ TEST(OverlayNumbers, GhostsAreWhereTheBodyWasAtEqualTimesOrWays) {
 
 TEST(OverlayNumbers, AChartEndsNowAndItsAxesAreThoseOfTheWholeRun) {
   Stage s = stage();
-  s.overlays.speed_chart = s.overlays.energy_chart = true;
+  s.overlays.set("speed_chart"), s.overlays.set("energy_chart");
   const DrawList early = arrange(s, run(), {0.25, "side", 1}, 1.5), late = arrange(s, run(), {1, "side", 1}, 1.5);
   ASSERT_EQ(early.charts.size(), 2u);
   EXPECT_NEAR(early.charts[0].series[0].points.back()[0], 0.25, kFloat);
@@ -268,7 +268,7 @@ TEST(OverlayNumbers, AChartEndsNowAndItsAxesAreThoseOfTheWholeRun) {
 TEST(OverlayNumbers, AnEyeSeesNothingThatIsDrawnOver) {
   Stage s = stage();
   s.cameras[0].kind = CameraKind::eye;
-  s.overlays.velocities = s.overlays.contact_history = true;
+  s.overlays.set("velocities"), s.overlays.set("contact_history");
   const DrawList list = arrange(s, run(), {1, "side", 1}, 1.5);
   EXPECT_TRUE(list.arrows.empty());
   EXPECT_TRUE(list.lines.empty());
@@ -277,7 +277,7 @@ TEST(OverlayNumbers, AnEyeSeesNothingThatIsDrawnOver) {
 
 TEST(Labels, NeverCoverEachOtherNorLeaveTheFrame) {
   Stage s = stage();
-  s.overlays.velocities = s.overlays.legend = s.overlays.contact_history = s.overlays.speed_chart = s.overlays.energy_chart = true;
+  for (const char* key : {"velocities", "legend", "contact_history", "speed_chart", "energy_chart"}) s.overlays.set(key);
   s.overlays.dimensions = {
       {"way", 0, 0.2}, {"", -1, 0, Vec3(0, 0, 0), Vec3(1, 0, 0)}, {"", -1, 0, Vec3(0, 0, 0), Vec3(1, 0.01, 0)}};
   for (const auto& [w, h] : {std::pair{1280, 720}, {640, 640}, {320, 180}, {64, 64}}) {
@@ -344,13 +344,12 @@ TEST(ColourRamp, OnlyGetsLighter) {
 
 TEST(Overlays, ThatAreNotShownAreNotComputed) {
   Stage bare = stage();
-  bare.overlays.contacts = bare.overlays.forces = bare.overlays.caption = bare.overlays.disclaimer = bare.overlays.scale_bar =
-      false;
+  bare.overlays.hide({"contacts", "forces", "caption", "disclaimer", "scale_bar"});
   const engine::Recording recording = run();
   const engine::Snapshot now = recording.at(0.5);
   const Moment moment{0.5, "side", 1};
   const Frame frame{bare, recording, now, moment, bare.cameras[0]};
-  for (const Overlay* overlay : overlay_table()) EXPECT_FALSE(overlay->shown(frame)) << overlay->name;
+  for (const Overlay* overlay : overlay_table()) EXPECT_FALSE(overlay->shown_in(frame)) << overlay->name;
   const DrawList list = arrange(bare, recording, moment, 1.78);
   EXPECT_EQ(list.lines.size() + list.arrows.size() + list.markers.size() + list.labels.size() + list.charts.size(), 0U);
 }

@@ -27,7 +27,7 @@ Stage stage() {
   s.cameras[0].position = Vec3(0, -3, 1);
   s.cameras[1].name = "far";
   s.cameras[1].position = Vec3(0, -12, 1);
-  s.overlays.caption = s.overlays.disclaimer = false;
+  s.overlays.hide({"caption", "disclaimer"});
   return s;
 }
 

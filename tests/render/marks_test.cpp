@@ -58,7 +58,7 @@ DrawList drawn(double slip) {
   stage.vehicles = {0};
   stage.road.terrain_surface = bank();
   stage.road.terrain = std::make_shared<Mesh>();
-  stage.overlays.wheel_traces = stage.overlays.vehicle_paths = true;
+  stage.overlays.set("wheel_traces"), stage.overlays.set("vehicle_paths");
   return arrange(stage, crossing(slip), {1.0, "side", 1}, 1.78);
 }
 

@@ -44,7 +44,7 @@ void take_view(const scenes::Scene& scene, const engine::Recording& run, const M
   const Frame frame{stage, run, now, seen, *camera};
   // an eye sees no overlays; elsewhere one counts that is shown and adds something
   for (const Overlay* overlay : overlay_table()) {
-    if (camera->kind == CameraKind::eye || !overlay->shown(frame)) continue;
+    if (camera->kind == CameraKind::eye || !overlay->shown_in(frame)) continue;
     DrawList list = arrange(stage, run, seen, 16.0 / 9, Layer::scene);
     const std::size_t before = amount(list);
     overlay->add(frame, list);
