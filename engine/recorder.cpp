@@ -57,7 +57,7 @@ double motion_of(const World& world, const State& state, std::size_t tree) {
 }  // namespace
 
 Twist travel_of(const Model& model, int b, const Pose& X, const Twist& V) {
-  constexpr double kUpright = 0.7;  // [-] cosine: leaning by 45 deg it is about to fall on its side
+  constexpr double kUpright = 0.7;                // [-] cosine: leaning by 45 deg it is about to fall on its side
   constexpr double kRocks = 0.5, kBounces = 0.3;  // [rad/s], [m/s] more is no rocking on springs
   const int v = model.bodies[b].vehicle;
   if (v < 0 || model.vehicles[v].body != b || model.vehicles[v].wheels.empty()) return V;
@@ -88,6 +88,9 @@ Recorder::Recorder(const World& world, const State& state)
       last_trunk_(world.model.persons.size(), -1) {
   tallies_.reserve(kRoom);
   events_.reserve(kRoom);
+  for (auto* list : {&moving_, &lying_on_}) list->reserve(world.model.persons.size());
+  for (int t = 0; t < static_cast<int>(world.topology.trees.size()); ++t)
+    if (world.topology.trees[t].end - world.topology.trees[t].begin == 1) alone_.push_back(t);
   keep(world, state);
   for (std::size_t p = 0; p < world.model.persons.size(); ++p)
     for (const int b : trunk_of(world.model, static_cast<int>(p))) {
@@ -225,9 +228,10 @@ void Recorder::tally_contact(const World& world, const Constraint& c, double tim
 }
 
 void Recorder::sample(const World& world, const State& state, Recording& recording) {
-  watch_waiting(world, state);
+  const bool listed = listed_ == world.still.changes;
+  if (!listed) list_parties(world, state);
+  watch_waiting(state);
   watch_halt(world, state);
-  const bool others_moved = kept_ != world.still.changes;
   keep(world, state);
   if (!yields(world.model.settings.contact_law, true) || world.model.persons.empty()) return;
   if (recording.heads.empty()) {
@@ -244,34 +248,51 @@ void Recorder::sample(const World& world, const State& state, Recording& recordi
     for (const Body& body : world.model.bodies) velocity_.push_back(body.fixed ? Vec3(Vec3::Zero()) : body.V_WB.v);
   }
   const double step = state.time - sampled_;
-  for (std::size_t p = 0; p < world.model.persons.size(); ++p) {
+  const auto note_head = [&](int p) {
     const int head = world.model.persons[p].head;
-    if (head < 0 || state.V_WB[head].v == velocity_[head]) continue;  // of who waits noughts are put in once it matters
+    if (head < 0 || state.V_WB[head].v == velocity_[head]) return;  // of who waits noughts are put in once it matters
     std::vector<double>& acceleration = recording.heads[p].acceleration;
     acceleration.resize(times_.size());
     acceleration.push_back((state.V_WB[head].v - velocity_[head]).norm() / step);
+  };
+  if (listed) {
+    for (const int p : moving_) note_head(p);
+  } else {
+    for (int p = 0; p < static_cast<int>(world.model.persons.size()); ++p) note_head(p);
   }
   times_.push_back(state.time - 0.5 * step);
   const auto note_peak = [&](std::size_t b) {
     recording.peak_acceleration[b] = std::max(recording.peak_acceleration[b], (state.V_WB[b].v - velocity_[b]).norm() / step);
     velocity_[b] = state.V_WB[b].v;
   };
-  if (others_moved) {
-    for (std::size_t b = 0; b < velocity_.size(); ++b) note_peak(b);
-  } else {
+  if (listed) {
     for (const int b : world.still.others) note_peak(static_cast<std::size_t>(b));
+  } else {
+    for (std::size_t b = 0; b < velocity_.size(); ++b) note_peak(b);
   }
   sampled_ = state.time;
 }
 
-/// Who lies there in the zero condition, or asleep, goes on lying: its support is in balance, and no contact of it is solved.
-void Recorder::watch_waiting(const World& world, const State& state) {
-  for (std::size_t p = 0; p < world.model.persons.size(); ++p) {
-    const int tree = world.topology.tree_of_body[world.model.persons[p].bodies.front()];
+/// Lists who is to be looked at each step: who is still costs nothing.
+void Recorder::list_parties(const World& world, const State& state) {
+  listed_ = world.still.changes;
+  moving_.clear();
+  lying_on_.clear();
+  for (int p = 0; p < static_cast<int>(world.model.persons.size()); ++p) {
+    const Person& person = world.model.persons[p];
+    const int tree = world.topology.tree_of_body[person.bodies.front()];
     const bool waits = !state.released[p] || (tree >= 0 && !state.asleep.empty() && state.asleep[tree]);
-    if (!waits || last_trunk_[p] < 0 || watched_ - last_trunk_[p] > kAirborne) continue;
-    last_ground_[p] = last_trunk_[p] = state.time;
+    if (waits && last_trunk_[p] >= 0) lying_on_.push_back(p);
+    if (std::any_of(person.bodies.begin(), person.bodies.end(),
+                    [&](int b) { return std::binary_search(world.still.others.begin(), world.still.others.end(), b); }))
+      moving_.push_back(p);
   }
+}
+
+/// Who lies there in the zero condition, or asleep, goes on lying: its support is in balance, and no contact of it is solved.
+void Recorder::watch_waiting(const State& state) {
+  for (const int p : lying_on_)
+    if (watched_ - last_trunk_[p] <= kAirborne) last_ground_[p] = last_trunk_[p] = state.time;
 }
 
 /// Of the fastest body that tells when the tree rests, by its way. A person rests with its trunk: a foot may go on sinking.
@@ -291,8 +312,8 @@ void Recorder::watch_halt(const World& world, const State& state) {
   constexpr double kHum = 3e-4;  // [-] what the solver may leave of a speed that is none
   const double step = state.time - watched_;
   watched_ = state.time;
-  for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
-    if (world.topology.trees[t].end - world.topology.trees[t].begin != 1) continue;
+  for (const int tree : alone_) {
+    const auto t = static_cast<std::size_t>(tree);
     const double motion = travel_of_tree(world, state, t), slowed = step_motion_[t] - motion;
     step_motion_[t] = motion;
     if (motion < 1 && motion > std::max(0.5 * slowed, kHum) && motion < 2 * slowed)

@@ -51,7 +51,8 @@ class Recorder {
   double travel_of_tree(const World&, const State&, std::size_t tree) const;
   void watch_rest(const World&, const State&, double since);
   void watch_halt(const World&, const State&);
-  void watch_waiting(const World&, const State&);
+  void watch_waiting(const State&);
+  void list_parties(const World&, const State&);
   void watch_events(const World&, const Constraint&, double time);
   void watch_vehicle(const World&, const Constraint&, int person, double time);
   void watch_ground(const Constraint&, int person, double time);
@@ -80,6 +81,10 @@ class Recorder {
   double sampled_ = 0;          // [s] when that was
   std::vector<double> times_;   // [s] of the samples of heads
   long kept_ = 0;               // StillBodies::changes then
+  std::vector<int> alone_;      // trees of one body
+  std::vector<int> moving_;     // persons who are not still
+  std::vector<int> lying_on_;   // persons who wait or sleep, and lay on the ground when they began to
+  long listed_ = -1;            // StillBodies::changes when those two were listed
   // at the last snapshot:
   long shared_ = -1;                          // StillBodies::changes
   std::shared_ptr<BodyStates::Still> still_;  // who is still

@@ -27,6 +27,7 @@ struct Resistance {
 /// Trees that conditions join: they are solved together. By the smallest tree of each island.
 struct Islands {
   std::vector<std::vector<int>> members;  // per tree: indices of conditions
+  std::vector<int> roots;                 // trees that have members, in order: no loop goes over who has none
   std::vector<int> of_tree;               // a tree of the same island, or itself at its root
   std::vector<char> by_whole;             // per tree: all impulses displace by their whole
   std::vector<double> rise;               // [J] per tree

@@ -114,9 +114,8 @@ double largest_rise(StepContext& s) {
   islands.rise.assign(islands.members.size(), 0);
   note_rises(s);
   double largest = 0;
-  for (std::size_t k = 0; k < islands.members.size(); ++k) {
+  for (const int k : islands.roots) {
     const std::vector<int>& island = islands.members[k];
-    if (island.empty()) continue;
     if (has_springs(s, island)) {
       for (const int i : island)
         if (is_hard(s.constraints[i])) islands.rise[k] += work_of(s, static_cast<std::size_t>(i));

@@ -175,9 +175,8 @@ void formulate(StepContext& s) {
   Islands& islands = s.buffers.islands;
   s.buffers.weight.assign(s.constraints.size(), 0.5);
   islands.by_whole.assign(islands.members.size(), 0);
-  for (std::size_t k = 0; k < islands.members.size(); ++k) {
+  for (const int k : islands.roots) {
     const std::vector<int>& island = islands.members[k];
-    if (island.empty()) continue;
     const bool stands =
         std::any_of(island.begin(), island.end(), [&](int i) { return stands_on_what_yields(s.constraints[i], s.world.model); });
     formulate_island(s, island, stands);
@@ -200,7 +199,7 @@ bool wake_struck_springs(StepContext& s) {
   const double gravity = s.world.model.settings.gravity.norm();
   const Islands& islands = s.buffers.islands;
   bool any = false;
-  for (std::size_t k = 0; k < islands.members.size(); ++k)
+  for (const int k : islands.roots)
     for (const int i : islands.members[k]) {
       Constraint& c = s.constraints[i];
       if (!may_turn(c, slow) || c.gap >= 0 || c.u_before[0] <= -slow || std::abs(c.u_after[0]) <= slow) continue;

@@ -143,8 +143,8 @@ bool exchange_impacts(StepContext& s, const OnImpulses& on_impulses) {
   const Meter::Span span(s.world.meter, Phase::impulses);
   factor_for_impulses(s, nullptr);
   build_islands(s);
-  for (const auto& island : s.buffers.islands.members)
-    if (choose_members(s, island)) exchange(s);
+  for (const int root : s.buffers.islands.roots)
+    if (choose_members(s, s.buffers.islands.members[root])) exchange(s);
   if (on_impulses) on_impulses(s.constraints, s.state.time, 0);
   return true;
 }

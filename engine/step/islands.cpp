@@ -57,11 +57,15 @@ void build_islands(StepContext& s) {
     const int ra = find(a), rb = find(b);
     if (ra != rb) islands.of_tree[std::max(ra, rb)] = std::min(ra, rb);
   }
-  for (auto& island : islands.members) island.clear();
-  islands.members.resize(trees);
-  for (std::size_t i = 0; i < islands.ends.size(); ++i) islands.members[find(islands.ends[i].first)].push_back(static_cast<int>(i));
-  for (auto& island : islands.members)
-    if (!island.empty()) order_by_neighbours(s, island);
+  for (const int root : islands.roots) islands.members[root].clear();
+  islands.roots.clear();
+  for (std::size_t i = 0; i < islands.ends.size(); ++i) {
+    const int root = find(islands.ends[i].first);
+    if (islands.members[root].empty()) islands.roots.push_back(root);
+    islands.members[root].push_back(static_cast<int>(i));
+  }
+  std::sort(islands.roots.begin(), islands.roots.end());
+  for (const int root : islands.roots) order_by_neighbours(s, islands.members[root]);
 }
 
 }  // namespace engine

@@ -37,11 +37,10 @@ void solve_islands(StepContext& s, Solve which) {
   World& world = s.world;
   s.residual = 0;
   s.unsettled = -1;
-  const auto& islands = s.buffers.islands.members;
-  const auto filled = std::count_if(islands.begin(), islands.end(), [](const auto& island) { return !island.empty(); });
-  const bool assembled = which == Solve::other_springs && filled == 1;  // the solver knows one island at a time
-  for (const auto& island : islands) {
-    if (island.empty()) continue;
+  const Islands& islands = s.buffers.islands;
+  const bool assembled = which == Solve::other_springs && islands.roots.size() == 1;  // the solver knows one island at a time
+  for (const int root : islands.roots) {
+    const std::vector<int>& island = islands.members[root];
     if (which == Solve::first)
       for (const int i : island) warm_start(s.constraints[i], s.state.warm);
     if (!assembled) world.solver.assemble(world.topology, world.impulse, s.constraints, island);

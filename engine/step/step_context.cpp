@@ -18,6 +18,7 @@ StepBuffers::StepBuffers(const World& world) {
   islands.members.resize(trees);
   for (auto& island : islands.members) island.reserve(kRoom);
   islands.ends.reserve(kRoom);
+  islands.roots.reserve(trees);
   islands.of_tree.reserve(trees);
   islands.by_whole.reserve(trees);
   islands.rise.reserve(trees);
