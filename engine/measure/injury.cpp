@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/math/functions.h"
 #include "engine/math/roots.h"
 #include "engine/measure/metrics.h"
 #include "engine/measure/parties.h"
@@ -18,7 +17,7 @@ double hic(const std::vector<double>& t, const std::vector<double>& a, double wi
     for (std::size_t k = i + 1; k < t.size() && t[k] - t[i] <= window * (1 + 1e-9); ++k) {
       const double span = t[k] - t[i];
       const double mean = (sum[k] - sum[i]) / span;
-      if (mean > 0) best = std::max(best, span * math::pow(mean, 2.5));
+      if (mean > 0) best = std::max(best, span * mean * mean * std::sqrt(mean));  // mean^2.5, without the powers of any exponent
     }
   return best;
 }
