@@ -2,6 +2,8 @@
 # Sources far apart in the list go together, whose unnamed namespaces seldom share names. A name that clashes all the same wants to be
 # a better one; where that is not so, the source is compiled alone.
 set(compiled_alone "/(effects|overlays)/table.cpp|/solver/wide_products.cpp|/sliding_joint_test.cpp|/generate/(truck|van).cpp|/render/(gl_painter|gl_picture|mark_picture)_test.cpp|/scenes/(person|joint|skin)_test.cpp")
+# Dense algebra of any size takes the longest, wherever it is: once.
+set(dense_algebra "/inference/(prior|proposal|sensitivity).cpp")
 # The more in one, the less is compiled twice: of sixteen, the program takes a tenth less processor time than of eight. Pictures have
 # many constants of one name.
 function(compile_together target)
@@ -19,6 +21,9 @@ function(compile_together target)
   foreach(source IN LISTS sources)
     math(EXPR unit "${i} % ${units}")
     math(EXPR i "${i} + 1")
+    if(source MATCHES "${dense_algebra}")
+      set(unit 0)
+    endif()
     if(NOT source MATCHES "${compiled_alone}")
       set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${unit})
     endif()

@@ -15,6 +15,8 @@ using Float3 = std::array<float, 3>;
 using Float4 = std::array<float, 4>;
 using Matrix4 = std::array<float, 16>;  // column-major, as GL wants it
 
+inline constexpr Float4 kWhiteText{1, 1, 1, 1}, kPaleText{0.80f, 0.85f, 0.90f, 1};  // the first line of a label, the others
+
 struct View {
   Matrix4 world_to_eye{};
   Matrix4 eye_to_clip{};

@@ -11,7 +11,6 @@ namespace {
 constexpr int kBorder = 2;       // [pixels at 1080 lines] half of the line between two panes
 constexpr double kInset = 0.34;  // [-] of the frame's sides
 constexpr std::uint8_t kPaper[] = {24, 27, 31, 255};
-const Float4 kWhite{1, 1, 1, 1}, kPale{0.80f, 0.85f, 0.90f, 1};
 
 void fill(Image& image, const Pane& pane) {
   for (int y = std::max(pane.y, 0); y < std::min(pane.y + pane.height, image.height); ++y)
@@ -44,7 +43,7 @@ LabelItem camera_name(const std::string& name) {
   LabelItem label;
   label.lines = {name};
   label.sizes = {20};
-  label.colours = {kPale};
+  label.colours = {kPaleText};
   label.anchor = {0.5f, 0.02f};
   label.pivot = {0.5f, 0};
   return label;
@@ -86,15 +85,15 @@ DrawList card_list(const Stage& stage, const Card& card) {
     label.sizes.push_back(size);
     label.colours.push_back(colour);
   };
-  line(card.title, 58, kWhite);
-  if (!card.lines.empty()) line(" ", 26, kWhite);
-  for (const std::string& text : card.lines) line(text, 30, kPale);
+  line(card.title, 58, kWhiteText);
+  if (!card.lines.empty()) line(" ", 26, kWhiteText);
+  for (const std::string& text : card.lines) line(text, 30, kPaleText);
   list.labels.push_back(label);
   LabelItem foot = label;
   foot.lines = {"Simulation, not footage"};
   if (!stage.provenance.empty()) foot.lines.push_back(stage.provenance);
   foot.sizes.assign(foot.lines.size(), 17);
-  foot.colours.assign(foot.lines.size(), kPale);
+  foot.colours.assign(foot.lines.size(), kPaleText);
   foot.anchor = {0.988f, 0.985f};
   foot.pivot = {1, 1};
   list.labels.push_back(foot);

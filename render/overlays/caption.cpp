@@ -11,7 +11,7 @@ namespace {
 
 constexpr Float4 kWarning{1, 0.45f, 0.35f, 1};
 
-const Float4 kWhite{1, 1, 1, 1}, kPale{0.80f, 0.85f, 0.90f, 1}, kAmber{1, 0.70f, 0.25f, 1};
+const Float4 kAmber{1, 0.70f, 0.25f, 1};
 
 std::string speed_factor(double speed) {
   if (speed == 0) return "freeze";
@@ -28,7 +28,7 @@ void add_caption(const Frame& frame, DrawList& list) {
   if (frame.moment.speed != 1) clock += "    " + speed_factor(frame.moment.speed);
   label.lines.push_back(clock);
   label.sizes.push_back(30);
-  label.colours.push_back(kWhite);
+  label.colours.push_back(kWhiteText);
   std::string speeds;
   for (const auto& [body, name] : frame.stage.speeds) {
     if (!speeds.empty()) speeds += "     ";
@@ -43,7 +43,7 @@ void add_caption(const Frame& frame, DrawList& list) {
   label.lines.push_back(frame.stage.title + " \u00b7 camera " + frame.camera.name +
                         (frame.moment.second.empty() ? "" : " and " + frame.moment.second));
   label.sizes.push_back(18);
-  label.colours.push_back(kPale);
+  label.colours.push_back(kPaleText);
   for (const std::string& warning : frame.stage.warnings) {
     label.lines.push_back(warning);
     label.sizes.push_back(18);
@@ -101,7 +101,7 @@ void add_scale_bar(const Frame& frame, DrawList& list) {
   LabelItem label;
   label.lines = {fmt::format("{:g} m", length)};
   label.sizes = {20};
-  label.colours = {kWhite};
+  label.colours = {kWhiteText};
   label.at_world_point = true;
   label.world = to_float(on_ground(0.5 * (x0 + x1), y));
   label.pivot = {0.5f, 1.1f};

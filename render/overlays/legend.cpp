@@ -8,8 +8,6 @@
 namespace render {
 namespace {
 
-const Float4 kWhite{1, 1, 1, 1}, kPale{0.80f, 0.85f, 0.90f, 1};
-
 void line(LabelItem& label, const std::string& text, const Float4& colour) {
   label.lines.push_back(text);
   label.sizes.push_back(17);
@@ -33,7 +31,7 @@ void add_history(const Frame& frame, LabelItem& label) {
       last = s.time;
       strongest = std::max(strongest, c.impulse.norm());
     }
-  line(label, by_time ? "marks: time of touch" : "marks: impulse of touch", kWhite);
+  line(label, by_time ? "marks: time of touch" : "marks: impulse of touch", kWhiteText);
   for (const double share : {0.0, 0.5, 1.0})
     line(label, "\u25cf " + (by_time ? fmt::format("{:.2f} s", share * last) : fmt::format("{:.0f} N s", share * strongest)),
          colour_of_share(share));
@@ -45,11 +43,11 @@ void add_legend(const Frame& frame, DrawList& list) {
   label.anchor = {0.984f, 0.028f};
   label.pivot = {1, 0};
   if (o.on("forces") || o.on("traces")) add_parts(frame, label);
-  if (o.on("forces")) line(label, fmt::format("force: 1 m of arrow = {:g} kN", o.of("force_scale") / 1000), kPale);
-  if (o.on("velocities")) line(label, fmt::format("velocity: 1 m of arrow = {:g} km/h", 3.6 * o.of("velocity_scale")), kPale);
+  if (o.on("forces")) line(label, fmt::format("force: 1 m of arrow = {:g} kN", o.of("force_scale") / 1000), kPaleText);
+  if (o.on("velocities")) line(label, fmt::format("velocity: 1 m of arrow = {:g} km/h", 3.6 * o.of("velocity_scale")), kPaleText);
   if (o.on("contact_history")) add_history(frame, label);
-  if (o.on("ghost_interval")) line(label, fmt::format("pale figures every {:g} s", o.of("ghost_interval")), kPale);
-  if (o.on("ghost_distance")) line(label, fmt::format("pale figures every {:g} m", o.of("ghost_distance")), kPale);
+  if (o.on("ghost_interval")) line(label, fmt::format("pale figures every {:g} s", o.of("ghost_interval")), kPaleText);
+  if (o.on("ghost_distance")) line(label, fmt::format("pale figures every {:g} m", o.of("ghost_distance")), kPaleText);
   if (!label.lines.empty()) list.labels.push_back(label);
 }
 

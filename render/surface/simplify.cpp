@@ -1,6 +1,6 @@
 // Q sums the squared distances to planes n.x + d = 0 of what has fallen onto a corner so far:
 //   Q(x) = sum (n.x + d)^2,  kept as the ten numbers of a symmetric 4x4 matrix.
-// Corner u falls onto its neighbour v at the cost (Q_u + Q_v)(v); as no term of the sum exceeds it, its root bounds each distance.
+// Site u falls onto its neighbour v at the cost (Q_u + Q_v)(v); as no term of the sum exceeds it, its root bounds each distance.
 //
 // It is our own because meshoptimizer (0.18) collapses one material at a time and must hold the borders between them. Of the
 // sedan's 43,223 triangles in 11 parts it leaves 16,133 at 16 mm and is off by 23 mm, this 5,447 and 7 mm, in the same time (25
@@ -20,7 +20,7 @@
 namespace render {
 namespace {
 
-using Corner = std::uint32_t;  // a place; several vertices may lie there
+using Site = std::uint32_t;  // a place; several vertices may lie there
 using Quadric = Eigen::Matrix4d;
 
 constexpr std::array kTolerances{0.0005, 0.001, 0.002, 0.004, 0.008, 0.016};  // [m] of the levels of detail
@@ -46,8 +46,8 @@ class Collapse {
     for (std::size_t p = 0; p < parts_.size(); ++p)
       for (std::uint32_t t = 0; t + 2 < parts_[p].count; t += 3) add(&mesh.indices[parts_[p].first + t], static_cast<int>(p));
     add_planes();
-    for (Corner c = 0; c < n; ++c)
-      for (const Corner other : neighbours(c))
+    for (Site c = 0; c < n; ++c)
+      for (const Site other : neighbours(c))
         if (c < other) push(c, other);
   }
 
@@ -81,7 +81,7 @@ class Collapse {
 
   struct Candidate {
     double cost;
-    Corner from, onto;
+    Site from, onto;
     std::uint32_t stamp_from, stamp_onto;
     bool operator<(const Candidate& o) const {
       return std::tie(o.cost, o.from, o.onto) < std::tie(cost, from, onto);
@@ -102,15 +102,15 @@ class Collapse {
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
     const std::uint32_t t = static_cast<std::uint32_t>(triangles_.size());
     triangles_.push_back({{v[0], v[1], v[2]}, part, true});
-    for (const Corner c : corners) around_[c].push_back(t);
+    for (const Site c : corners) around_[c].push_back(t);
   }
 
   // planes of the triangles, and through each edge that must stay where it is a plane square to its triangle
   void add_planes() {
-    std::vector<std::tuple<Corner, Corner, std::uint32_t>> sides_of_edges;
+    std::vector<std::tuple<Site, Site, std::uint32_t>> sides_of_edges;
     for (std::uint32_t t = 0; t < triangles_.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
-        const Corner a = corner_[triangles_[t].vertices[k]], b = corner_[triangles_[t].vertices[(k + 1) % 3]];
+        const Site a = corner_[triangles_[t].vertices[k]], b = corner_[triangles_[t].vertices[(k + 1) % 3]];
         sides_of_edges.emplace_back(std::min(a, b), std::max(a, b), t);
       }
     std::sort(sides_of_edges.begin(), sides_of_edges.end());
@@ -130,16 +130,16 @@ class Collapse {
       const Eigen::Vector3d along = at(to) - at(from);
       for (const std::uint32_t t : sides) {
         const Eigen::Vector3d n = area(triangles_[t].vertices).cross(along).normalized();
-        for (const Corner c : {from, to}) add_plane(c, n, at(from));
+        for (const Site c : {from, to}) add_plane(c, n, at(from));
       }
     }
   }
-  void add_plane(Corner c, const Eigen::Vector3d& n, const Eigen::Vector3d& through) {
+  void add_plane(Site c, const Eigen::Vector3d& n, const Eigen::Vector3d& through) {
     Eigen::Vector4d plane;
     plane << n, -n.dot(through);
     if (plane.allFinite()) q_[c] += plane * plane.transpose();
   }
-  bool smooth(Corner c, const std::vector<std::uint32_t>& sides) const {
+  bool smooth(Site c, const std::vector<std::uint32_t>& sides) const {
     if (sides.size() != 2 || triangles_[sides[0]].part != triangles_[sides[1]].part) return false;
     std::array<Eigen::Vector3d, 2> n{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
     for (std::size_t k = 0; k < 2; ++k)
@@ -148,8 +148,8 @@ class Collapse {
     return n[0].dot(n[1]) >= kSmoothEdge || n[0].isZero();
   }
 
-  std::vector<Corner> neighbours(Corner c) const {
-    std::vector<Corner> out;
+  std::vector<Site> neighbours(Site c) const {
+    std::vector<Site> out;
     for (const std::uint32_t t : around_[c])
       if (triangles_[t].alive)
         for (const std::uint32_t v : triangles_[t].vertices)
@@ -159,9 +159,9 @@ class Collapse {
     return out;
   }
 
-  void push(Corner a, Corner b) {
+  void push(Site a, Site b) {
     const Quadric q = q_[a] + q_[b];
-    const auto cost = [&](Corner c) { return std::max(0.0, at(c).homogeneous().dot(q * at(c).homogeneous())); };
+    const auto cost = [&](Site c) { return std::max(0.0, at(c).homogeneous().dot(q * at(c).homogeneous())); };
     const double onto_a = cost(a), onto_b = cost(b);
     if (onto_a < onto_b) std::swap(a, b);
     const Candidate c{std::min(onto_a, onto_b), a, b, stamp_[a], stamp_[b]};
@@ -176,7 +176,7 @@ class Collapse {
   bool current(const Candidate& c) const { return stamp_[c.from] == c.stamp_from && stamp_[c.onto] == c.stamp_onto; }
 
   // the surface stays a surface, and no triangle turns away from where it and its normals look
-  bool allowed(Corner from, Corner onto) const {
+  bool allowed(Site from, Site onto) const {
     std::size_t shared = 0;
     for (const std::uint32_t t : around_[from]) {
       if (!triangles_[t].alive) continue;
@@ -195,8 +195,8 @@ class Collapse {
       if (after.dot(before) <= kTurn * after.norm() * before.norm()) return false;
       if (!looks_out(v, after) && looks_out(triangles_[t].vertices, before)) return false;
     }
-    const std::vector<Corner> a = neighbours(from), b = neighbours(onto);
-    std::vector<Corner> both;
+    const std::vector<Site> a = neighbours(from), b = neighbours(onto);
+    std::vector<Site> both;
     std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
     return shared > 0 && both.size() == shared;
   }
@@ -206,7 +206,7 @@ class Collapse {
     return std::all_of(v.begin(), v.end(), [&](std::uint32_t k) { return normal(k).dot(area) >= 0; });
   }
 
-  void fall(Corner from, Corner onto) {
+  void fall(Site from, Site onto) {
     for (const std::uint32_t t : around_[from]) {
       Triangle& triangle = triangles_[t];
       if (!triangle.alive) continue;
@@ -224,10 +224,10 @@ class Collapse {
     q_[onto] += q_[from];
     ++stamp_[from];
     ++stamp_[onto];
-    for (const Corner other : neighbours(onto)) push(onto, other);
+    for (const Site other : neighbours(onto)) push(onto, other);
   }
 
-  std::uint32_t nearest_normal(Corner c, const Eigen::Vector3d& n) const {
+  std::uint32_t nearest_normal(Site c, const Eigen::Vector3d& n) const {
     return *std::max_element(members_[c].begin(), members_[c].end(),
                              [&](std::uint32_t a, std::uint32_t b) { return normal(a).dot(n) < normal(b).dot(n); });
   }
@@ -235,7 +235,7 @@ class Collapse {
   const Mesh& mesh_;
   std::span<const double> tolerances_;  // rising
   std::vector<Mesh::Part> parts_;
-  std::vector<Corner> corner_;                       // of each vertex
+  std::vector<Site> corner_;                         // of each vertex
   std::vector<std::vector<std::uint32_t>> members_;  // vertices of each corner
   std::vector<Triangle> triangles_;
   std::vector<std::vector<std::uint32_t>> around_;  // triangles at each corner
