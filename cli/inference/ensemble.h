@@ -1,5 +1,6 @@
 // Many runs of one scene with other inputs: in processes side by side that share the loaded meshes, each run kept on the disk as
-// soon as it is done, so that a job broken off goes on where it stood.
+// soon as it is done, so that a job broken off goes on where it stood. Runs do not share their way to the first touch: who waits
+// costs nothing there, and of the flagship's 280 ms it is three.
 #pragma once
 
 #include <array>

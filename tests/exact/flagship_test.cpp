@@ -74,6 +74,17 @@ TEST_F(Flagship, IsTheSameToTheLastBitAgain) {
   EXPECT_EQ(engine::hash(*run_), engine::hash(engine::simulate(scene_->model)));
 }
 
+/// One of a fit's runs: in one step rounds of sweeps that ended early doubled the next one up to thirty million.
+TEST(FlagshipFamily, NoSolveGoesOnForMinutes) {
+  const scenes::Scene scene = scenes::load(
+      kScenes + "cases/sedan_pedestrian_fit.toml",
+      {"variables.speed=\"30 km/h\"", "variables.deceleration=\"6.697798595062729 m/s^2\"", "variables.slide=0.651156754018058",
+       "variables.walk=\"1.0689557641621301 m/s\"", "variables.offset=\"0.22880615520418815 m\"", "simulation.duration=\"0.6 s\""});
+  const engine::Recording run = engine::simulate(scene.model);
+  EXPECT_EQ(run.steps, 600);
+  EXPECT_LT(run.diagnostics.contact_sweeps, 600 * 2000) << "those of one solve at most, in each step";
+}
+
 TEST(Flagship90, AnAdultIsThrownByABusNotPushedThroughIt) {
   // forward projection: thrown at about the bus's speed and slid to rest, v^2 / 2 mu g = 53 m; run over it was 21 m
   const auto scene = scenes::load(
