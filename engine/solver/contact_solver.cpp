@@ -182,7 +182,7 @@ void ContactSolver::iterate(std::vector<Constraint>& all, const std::vector<int>
     }
     // redundant or jammed: the two ask for different care, and one cannot tell before
     care = care == Care::redundant ? Care::jammed : Care::redundant;
-    round = std::min(2 * round, sweeps);  // a round that ends early doubles it too: one went on for thirty million sweeps
+    round = std::min(2 * round, sweeps);  // a round that ends early doubles it too: one went on for minutes
     goal = tolerance;
   }
 }

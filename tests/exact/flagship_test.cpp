@@ -74,7 +74,7 @@ TEST_F(Flagship, IsTheSameToTheLastBitAgain) {
   EXPECT_EQ(engine::hash(*run_), engine::hash(engine::simulate(scene_->model)));
 }
 
-/// One of a fit's runs: in one step rounds of sweeps that ended early doubled the next one up to thirty million.
+/// One of a fit's runs: in one step rounds of sweeps that ended early doubled the next one until it took minutes.
 TEST(FlagshipFamily, NoSolveGoesOnForMinutes) {
   const scenes::Scene scene = scenes::load(
       kScenes + "cases/sedan_pedestrian_fit.toml",
