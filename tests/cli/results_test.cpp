@@ -2,13 +2,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "cli/build_id.h"
 #include "cli/output/recording_file.h"
 #include "cli/output/summary.h"
 #include "engine/simulate.h"
@@ -289,6 +293,15 @@ TEST(Simulate, SummaryHasEveryKeyOfTheContract) {
   EXPECT_LE(longest.at("processor_s").get<double>(), summary.at("cost").at("wall_s").get<double>());
   EXPECT_GT(longest.at("time_s").get<double>(), 0);
   EXPECT_FALSE(longest.at("bodies").empty());
+}
+
+TEST(BuildId, IsWhatTheLinkerWrote) {
+  FILE* readelf = popen(("readelf -n /proc/" + std::to_string(getpid()) + "/exe").c_str(), "r");
+  ASSERT_NE(readelf, nullptr);
+  std::string notes;
+  for (char piece[256]; std::fgets(piece, sizeof piece, readelf);) notes += piece;
+  pclose(readelf);
+  EXPECT_THAT(notes, HasSubstr("Build ID: " + cli::build_id() + "\n"));
 }
 
 TEST(RecordingFile, HoldsWhatTheRunSawOfEachEffect) {
