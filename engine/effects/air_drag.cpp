@@ -261,6 +261,10 @@ class AirDrag final : public Effect {
     const Vec3* wind = input(model, "air.wind");
     return wind && !wind->isZero(0);
   }
+  /// The wind on who waits is left out, not needless.
+  static double not_before(const Model& model, const Reach& reach) {
+    return reach.all_bodies_wait && !gives(model) ? reach.first_touch : 0;
+  }
   static LeftOut left_out(const Model& model, const Recording& run, bool had_air) { return left_out_along(model, run, had_air); }
 
   AirDrag(const World& world, int self) : Effect(self), air_(air_of(world.model)) {}

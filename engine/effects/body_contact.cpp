@@ -35,7 +35,7 @@ class BodyContact final : public Effect {
  public:
   static constexpr const char* kName = "body_contact";
   static Finding look(const Model& model) { return look_for_body_contact(model); }
-  static double not_before(const Reach& reach) { return reach.groups_are_simple ? reach.first_touch : 0; }
+  static double not_before(const Model&, const Reach& reach) { return reach.groups_are_simple ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
   BodyContact(World& world, int self) : Effect(self) { add_runs_between_bodies(world, self); }

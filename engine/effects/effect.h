@@ -114,7 +114,7 @@ struct EffectKind {
   /// May it give energy that its account did not take before: springs, surfaces that give way, the wind? Null: never.
   bool (*gives)(const Model&) = nullptr;
   /// [s] before which it cannot matter, proved from the reach; infinity: not in this run. Null: from the start.
-  double (*not_before)(const Reach&) = nullptr;
+  double (*not_before)(const Model&, const Reach&) = nullptr;
   SceneSection section;
   std::unique_ptr<Effect> (*make)(World&, int self) = nullptr;
   EffectMemory (*first_memory)() = nullptr;

@@ -31,6 +31,7 @@ class Gravity final : public Effect {
  public:
   static constexpr const char* kName = "gravity";
   static Finding look(const Model& model) { return look_for_gravity(model); }
+  static double not_before(const Model&, const Reach& reach) { return reach.all_bodies_wait ? reach.first_touch : 0; }
 
   Gravity(const World&, int self) : Effect(self) {}
 

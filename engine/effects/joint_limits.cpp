@@ -103,7 +103,7 @@ class JointLimits final : public Effect {
  public:
   static constexpr const char* kName = "joint_limits";
   static Finding look(const Model& model) { return look_for_joint_limits(model); }
-  static double not_before(const Reach& reach) { return reach.all_joints_wait ? reach.first_touch : 0; }
+  static double not_before(const Model&, const Reach& reach) { return reach.all_joints_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
   JointLimits(const World&, int self) : Effect(self) {}

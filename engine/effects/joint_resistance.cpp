@@ -99,7 +99,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
  public:
   static constexpr const char* kName = "joint_resistance";
   static Finding look(const Model& model) { return look_for_joint_resistance(model); }
-  static double not_before(const Reach& reach) { return reach.all_joints_wait ? reach.first_touch : 0; }
+  static double not_before(const Model&, const Reach& reach) { return reach.all_joints_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) {
     return std::any_of(model.joints.begin(), model.joints.end(), [](const Joint& joint) {
       return joint.passive != PassiveTorque::none ||

@@ -190,7 +190,7 @@ class KudlichSlibar final : public EffectWith<ImpactMemory> {
  public:
   static constexpr const char* kName = "kudlich_slibar";
   static Finding look(const Model& model) { return look_for_kudlich_slibar(model); }
-  static double not_before(const Reach& reach) { return reach.groups_are_simple ? reach.first_touch : 0; }
+  static double not_before(const Model&, const Reach& reach) { return reach.groups_are_simple ? reach.first_touch : 0; }
 
   KudlichSlibar(World& world, int self)
       : EffectWith(self), pairs_(pairs_of(world.model)), force_(world.model.bodies.size()), change_(force_) {

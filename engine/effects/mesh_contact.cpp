@@ -56,7 +56,7 @@ class MeshContact final : public Effect {
  public:
   static constexpr const char* kName = "mesh_contact";
   static Finding look(const Model& model) { return look_for_mesh_contact(model); }
-  static double not_before(const Reach& reach) { return reach.groups_are_simple ? reach.first_touch : 0; }
+  static double not_before(const Model&, const Reach& reach) { return reach.groups_are_simple ? reach.first_touch : 0; }
   static bool gives(const Model& model) {  // tyres yield under every law
     return model.settings.contact_law != ContactLaw::default_auto || (!model.persons.empty() && !tyre_pairs(model).empty());
   }

@@ -244,8 +244,10 @@ Reach reach_of(const Model& model) {
   reach.groups_are_simple = std::all_of(groups.begin(), groups.end(), [&](const ReachGroup& g) { return is_simple(model, g); });
   reach.all_joints_wait = std::all_of(model.joints.begin(), model.joints.end(),
                                       [&](const Joint& joint) { return waits(model, model.bodies[joint.child]); });
-  reach.all_rounds_wait = std::all_of(model.bodies.begin(), model.bodies.end(),
-                                      [&](const Body& body) { return body.fixed || !is_round(body) || waits(model, body); });
+  const auto stays = [&](const Body& body) { return body.fixed || waits(model, body); };
+  reach.all_bodies_wait = std::all_of(model.bodies.begin(), model.bodies.end(), stays);
+  reach.all_rounds_wait =
+      std::all_of(model.bodies.begin(), model.bodies.end(), [&](const Body& body) { return !is_round(body) || stays(body); });
   return reach;
 }
 

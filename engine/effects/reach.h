@@ -16,8 +16,8 @@ namespace engine {
 struct Reach {
   double first_touch = 0;  // [s] no earlier; infinity: not within the run
   std::string who;         // that touch, "car and pedestrian"; empty: there are no two
-  /// Do all joints, all round bodies that move, belong to persons who wait for a touch?
-  bool all_joints_wait = false, all_rounds_wait = false;
+  /// Do all joints, all round bodies, all bodies that move belong to persons who wait for a touch?
+  bool all_joints_wait = false, all_rounds_wait = false, all_bodies_wait = false;
   /// Is every group one body, or one person without a mount?
   bool groups_are_simple = false;
 };

@@ -30,7 +30,7 @@ class SelfContact final : public Effect {
  public:
   static constexpr const char* kName = "self_contact";
   static Finding look(const Model& model) { return look_for_self_contact(model); }
-  static double not_before(const Reach& reach) { return reach.all_joints_wait ? reach.first_touch : 0; }
+  static double not_before(const Model&, const Reach& reach) { return reach.all_joints_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
   SelfContact(World& world, int self) : Effect(self) { add_pairs_within_persons(world, self); }

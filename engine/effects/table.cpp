@@ -46,7 +46,7 @@ Force forced_of(const Model& model, const char* effect) {
 /// What the scene calls for but cannot reach in time is off, with the proof.
 void prove_needless(const Model& model, const EffectKind& effect, const Reach& reach, PlanLine& line) {
   if (!line.called_for || !effect.not_before) return;
-  line.not_before = effect.not_before(reach);
+  line.not_before = effect.not_before(model, reach);
   if (line.forced || line.not_before < model.settings.duration) return;
   line.active = line.called_for = false;
   const std::string why = reach.who.empty() ? "nothing can touch anything" : "nothing can touch before, nearest are " + reach.who;

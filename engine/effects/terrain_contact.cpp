@@ -23,7 +23,7 @@ class TerrainContact final : public Effect {
  public:
   static constexpr const char* kName = "terrain_contact";
   static Finding look(const Model& model) { return look_for_terrain_contact(model); }
-  static double not_before(const Reach& reach) { return reach.all_rounds_wait ? reach.first_touch : 0; }
+  static double not_before(const Model&, const Reach& reach) { return reach.all_rounds_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 
   TerrainContact(World& world, int self) : Effect(self) {
