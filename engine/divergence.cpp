@@ -55,7 +55,7 @@ Failure failure_of(const World& world, const std::vector<Constraint>& conditions
   const char* effect = jointed ? "joints" : "gravity";
   double largest = -1;
   for (const Constraint& c : conditions)
-    if ((c.body_a == body || c.body_b == body) && !(c.impulse.norm() <= largest)) {
+    if ((c.a.body == body || c.b.body == body) && !(c.impulse.norm() <= largest)) {
       largest = c.impulse.norm();
       effect = world.plan.active[c.effect]->name;
     }

@@ -17,8 +17,8 @@ constexpr double kAirborne = 0.05;    // [s] who lay there is off the ground aft
 
 ContactState state_of(const Constraint& c, double gap_speed) {
   if (c.impulse[0] <= 0) return gap_speed < 0 ? ContactState::approach : ContactState::separate;
-  if (!is_compliant(c) && c.u_before[0] < -0.1) return ContactState::impact;  // what yields has a force, and no instant
-  const double slip = math::hypot(c.u_after[1], c.u_after[2]);
+  if (!is_compliant(c) && c.u.before[0] < -0.1) return ContactState::impact;  // what yields has a force, and no instant
+  const double slip = math::hypot(c.u.after[1], c.u.after[2]);
   return slip > 1e-3 ? ContactState::slide : ContactState::stick;
 }
 
@@ -28,9 +28,9 @@ Constraint seen_from_below(const Constraint& wheel) {
   Constraint c = wheel;
   c.kind = ConstraintKind::contact;
   c.shapes = {ShapeKind::round, ShapeKind::tyre};
-  std::swap(c.record_a, c.record_b);
+  std::swap(c.a.record, c.b.record);
   c.frame.leftCols<2>() *= -1;
-  for (Vec3* row : {&c.impulse, &c.u_before, &c.u_after}) (*row)[2] *= -1;
+  for (Vec3* row : {&c.impulse, &c.u.before, &c.u.after}) (*row)[2] *= -1;
   c.gap = 0;
   return c;
 }
@@ -117,17 +117,17 @@ void Recorder::keep(const World& world, const State& state) {
 
 /// The first touch of a head with a vehicle: how fast its centre came upon the surface there.
 void Recorder::note_head(const Constraint& c, double time) {
-  const BodyState& head = before_[c.record_a];
+  const BodyState& head = before_[c.a.record];
   Vec3 velocity = head.V_WB.v;
-  if (c.record_b >= 0) {
-    const BodyState& struck = before_[c.record_b];
+  if (c.b.record >= 0) {
+    const BodyState& struck = before_[c.b.record];
     velocity -= struck.V_WB.v + struck.V_WB.w.cross(c.point - struck.X_WB.p);
   }
-  events_.push_back({time, "head_impact", c.record_a, c.record_b, c.point, velocity.norm(), c.frame.col(0), velocity});
+  events_.push_back({time, "head_impact", c.a.record, c.b.record, c.point, velocity.norm(), c.frame.col(0), velocity});
 }
 
 void Recorder::note(const char* kind, const Constraint& c, double time) {
-  events_.push_back({time, kind, c.record_a, c.record_b, c.point, std::max(0.0, -c.u_before[0]), c.frame.col(0), Vec3::Zero()});
+  events_.push_back({time, kind, c.a.record, c.b.record, c.point, std::max(0.0, -c.u.before[0]), c.frame.col(0), Vec3::Zero()});
 }
 
 void Recorder::watch_vehicle(const World& world, const Constraint& c, int person, double time) {
@@ -138,14 +138,14 @@ void Recorder::watch_vehicle(const World& world, const Constraint& c, int person
     lying_[person] = time - last_trunk_[person] <= kAirborne;
   }
   hit_vehicle_[person] = 1;
-  if (is_fixture(world.model, c.record_b)) return;
-  if (c.record_a == world.model.persons[person].head && !hit_head_[person]) {
+  if (is_fixture(world.model, c.b.record)) return;
+  if (c.a.record == world.model.persons[person].head && !hit_head_[person]) {
     note_head(c, time);
     hit_head_[person] = 1;
   }
   // a wheel that shoves a limb ahead of it, or climbs it, does not stand on it yet
   constexpr double kOnTop = 0.9;  // [-] upright part of the normal: 26 degrees
-  const int vehicle = world.model.bodies[c.record_b].vehicle;
+  const int vehicle = world.model.bodies[c.b.record].vehicle;
   if (c.shapes.b != ShapeKind::tyre || vehicle < 0 || !(-c.frame.col(0).z() > kOnTop)) return;
   char& told = run_over_[static_cast<std::size_t>(person) * world.model.vehicles.size() + static_cast<std::size_t>(vehicle)];
   if (!told) note("run_over", c, time);
@@ -155,18 +155,18 @@ void Recorder::watch_vehicle(const World& world, const Constraint& c, int person
 void Recorder::watch_ground(const Constraint& c, int person, double time) {
   // feet and hands come and go while a person is being struck, carried or walks: who falls comes down on the trunk
   if (time - last_ground_[person] > kAirborne) lying_[person] = 0;
-  if (!hit_ground_[person] && trunk_[c.record_a] && !lying_[person]) {
+  if (!hit_ground_[person] && trunk_[c.a.record] && !lying_[person]) {
     note("ground_contact", c, time);
     hit_ground_[person] = 1;
   }
   last_ground_[person] = time;
-  if (trunk_[c.record_a]) last_trunk_[person] = time;
+  if (trunk_[c.a.record]) last_trunk_[person] = time;
 }
 
 void Recorder::watch_events(const World& world, const Constraint& c, double time) {
-  const int person = c.record_a >= 0 ? world.model.bodies[c.record_a].person : -1;
-  if (person < 0 || world.model.bodies[c.record_a].vehicle >= 0 || c.impulse[0] <= 0) return;
-  const bool fixture = c.shapes.on_vehicle() && is_fixture(world.model, c.record_b);
+  const int person = c.a.record >= 0 ? world.model.bodies[c.a.record].person : -1;
+  if (person < 0 || world.model.bodies[c.a.record].vehicle >= 0 || c.impulse[0] <= 0) return;
+  const bool fixture = c.shapes.on_vehicle() && is_fixture(world.model, c.b.record);
   if (c.shapes.on_vehicle() && (!fixture || world.model.persons[person].mount >= 0)) watch_vehicle(world, c, person, time);
   if (c.shapes.on_ground() || (fixture && bears(c.frame.col(0)))) watch_ground(c, person, time);
 }
@@ -176,8 +176,8 @@ void Recorder::watch_compression(const Constraint& c, double time, double durati
   const double depth = -c.gap;
   if (duration <= 0) return;
   // whatever it carries: what is pressed deeper than it is thick is told
-  if (depth > c.thickness) too_deep_.note(depth, time, c);
-  if (c.impulse[0] < 0.5 * c.stiffness * depth * duration) return;  // slack: it springs back
+  if (depth > c.spring.thickness) too_deep_.note(depth, time, c);
+  if (c.impulse[0] < 0.5 * c.spring.stiffness * depth * duration) return;  // slack: it springs back
   compression_ = std::max(compression_, depth);
 }
 
@@ -185,7 +185,7 @@ void Recorder::watch_compression(const Constraint& c, double time, double durati
 void Recorder::watch_bounds(const World& world, const Constraint& c, double time) {
   if (is_compliant(c)) return;
   if (c.kind == ConstraintKind::limit) (c.slides ? overslid_ : overturned_).note(-c.gap, time, c);
-  if (is_contact(c) && -c.gap > world.log.overlap_at_start(c.record_a, c.record_b) + kToldInside)
+  if (is_contact(c) && -c.gap > world.log.overlap_at_start(c.a.record, c.b.record) + kToldInside)
     (c.shapes.between_vehicles() ? crossed_ : stood_inside_).note(-c.gap, time, c);
 }
 
@@ -194,10 +194,10 @@ void Recorder::tally(const World& world, const std::vector<Constraint>& conditio
     watch_bounds(world, c, time);
     if (c.kind == ConstraintKind::contact)
       tally_contact(world, c, time, duration);
-    else if (c.kind == ConstraintKind::wheel && c.record_b >= 0)
+    else if (c.kind == ConstraintKind::wheel && c.b.record >= 0)
       tally_contact(world, seen_from_below(c), time, duration);
     else if (c.kind == ConstraintKind::wheel)
-      tyre_impulse_[world.model.bodies[c.record_a].vehicle] += c.frame * c.impulse;
+      tyre_impulse_[world.model.bodies[c.a.record].vehicle] += c.frame * c.impulse;
   }
 }
 
@@ -210,19 +210,19 @@ void Recorder::tally_contact(const World& world, const Constraint& c, double tim
   ContactRecord& r = at->record;
   if (r.normal_impulse == 0) r.begun = time - duration;
   r.shapes = c.shapes;
-  r.body_a = c.record_a;
-  r.body_b = c.record_b;
+  r.body_a = c.a.record;
+  r.body_b = c.b.record;
   r.point = c.point;
   r.normal = c.frame.col(0);
-  const bool rubber = is_compliant(c) && !yields_between(world.model, c.record_a, c.record_b);
+  const bool rubber = is_compliant(c) && !yields_between(world.model, c.a.record, c.b.record);
   r.depth = rubber ? 0 : -c.gap;
-  r.slip = math::hypot(c.u_after[1], c.u_after[2]);
-  const ContactState state = state_of(c, c.u_before[0]);
+  r.slip = math::hypot(c.u.after[1], c.u.after[2]);
+  const ContactState state = state_of(c, c.u.before[0]);
   if (r.state != ContactState::impact || r.normal_impulse == 0) r.state = state;
   r.normal_impulse += c.impulse[0];
   r.tangential_impulse += math::hypot(c.impulse[1], c.impulse[2]);
-  r.friction_limit += c.friction * c.impulse[0];
-  r.energy_lost -= 0.5 * c.impulse.dot(c.u_before + c.u_after);
+  r.friction_limit += c.surface.friction * c.impulse[0];
+  r.energy_lost -= 0.5 * c.impulse.dot(c.u.before + c.u.after);
   at->impulse += c.frame * c.impulse;
   at->duration += duration;
 }

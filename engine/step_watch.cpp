@@ -13,7 +13,7 @@ std::array<int, 3> concerned(const World& world, const State& state, const std::
   std::array<std::ptrdiff_t, 3> most{};
   const auto count = [&](int b) {
     return std::count_if(conditions.begin(), conditions.end(),
-                         [b](const Constraint& c) { return c.record_a == b || c.record_b == b; });
+                         [b](const Constraint& c) { return c.a.record == b || c.b.record == b; });
   };
   for (int b = 0; b < static_cast<int>(world.model.bodies.size()); ++b) {
     int body = b;

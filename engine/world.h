@@ -34,7 +34,7 @@ struct Shortfall {
   int body_a = -1, body_b = -1;
 
   void note(double amount_now, double now, const Constraint& c) {
-    if (amount_now > amount) *this = {amount_now, now, c.record_a, c.record_b};
+    if (amount_now > amount) *this = {amount_now, now, c.a.record, c.b.record};
   }
 };
 

@@ -58,14 +58,14 @@ std::pair<double, double> stiffnesses(const Model& model, double time, const std
 
 /// Both surfaces of a compliant contact as springs in series. They share the depth by depth_a S_a = depth_b S_b, eq. (81).
 void set_stiffness(Constraint& c, const Model& model, double time, const std::optional<Panel>& panel) {
-  const auto [S_a, S_b] = stiffnesses(model, time, panel, c.record_a, c.record_b);
-  c.stiffness = stiffness_in_series(S_a, S_b);
-  c.hysteresis = c.restitution;
-  c.restitution = 0;
-  c.share_a = S_b / (S_a + S_b);
-  for (const int body : {c.record_a, c.record_b})
+  const auto [S_a, S_b] = stiffnesses(model, time, panel, c.a.record, c.b.record);
+  c.spring.stiffness = stiffness_in_series(S_a, S_b);
+  c.spring.hysteresis = c.surface.restitution;
+  c.surface.restitution = 0;
+  c.spring.share_a = S_b / (S_a + S_b);
+  for (const int body : {c.a.record, c.b.record})
     if (const auto* shape = body >= 0 ? std::get_if<HyperEllipsoid>(&model.bodies[body].shape) : nullptr)
-      c.thickness = std::min(c.thickness, 2 * shape->semi_axes.minCoeff());
+      c.spring.thickness = std::min(c.spring.thickness, 2 * shape->semi_axes.minCoeff());
 }
 
 /// Half of the thinner part along the normal is what the two can give way by; into a panel a little less than by which the
@@ -74,16 +74,16 @@ void set_stiffness(Constraint& c, const Model& model, double time, const std::op
 void set_room(Constraint& c, const World& world, const Motion& at, const std::optional<Panel>& panel) {
   constexpr double kIntoMetal = 0.75;  // [-] of the half thickness
   if (world.model.settings.contact_law != ContactLaw::persons_yield) return;
-  c.room = std::numeric_limits<double>::infinity();
-  for (const int body : {c.record_a, c.record_b}) {
+  c.spring.room = std::numeric_limits<double>::infinity();
+  for (const int body : {c.a.record, c.b.record}) {
     const auto* part = is_part(world.model, body) ? std::get_if<HyperEllipsoid>(&world.model.bodies[body].shape) : nullptr;
-    if (part) c.room = std::min(c.room, support_value(*part, at.X_WB[body].q.conjugate() * c.frame.col(0)));
+    if (part) c.spring.room = std::min(c.spring.room, support_value(*part, at.X_WB[body].q.conjugate() * c.frame.col(0)));
   }
   if (c.shapes.on_vehicle()) {
-    const double most = may_pass(world.model, c.record_a);
-    c.room *= 0.9 * (1 + (panel && is_glass(*panel) ? most : std::min(most, kIntoMetal)));
+    const double most = may_pass(world.model, c.a.record);
+    c.spring.room *= 0.9 * (1 + (panel && is_glass(*panel) ? most : std::min(most, kIntoMetal)));
   }
-  c.struck_mass = 1 / c.free_response;
+  c.spring.struck_mass = 1 / c.response.free;
 }
 
 /// A part that lies in a dent of bodywork, which is the panel's share of the depth. It has gone through once all of it, as it lies,
@@ -91,31 +91,31 @@ void set_room(Constraint& c, const World& world, const Motion& at, const std::op
 void set_ploughing(Constraint& c, const World& world, const Motion& at) {
   constexpr double kSlips = 1e-6;  // [m/s]
   const Model& model = world.model;
-  if (model.settings.contact_law != ContactLaw::persons_yield || !is_part(model, c.record_a) || c.record_b < 0 || c.gap >= 0)
+  if (model.settings.contact_law != ContactLaw::persons_yield || !is_part(model, c.a.record) || c.b.record < 0 || c.gap >= 0)
     return;
-  const auto* part = std::get_if<HyperEllipsoid>(&model.bodies[c.record_a].shape);
-  const auto* mesh = std::get_if<MeshShape>(&model.bodies[c.record_b].shape);
+  const auto* part = std::get_if<HyperEllipsoid>(&model.bodies[c.a.record].shape);
+  const auto* mesh = std::get_if<MeshShape>(&model.bodies[c.b.record].shape);
   if (!part || !mesh || !mesh->panels || c.shapes.b != ShapeKind::mesh) return;
   const auto velocity = [&](int body) -> Vec3 {
     const Twist& V = at.V_WB[body];
     return V.v + V.w.cross(c.point - at.X_WB[body].p);
   };
-  const Vec3 normal = c.frame.col(0), u = velocity(c.record_a) - velocity(c.record_b), slip = u - u.dot(normal) * normal;
+  const Vec3 normal = c.frame.col(0), u = velocity(c.a.record) - velocity(c.b.record), slip = u - u.dot(normal) * normal;
   const Vec3 along = slip.norm() > kSlips ? Vec3(slip.normalized()) : Vec3(c.frame.col(1));
-  const Quat q_BW = at.X_WB[c.record_a].q.conjugate();
-  c.thickness = 2 * support_value(*part, q_BW * normal);
-  c.ploughing = (1 - c.hysteresis) * ploughing(*part, q_BW * normal, q_BW * along, (c.share_a - 1) * c.gap);
-  c.friction += c.ploughing;
+  const Quat q_BW = at.X_WB[c.a.record].q.conjugate();
+  c.spring.thickness = 2 * support_value(*part, q_BW * normal);
+  c.surface.ploughing = (1 - c.spring.hysteresis) * ploughing(*part, q_BW * normal, q_BW * along, (c.spring.share_a - 1) * c.gap);
+  c.surface.friction += c.surface.ploughing;
 }
 
 /// How the contact's bodies answer an impulse were they free, and were all that hangs on them one piece.
 void set_responses(Constraint& c, const World& world) {
   int last_tree = -1;
-  for (const int body : {c.body_a, c.body_b}) {
+  for (const int body : {c.a.body, c.b.body}) {
     if (body < 0) continue;
-    c.free_response += 1 / world.model.bodies[body].mass;
+    c.response.free += 1 / world.model.bodies[body].mass;
     const int tree = world.topology.tree_of_body[body];
-    if (tree != last_tree) c.whole_response += 1 / world.tree_mass[tree];
+    if (tree != last_tree) c.response.whole += 1 / world.tree_mass[tree];
     last_tree = tree;
   }
 }
@@ -134,23 +134,23 @@ void add_contact(ContactSearch& search, const PairKind& kind, const SurfaceConta
   c.kind = ConstraintKind::contact;
   c.rows = 3;
   auto moving = [&](int body) { return body >= 0 && !world.model.bodies[body].fixed ? body : -1; };
-  c.body_a = moving(a);
-  c.body_b = moving(b);
-  if (c.body_a < 0 && c.body_b < 0) return;
-  c.record_a = a;
-  c.record_b = b;
-  c.rolls = touch.rolls;
-  c.friction = c.rolls ? 0 : surfaces.friction;
-  c.restitution = surfaces.restitution;
+  c.a.body = moving(a);
+  c.b.body = moving(b);
+  if (c.a.body < 0 && c.b.body < 0) return;
+  c.a.record = a;
+  c.b.record = b;
+  c.surface.rolls = touch.rolls;
+  c.surface.friction = c.surface.rolls ? 0 : surfaces.friction;
+  c.surface.restitution = surfaces.restitution;
   const bool compliant = yields_between(world.model, a, b);
   const std::optional<Panel> panel = compliant ? panel_met(world.model, search.at, touch, a, b) : std::nullopt;
   if (compliant) set_stiffness(c, world.model, search.at.time, panel);
   const Vec3 way = touch.p_b - touch.p_a, along = way.dot(touch.normal) * touch.normal;
-  c.point = touch.p_a + c.share_a * along + touch.share_across * (way - along);
+  c.point = touch.p_a + c.spring.share_a * along + touch.share_across * (way - along);
   const Vec3 t1 = touch.normal.unitOrthogonal();
   c.frame << touch.normal, t1, touch.normal.cross(t1);
-  if (c.body_a >= 0) c.J_a = contact_rows(c, search.at.X_WB[c.body_a], 1);
-  if (c.body_b >= 0) c.J_b = contact_rows(c, search.at.X_WB[c.body_b], -1);
+  if (c.a.body >= 0) c.a.J = contact_rows(c, search.at.X_WB[c.a.body], 1);
+  if (c.b.body >= 0) c.b.J = contact_rows(c, search.at.X_WB[c.b.body], -1);
   set_responses(c, world);
   // rigid, what rests would sink by as much before its corners carried; what yields sinks by its load
   c.gap = compliant ? touch.gap : touch.gap - touch.lifted;
@@ -174,8 +174,8 @@ void share_stiffness(ContactSearch& search, std::size_t first) {
     for (std::size_t j = first; j < all.size(); ++j)
       sum += std::max(-all[j].gap, kLeast) * std::max(0.0, all[i].frame.col(0).dot(all[j].frame.col(0)));
     const double share = std::max(-all[i].gap, kLeast) / sum;
-    all[i].stiffness *= share;
-    all[i].struck_mass *= share;
+    all[i].spring.stiffness *= share;
+    all[i].spring.struck_mass *= share;
   }
 }
 

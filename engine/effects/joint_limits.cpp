@@ -49,8 +49,8 @@ double free_response(const Model& model, const Motion& at, const Constraint& c, 
     const Vec3 axis_B = at.X_WB[b].q.conjugate() * (c.slides ? Vec3(J.row(0).template tail<3>()) : gradient_W);
     response += (c.slides ? 1 / body.mass : 0) + axis_B.dot(body.inertia_B.inverse() * axis_B);
   };
-  add(c.body_a, c.J_a);
-  add(c.body_b, c.J_b);
+  add(c.a.body, c.a.J);
+  add(c.b.body, c.b.J);
   return response;
 }
 
@@ -70,26 +70,26 @@ void add_limit(ContactSearch& search, const JointCoordinates& now, const End& en
   c.rows = 1;
   c.slides = end.i == kSlide;
   auto moving = [&](int body) { return body >= 0 && !world.model.bodies[body].fixed ? body : -1; };
-  c.body_a = moving(joint.child);
-  c.body_b = moving(joint.parent);
-  c.record_a = joint.child;
-  c.record_b = joint.parent;
-  c.J_a.setZero();
-  c.J_b.setZero();
+  c.a.body = moving(joint.child);
+  c.b.body = moving(joint.parent);
+  c.a.record = joint.child;
+  c.b.record = joint.parent;
+  c.a.J.setZero();
+  c.b.J.setZero();
   const double sign = end.upper ? -1 : 1;
   if (c.slides) {
-    c.J_a.row(0) << sign * gradient_W.transpose(), sign * now.r_C.cross(gradient_W).transpose();
-    c.J_b.row(0) << -sign * gradient_W.transpose(), -sign * now.r_P.cross(gradient_W).transpose();
+    c.a.J.row(0) << sign * gradient_W.transpose(), sign * now.r_C.cross(gradient_W).transpose();
+    c.b.J.row(0) << -sign * gradient_W.transpose(), -sign * now.r_P.cross(gradient_W).transpose();
   } else {
-    c.J_a.row(0).tail<3>() = sign * gradient_W.transpose();
-    c.J_b.row(0).tail<3>() = -sign * gradient_W.transpose();
+    c.a.J.row(0).tail<3>() = sign * gradient_W.transpose();
+    c.b.J.row(0).tail<3>() = -sign * gradient_W.transpose();
   }
   c.gap = end.gap;
   const bool persons = world.model.bodies[joint.child].person >= 0;
   if (const double stiffness = joint.coordinate(end.i).stop_stiffness;
       yields(world.model.settings.contact_law, persons) && stiffness > 0) {
-    c.stiffness = stiffness;
-    c.free_response = free_response(world.model, search.at, c, gradient_W);
+    c.spring.stiffness = stiffness;
+    c.response.free = free_response(world.model, search.at, c, gradient_W);
   }
   c.key = (static_cast<std::uint64_t>(self) << 56) | (static_cast<std::uint64_t>(end.joint) << 8) |
           static_cast<std::uint64_t>(2 * end.i + end.upper);

@@ -70,14 +70,14 @@ class JointLoops final : public EffectWith<LoopLoads> {
         Constraint c;
         c.kind = ConstraintKind::bilateral;
         c.rows = 1;
-        c.body_a = moving(joint.child);
-        c.body_b = moving(joint.parent);
-        c.record_a = joint.child;
-        c.record_b = joint.parent;
-        c.J_a.setZero();
-        c.J_b.setZero();
-        c.J_a.row(0) = row_on_child(rows, k).transpose();
-        c.J_b.row(0) = row_on_parent(rows, k).transpose();
+        c.a.body = moving(joint.child);
+        c.b.body = moving(joint.parent);
+        c.a.record = joint.child;
+        c.b.record = joint.parent;
+        c.a.J.setZero();
+        c.b.J.setZero();
+        c.a.J.row(0) = row_on_child(rows, k).transpose();
+        c.b.J.row(0) = row_on_parent(rows, k).transpose();
         c.softness = kGive * free_response(world.model, state.X_WB, c, 0);
         c.key = (static_cast<std::uint64_t>(self_) << 56) | (static_cast<std::uint64_t>(j) << 8) | static_cast<std::uint64_t>(k);
         c.effect = self_;
@@ -97,7 +97,7 @@ class JointLoops final : public EffectWith<LoopLoads> {
     for (const int j : world.topology.loops) load[j] = forget * load[j] + (1 - forget) / h * world.loops.impulse(j);
     for (const Constraint& c : step.constraints) {
       if (c.effect != self_ || c.kind != ConstraintKind::bilateral) continue;
-      const Vec3 direction = c.body_a >= 0 ? Vec3(c.J_a.row(0).head<3>()) : Vec3(-c.J_b.row(0).head<3>());
+      const Vec3 direction = c.a.body >= 0 ? Vec3(c.a.J.row(0).head<3>()) : Vec3(-c.b.J.row(0).head<3>());
       load[(c.key >> 8) & 0xffff] += (1 - forget) / h * c.impulse[0] * direction;
     }
     for (const int j : world.topology.loops) {

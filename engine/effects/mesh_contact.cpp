@@ -106,11 +106,11 @@ class MeshContact final : public Effect {
 
   static void give_rubber(Constraint& c) {
     constexpr double kDeepest = 0.08;  // [m] beyond which the rim would come through
-    c.stiffness = kTyreStiffness;
-    c.hysteresis = c.restitution;
-    c.restitution = 0;
-    c.room = kDeepest;
-    c.struck_mass = 1 / c.free_response;
+    c.spring.stiffness = kTyreStiffness;
+    c.spring.hysteresis = c.surface.restitution;
+    c.surface.restitution = 0;
+    c.spring.room = kDeepest;
+    c.spring.struck_mass = 1 / c.response.free;
   }
 
   const PairKind& mesh_ = pair_kind({ShapeKind::round, ShapeKind::mesh});

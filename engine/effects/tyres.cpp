@@ -92,16 +92,16 @@ void add_wheel(StepContext& step, const WheelState& wheel, const Footing& footin
   Constraint c;
   c.kind = ConstraintKind::wheel;
   const auto moves = [&](int body) { return body >= 0 && world.awake[body]; };
-  c.body_a = vehicle.body;
-  c.body_b = moves(footing.body) ? footing.body : -1;
-  c.record_a = vehicle.body;
-  c.record_b = footing.body;
+  c.a.body = vehicle.body;
+  c.b.body = moves(footing.body) ? footing.body : -1;
+  c.a.record = vehicle.body;
+  c.b.record = footing.body;
   c.point = footing.point;
   const Vec3 forward = X.q * Vec3(math::cos(wheel.steer), math::sin(wheel.steer), 0);
   const Vec3 t1 = (forward - forward.dot(footing.normal) * footing.normal).normalized();
   c.frame << footing.normal, t1, footing.normal.cross(t1);
   const Vec3 r = c.point - X.p;
-  for (int k = 0; k < 3; ++k) c.J_a.row(k) << c.frame.col(k).transpose(), r.cross(c.frame.col(k)).transpose();
+  for (int k = 0; k < 3; ++k) c.a.J.row(k) << c.frame.col(k).transpose(), r.cross(c.frame.col(k)).transpose();
   // the strut carries N cos(lean) of the load N, a guide the rest, and gives way by 1/cos(lean) of the way to the ground
   const double facing = footing.normal.dot(X.q * Vec3::UnitZ());
   const double implicit = stiffness * h + spec.damper;
@@ -111,29 +111,29 @@ void add_wheel(StepContext& step, const WheelState& wheel, const Footing& footin
   double under = mean_friction(world.model.ground, {c.point, v, state.time, h});
   if (footing.body >= 0) {
     const Vec3 r_b = c.point - state.X_WB[footing.body].p;
-    for (int k = 0; k < 3; ++k) c.J_b.row(k) << -c.frame.col(k).transpose(), -r_b.cross(c.frame.col(k)).transpose();
+    for (int k = 0; k < 3; ++k) c.b.J.row(k) << -c.frame.col(k).transpose(), -r_b.cross(c.frame.col(k)).transpose();
     v -= state.V_WB[footing.body].v + state.V_WB[footing.body].w.cross(r_b);
     under = world.model.bodies[footing.body].surface.friction_body.at(state.time);
   }
-  c.free_response = free_response(world.model, state.X_WB, c, 0);
+  c.response.free = free_response(world.model, state.X_WB, c, 0);
   const double mu = std::min(spec.friction, under);
   const Grip grip = grip_of(spec, wheel, std::max(0.0, force), mu, t1.dot(v), c.frame.col(2).dot(v));
-  c.friction = grip.friction;
-  c.grip_softness = grip.damping > 0 ? 1 / (h * grip.damping) : 0;
-  c.rolling_bound = h * (wheel.brake + spec.rolling_resistance * std::max(0.0, force));
-  c.rolling_drive = h * wheel.drive;
+  c.surface.friction = grip.friction;
+  c.wheel.grip_softness = grip.damping > 0 ? 1 / (h * grip.damping) : 0;
+  c.wheel.braking = h * (wheel.brake + spec.rolling_resistance * std::max(0.0, force));
+  c.wheel.driving = h * wheel.drive;
   c.gap = -wheel.compression;
   c.key = (static_cast<std::uint64_t>(self) << 56) | static_cast<std::uint64_t>(index);
   c.effect = self;
-  c.wheel = index;
+  c.wheel.index = index;
   step.constraints.push_back(c);
 }
 
 /// Part of a wheel's longitudinal impulse that the engine gave: all it offered, unless the tyre slipped.
 double engine_share(const Constraint& c) {
   const double most =
-      std::abs(c.impulse[1] - c.rolling_drive) <= c.rolling_bound * (1 + 1e-9) ? std::abs(c.rolling_drive) : std::abs(c.impulse[1]);
-  return std::copysign(std::min(std::abs(c.rolling_drive), most), c.rolling_drive);
+      std::abs(c.impulse[1] - c.wheel.driving) <= c.wheel.braking * (1 + 1e-9) ? std::abs(c.wheel.driving) : std::abs(c.impulse[1]);
+  return std::copysign(std::min(std::abs(c.wheel.driving), most), c.wheel.driving);
 }
 
 }  // namespace
@@ -206,16 +206,16 @@ class Tyres final : public EffectWith<TyresMemory> {
     State& state = step.state;
     for (const Constraint& c : step.constraints) {
       if (c.kind != ConstraintKind::wheel) continue;
-      WheelState& wheel = state.wheels[c.wheel];
+      WheelState& wheel = state.wheels[c.wheel.index];
       const Wheel& spec = step.world.model.vehicles[wheel.vehicle].wheels[wheel.wheel];
       wheel.impulse = c.impulse;
-      const double grip = c.friction * c.impulse[0];
+      const double grip = c.surface.friction * c.impulse[0];
       const bool sliding = math::hypot(c.impulse[1], c.impulse[2]) >= 0.999 * grip && grip > 0;
-      wheel.locked = sliding && wheel.brake > 0 && std::abs(c.impulse[1] - c.rolling_drive) < 0.999 * c.rolling_bound;
-      wheel.slip = sliding && c.record_b < 0 ? math::hypot(wheel.locked ? c.u_after[1] : 0.0, c.u_after[2]) : 0;
-      if (!wheel.locked) state.wheel_spin[c.wheel] += step.length * c.u_after[1] / spec.radius;
+      wheel.locked = sliding && wheel.brake > 0 && std::abs(c.impulse[1] - c.wheel.driving) < 0.999 * c.wheel.braking;
+      wheel.slip = sliding && c.b.record < 0 ? math::hypot(wheel.locked ? c.u.after[1] : 0.0, c.u.after[2]) : 0;
+      if (!wheel.locked) state.wheel_spin[c.wheel.index] += step.length * c.u.after[1] / spec.radius;
       // the engine's work is a source, not a loss: the books took it with the whole impulse
-      const double work = engine_share(c) * 0.5 * (c.u_before[1] + c.u_after[1]);
+      const double work = engine_share(c) * 0.5 * (c.u.before[1] + c.u.after[1]);
       state.energy.added += work;
       state.energy.dissipated[c.effect] += work;
     }

@@ -48,15 +48,15 @@ int ContactSolver::linearise(const std::vector<Constraint>& all, const std::vect
     if (c.kind == ConstraintKind::wheel) {
       // brake or grip at its bound stays there for this step; the sweeps move it
       const double held = length_of(c.impulse[1], c.impulse[2]);
-      if (held > 0.999999 * c.friction * c.impulse[0]) continue;
-      if (std::abs(c.impulse[1] - c.rolling_drive) < 0.999999 * c.rolling_bound)
+      if (held > 0.999999 * c.surface.friction * c.impulse[0]) continue;
+      if (std::abs(c.impulse[1] - c.wheel.driving) < 0.999999 * c.wheel.braking)
         unknown_.push_back(offset_[i] + 1), rule_.push_back({Row::stick, i, 1});
       unknown_.push_back(offset_[i] + 2), rule_.push_back({Row::stick, i, 2});
       continue;
     }
     const double rho = 1 / std::max(A(1, 1), A(2, 2));
     const Eigen::Vector2d wanted = c.impulse.tail<2>() - rho * u.tail<2>();
-    const double most = bounded_ ? bound_[i] : c.friction * active;
+    const double most = bounded_ ? bound_[i] : c.surface.friction * active;
     if (wanted.norm() > std::max(most, kTinyImpulse)) kind = Row::slip;
     for (int r = 1; r < 3; ++r) unknown_.push_back(offset_[i] + r), rule_.push_back({kind, i, r});
   }
@@ -89,7 +89,7 @@ bool ContactSolver::factor_linearised(const std::vector<Constraint>& all, const 
       for (int m = 0; m < n; ++m) newton_.A(k, m) = 0;
       newton_.A(k, k) = 1;
     } else if (kind != Row::slip) {
-      newton_.A(k, k) += regular_ * G(unknown_[k], unknown_[k]) + (r == 0 ? c.softness : (r == 2 ? c.grip_softness : 0));
+      newton_.A(k, k) += regular_ * G(unknown_[k], unknown_[k]) + (r == 0 ? c.softness : (r == 2 ? c.wheel.grip_softness : 0));
     } else if (r == 1) {
       // L_t - mu L_n x/|x| = 0 with x = L_t - rho u_t: its two rows, which stand together after that of the normal
       const Slip slip = slipping(c, member);
@@ -100,7 +100,7 @@ bool ContactSolver::factor_linearised(const std::vector<Constraint>& all, const 
         newton_.A(k + 1, m) = a[1];
       }
       for (int q = 0; q < 2; ++q) {
-        if (!bounded_) newton_.A(k + q, k - 1) -= c.friction * slip.direction[q];
+        if (!bounded_) newton_.A(k + q, k - 1) -= c.surface.friction * slip.direction[q];
         for (int p = 0; p < 2; ++p) newton_.A(k + q, k + p) += (p == q ? 1 : 0) - slip.across(q, p);
       }
     }
@@ -118,7 +118,7 @@ ContactSolver::Slip ContactSolver::slipping(const Constraint& c, int member) con
   const Eigen::Vector2d x = c.impulse.tail<2>() - slip.rho * velocity(member, 3).tail<2>();
   const double length = x.norm();
   slip.direction = x / length;
-  slip.most = bounded_ ? bound_[member] : c.friction * std::max(0.0, c.impulse[0]);
+  slip.most = bounded_ ? bound_[member] : c.surface.friction * std::max(0.0, c.impulse[0]);
   slip.across = std::min(1.0, slip.most / length) * (Eigen::Matrix2d::Identity() - slip.direction * slip.direction.transpose());
   return slip;
 }
@@ -136,7 +136,7 @@ bool ContactSolver::newton_step(std::vector<Constraint>& all, const std::vector<
     if (kind == Row::let_go) {
       newton_.b(k) = -c.impulse[r];
     } else if (kind != Row::slip) {
-      newton_.b(k) = r == 0 ? c.target - u - c.softness * c.impulse[0] : -u - (r == 2 ? c.grip_softness * c.impulse[2] : 0);
+      newton_.b(k) = r == 0 ? c.target - u - c.softness * c.impulse[0] : -u - (r == 2 ? c.wheel.grip_softness * c.impulse[2] : 0);
     } else if (r == 1) {
       const Slip slip = slipping(c, member);
       for (int q = 0; q < 2; ++q) newton_.b(k + q) = slip.most * slip.direction[q] - c.impulse[1 + q];
@@ -153,7 +153,7 @@ bool ContactSolver::newton_step(std::vector<Constraint>& all, const std::vector<
     Vec3 next = Vec3::Zero();
     for (int r = 0; r < c.rows; ++r) next[r] = L_[static_cast<std::size_t>(offset_[i] + r)];
     if (c.kind == ConstraintKind::contact && bounded_) next.tail<2>() = shortened(next.tail<2>(), bound_[i]);
-    if (c.kind == ConstraintKind::contact && !bounded_) next = project_to_cone(next, c.friction);
+    if (c.kind == ConstraintKind::contact && !bounded_) next = project_to_cone(next, c.surface.friction);
     if (c.kind != ConstraintKind::bilateral) next[0] = std::max(0.0, next[0]);
     const Vec3 change = next - c.impulse;
     c.impulse = next;

@@ -72,7 +72,7 @@ void ContactSolver::soften_dead_centres(const std::vector<Constraint>& all, cons
   for (int i = 0; i < static_cast<int>(members.size()); ++i) {
     const Constraint& c = all[members[i]];
     if (c.kind != ConstraintKind::contact) continue;
-    const double least = std::min(kLeastResponse * c.free_response, c.whole_response);
+    const double least = std::min(kLeastResponse * c.response.free, c.response.whole);
     const Mat3& A = own_[i];
     // det/(product of the two larger) bounds the smallest eigenvalue cheaply; exact only when it matters
     const double trace = A.trace();
@@ -132,7 +132,7 @@ double ContactSolver::sweep(std::vector<Constraint>& all, const std::vector<int>
         }
         Mat3 soft = A;
         soft(0, 0) += c.softness;
-        next = solve_one_contact(soft, u - A * c.impulse, c.target, c.friction, c.impulse);
+        next = solve_one_contact(soft, u - A * c.impulse, c.target, c.surface.friction, c.impulse);
         break;
       }
       case ConstraintKind::wheel:
@@ -197,7 +197,7 @@ void ContactSolver::follow_bounds(std::vector<Constraint>& all, const std::vecto
   const std::size_t count = members.size();
   bound_.resize(count);
   for (std::size_t i = 0; i < count; ++i)
-    bound_[i] = from == Bounds::held ? kHeld : all[members[i]].friction * all[members[i]].impulse[0];
+    bound_[i] = from == Bounds::held ? kHeld : all[members[i]].surface.friction * all[members[i]].impulse[0];
   double share = 1, last = std::numeric_limits<double>::infinity();
   const int last_sweep = report.sweeps + kMostSweeps;
   for (int k = 0; k < kBoundSteps && report.sweeps < last_sweep; ++k) {
@@ -209,7 +209,7 @@ void ContactSolver::follow_bounds(std::vector<Constraint>& all, const std::vecto
     for (std::size_t i = 0; i < count; ++i) {
       const Constraint& c = all[members[i]];
       if (c.kind != ConstraintKind::contact) continue;
-      const double difference = c.friction * c.impulse[0] - bound_[i];
+      const double difference = c.surface.friction * c.impulse[0] - bound_[i];
       change = std::max(change, std::abs(difference) * G(offset_[i] + 1, offset_[i] + 1));
       bound_[i] += share * difference;
     }
@@ -227,7 +227,7 @@ void ContactSolver::follow_bounds(std::vector<Constraint>& all, const std::vecto
 SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance) {
   const int count = static_cast<int>(members.size());
   for (int i = 0; i < count; ++i)
-    for (int r = 0; r < all[members[i]].rows; ++r) u_[static_cast<std::size_t>(offset_[i] + r)] = all[members[i]].u_free[r];
+    for (int r = 0; r < all[members[i]].rows; ++r) u_[static_cast<std::size_t>(offset_[i] + r)] = all[members[i]].u.free[r];
   for (int i = 0; i < count; ++i) add_to_velocity(i, all[members[i]].rows, all[members[i]].impulse);
 
   SolveReport report;
@@ -260,7 +260,7 @@ SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector
   if (!(report.residual <= tolerance)) report.worst = largest_miss(all, members).constraint;
   for (int i = 0; i < count; ++i) {
     Constraint& c = all[members[i]];
-    c.u_after = velocity(i, c.rows) - softened_[i] * c.impulse;  // what the bodies do, as the books have it
+    c.u.after = velocity(i, c.rows) - softened_[i] * c.impulse;  // what the bodies do, as the books have it
   }
   return report;
 }
@@ -298,7 +298,7 @@ double ContactSolver::kinetic_energy_change(const std::vector<Constraint>& all, 
   double change = 0;
   for (const int m : members) {
     const Constraint& c = all[m];
-    for (int r = 0; r < c.rows; ++r) change += c.impulse[r] * 0.5 * (c.u_after[r] + c.u_free[r]);
+    for (int r = 0; r < c.rows; ++r) change += c.impulse[r] * 0.5 * (c.u.after[r] + c.u.free[r]);
   }
   return change;
 }

@@ -18,8 +18,8 @@ inline double free_response(const Model& model, const std::vector<Pose>& X_WB, c
     response += v.squaredNorm() / model.bodies[b].mass;
     if (!w.isZero(0)) response += w.dot(inertia_W(model.bodies[b], X_WB[b].q).inverse() * w);
   };
-  add(c.body_a, c.J_a);
-  add(c.body_b, c.J_b);
+  add(c.a.body, c.a.J);
+  add(c.b.body, c.b.J);
   return response;
 }
 

@@ -59,8 +59,8 @@ void LoopClosure::choose(const Topology& topology, const std::vector<char>& brok
       Constraint block;
       block.kind = ConstraintKind::bilateral;
       block.rows = std::min(3, row_count(joint.kind) - k);
-      block.body_a = moves(joint.child) ? joint.child : -1;
-      block.body_b = moves(joint.parent) ? joint.parent : -1;
+      block.a.body = moves(joint.child) ? joint.child : -1;
+      block.b.body = moves(joint.parent) ? joint.parent : -1;
       members_.push_back(static_cast<int>(blocks_.size()));
       offset_.push_back(size_ + k);
       blocks_.push_back(block);
@@ -92,8 +92,8 @@ double LoopClosure::place(const std::vector<Pose>& X_WB, double& largest_gap) {
     for (int k = 0; k < rows.count; k += 3, ++at) {
       Constraint& block = blocks_[at];
       for (int r = 0; r < block.rows; ++r) {
-        if (block.body_a >= 0) block.J_a.row(r) = row_on_child(rows, k + r).transpose();
-        if (block.body_b >= 0) block.J_b.row(r) = row_on_parent(rows, k + r).transpose();
+        if (block.a.body >= 0) block.a.J.row(r) = row_on_child(rows, k + r).transpose();
+        if (block.b.body >= 0) block.b.J.row(r) = row_on_parent(rows, k + r).transpose();
         softness_[first_row_[i] + k + r] = kProximal * free_response(model_, X_WB, block, r);
       }
     }
@@ -127,8 +127,8 @@ double LoopClosure::ask_for_rest(const std::vector<Twist>& V_WB) {
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Constraint& c = blocks_[b];
     Vec3 u = Vec3::Zero();
-    if (c.body_a >= 0) u += c.J_a.leftCols<3>() * V_WB[c.body_a].v + c.J_a.rightCols<3>() * V_WB[c.body_a].w;
-    if (c.body_b >= 0) u += c.J_b.leftCols<3>() * V_WB[c.body_b].v + c.J_b.rightCols<3>() * V_WB[c.body_b].w;
+    if (c.a.body >= 0) u += c.a.J.leftCols<3>() * V_WB[c.a.body].v + c.a.J.rightCols<3>() * V_WB[c.a.body].w;
+    if (c.b.body >= 0) u += c.b.J.leftCols<3>() * V_WB[c.b.body].v + c.b.J.rightCols<3>() * V_WB[c.b.body].w;
     wanted_.segment(offset_[b], c.rows) = -u.head(c.rows);
   }
   return wanted_.cwiseAbs().maxCoeff();
@@ -139,8 +139,8 @@ void LoopClosure::solve(const Topology& topology, const Articulation& articulati
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Constraint& c = blocks_[b];
     Vec3 u = Vec3::Zero();
-    if (c.body_a >= 0) u += c.J_a * x[c.body_a];
-    if (c.body_b >= 0) u += c.J_b * x[c.body_b];
+    if (c.a.body >= 0) u += c.a.J * x[c.a.body];
+    if (c.b.body >= 0) u += c.b.J * x[c.b.body];
     wanted_.segment(offset_[b], c.rows) -= u.head(c.rows);
   }
   multiplier_.setZero();
@@ -157,8 +157,8 @@ void LoopClosure::solve(const Topology& topology, const Articulation& articulati
     const Constraint& c = blocks_[b];
     Vec3 l = Vec3::Zero();
     l.head(c.rows) = multiplier_.segment(offset_[b], c.rows);
-    if (c.body_a >= 0) force_[c.body_a] += c.J_a.transpose() * l;
-    if (c.body_b >= 0) force_[c.body_b] += c.J_b.transpose() * l;
+    if (c.a.body >= 0) force_[c.a.body] += c.a.J.transpose() * l;
+    if (c.b.body >= 0) force_[c.b.body] += c.b.J.transpose() * l;
   }
   for (const int tree : trees_) {
     const Topology::Tree& range = topology.trees[tree];

@@ -64,9 +64,9 @@ Vec3 solve_wheel(const Mat3& A, const Vec3& u, const Vec3& old, const Constraint
   // normal first, then the ground plane: rolling direction bounded by brake and engine, both by the friction circle
   const double normal = std::max(0.0, old[0] + (c.target - u[0] - c.softness * old[0]) / (A(0, 0) + c.softness));
   const Vec3 u1 = u + A.col(0) * (normal - old[0]);
-  const double most = c.friction * normal;
-  const double soft = c.grip_softness;
-  const auto brake_holds = [&](double x) { return std::abs(x - c.rolling_drive) <= c.rolling_bound; };
+  const double most = c.surface.friction * normal;
+  const double soft = c.wheel.grip_softness;
+  const auto brake_holds = [&](double x) { return std::abs(x - c.wheel.driving) <= c.wheel.braking; };
   // the tyre grips: the impulse that stops its contact, but for the slip angle
   const double a22 = A(2, 2) + soft, v = u1[2] + soft * old[2];
   const double det = A(1, 1) * a22 - A(1, 2) * A(2, 1);
@@ -77,7 +77,7 @@ Vec3 solve_wheel(const Mat3& A, const Vec3& u, const Vec3& old, const Constraint
   const Eigen::Vector2d block = bounded_tangents(A.bottomRightCorner<2, 2>(), u1.tail<2>(), old.tail<2>(), most);
   if (brake_holds(block[0])) return {normal, block[0], block[1]};
   // it turns: brake and engine have their share first, what grip is left holds sideways
-  const double x = c.rolling_drive + std::copysign(c.rolling_bound, grip[0] - c.rolling_drive);
+  const double x = c.wheel.driving + std::copysign(c.wheel.braking, grip[0] - c.wheel.driving);
   const double y = old[2] - (u1[2] + soft * old[2] + A(2, 1) * (x - old[1])) / (A(2, 2) + soft);
   if (length_of(x, y) <= most) return {normal, x, y};
   if (std::abs(x) < most) return {normal, x, std::copysign(std::sqrt(most * most - x * x), y)};
@@ -96,7 +96,7 @@ double natural_residual(const Constraint& c, const Vec3& u, const Mat3& A, doubl
     case ConstraintKind::wheel: {
       // the soft normal answers to the suspension, the road plane to the tyre: each by its own response
       const Vec3 change = solve_wheel(A, u, c.impulse, c) - c.impulse;
-      return std::max(std::abs(change[0]) * a, length_of(change[1] * A(1, 1), change[2] * (A(2, 2) + c.grip_softness)));
+      return std::max(std::abs(change[0]) * a, length_of(change[1] * A(1, 1), change[2] * (A(2, 2) + c.wheel.grip_softness)));
     }
     case ConstraintKind::contact:
       break;
@@ -107,8 +107,8 @@ double natural_residual(const Constraint& c, const Vec3& u, const Mat3& A, doubl
     return std::max(normal, (c.impulse.tail<2>() - shortened(c.impulse.tail<2>() - rho * u.tail<2>(), bound)).norm() / rho);
   }
   const double slip = length_of(u[1], u[2]);
-  const Vec3 moved = c.impulse - rho * Vec3(miss + c.friction * slip, u[1], u[2]);
-  return (c.impulse - project_to_cone(moved, c.friction)).norm() / rho;
+  const Vec3 moved = c.impulse - rho * Vec3(miss + c.surface.friction * slip, u[1], u[2]);
+  return (c.impulse - project_to_cone(moved, c.surface.friction)).norm() / rho;
 }
 
 Vec3 project_to_cone(const Vec3& impulse, double mu) {

@@ -87,8 +87,8 @@ void Response::note_rows(int tree, std::size_t first, std::size_t last) {
 
 /// The columns of a constraint: rows of its first tree, of its second, of both.
 Rows Response::write_columns(const Topology& topology, const Constraint& c, std::size_t row, std::size_t stride, double* G) {
-  const std::size_t of_first = meet(topology, c.body_a, c.body_b), of_both = met_.size();
-  int first = c.body_a >= 0 ? topology.tree_of_body[c.body_a] : -1, second = c.body_b >= 0 ? topology.tree_of_body[c.body_b] : -1;
+  const std::size_t of_first = meet(topology, c.a.body, c.b.body), of_both = met_.size();
+  int first = c.a.body >= 0 ? topology.tree_of_body[c.a.body] : -1, second = c.b.body >= 0 ? topology.tree_of_body[c.b.body] : -1;
   if (first < 0 || (second >= 0 && second < first)) std::swap(first, second);
   const Rows a = rows_[first], b = second >= 0 && second != first ? rows_[second] : a;
   const Rows reach{std::min(a.begin, b.begin), std::max(a.end, b.end)};
@@ -117,7 +117,7 @@ void Response::compute(const Topology& topology, const Articulation& articulatio
   for (std::size_t i = 0; i < members.size(); ++i) {
     const Constraint& c = all[members[i]];
     const auto row = static_cast<std::size_t>(offset[i]);
-    for (const int body : {c.body_a, c.body_b}) {
+    for (const int body : {c.a.body, c.b.body}) {
       if (body < 0) continue;
       mark(topology, body);
       note_rows(topology.tree_of_body[body], row, row + static_cast<std::size_t>(c.rows));
@@ -145,7 +145,7 @@ void Response::compute(const Topology& topology, const Articulation& articulatio
   for (std::size_t i = 0; i < members.size(); ++i) {
     const Constraint& c = all[members[i]];
     const auto row = static_cast<std::size_t>(offset[i]);
-    for (const auto& [body, J] : {std::pair{c.body_a, c.J_a.data()}, std::pair{c.body_b, c.J_b.data()}}) {
+    for (const auto& [body, J] : {std::pair{c.a.body, c.a.J.data()}, std::pair{c.b.body, c.b.J.data()}}) {
       if (body < 0) continue;
       follow(topology, articulation, body);
       carry_up(J, way_.data(), way_.size(), Y_.data() + row, stride);

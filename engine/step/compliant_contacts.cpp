@@ -18,7 +18,7 @@ constexpr double kStable = 2.0;          // [-] rate times step that the classic
 /// How the two bodies of a contact, were they free, answer an impulse along `d` at its point [1/kg].
 double free_response(const World& world, const Motion& state, const Constraint& c, const Vec3& d) {
   double response = 0;
-  for (const int b : {c.body_a, c.body_b}) {
+  for (const int b : {c.a.body, c.b.body}) {
     if (b < 0) continue;
     const Body& body = world.model.bodies[b];
     const Vec3 lever_B = state.X_WB[b].q.conjugate() * (c.point - state.X_WB[b].p).cross(d);
@@ -63,9 +63,10 @@ void CompliantContacts::look(const Motion& at, double within) {
 /// Slow and no deeper than `share` times under its weight at rest: it will not leave any more.
 bool CompliantContacts::slow(const Constraint& c, double separating, double share) const {
   double mass = std::numeric_limits<double>::infinity();
-  for (const int b : {c.body_a, c.body_b})
+  for (const int b : {c.a.body, c.b.body})
     if (b >= 0) mass = std::min(mass, carried_[b]);
-  return std::abs(separating) < share * rest_speed_ && -c.gap < 3 * share * mass * model_.settings.gravity.norm() / c.stiffness;
+  return std::abs(separating) < share * rest_speed_ &&
+         -c.gap < 3 * share * mass * model_.settings.gravity.norm() / c.spring.stiffness;
 }
 
 ContactPhase CompliantContacts::phase_now(const Constraint& c, double separating) const {
@@ -86,11 +87,11 @@ void CompliantContacts::begin(State& state, bool keep_phases) {
     // what a located event has decided stands; what is new or was not watched is told from where it is
     next_touches_.push_back({c.key, keep_phases && before ? before->phase : phase_now(c, speed), c.gap, speed});
     if (next_touches_.back().phase == ContactPhase::open) continue;
-    const double rate = std::sqrt(c.stiffness * free_response(world_, state, c, c.frame.col(0)));
+    const double rate = std::sqrt(c.spring.stiffness * free_response(world_, state, c, c.frame.col(0)));
     if (!(rate > fastest_spring_)) continue;
     fastest_spring_ = rate;
-    const bool first = c.body_b < 0 || (c.body_a >= 0 && carried_[c.body_a] <= carried_[c.body_b]);
-    sprung_body_ = first ? c.body_a : c.body_b;
+    const bool first = c.b.body < 0 || (c.a.body >= 0 && carried_[c.a.body] <= carried_[c.b.body]);
+    sprung_body_ = first ? c.a.body : c.b.body;
     sprung_by_ = c.effect;
   }
   std::sort(next_touches_.begin(), next_touches_.end(), [](const Touch& a, const Touch& b) { return a.key < b.key; });
@@ -103,19 +104,19 @@ Vec3 CompliantContacts::force_of(const Constraint& c, const Vec3& u, ContactPhas
   double smoothing = smoothing_;
   if (phase == ContactPhase::resting && !adaptive) {
     // the resting law is a damper of S depth / 2 smoothing: no harder than fixed steps can follow on a light part under load
-    const double load = c.stiffness * std::max(0.0, -c.gap) * (1 - c.hysteresis);
+    const double load = c.spring.stiffness * std::max(0.0, -c.gap) * (1 - c.spring.hysteresis);
     smoothing = std::max(smoothing_, 0.5 * load * free_response(world_, stage_, c, c.frame.col(0)) * h_ / kStable);
   }
-  const double normal = compliant_normal_force(c.stiffness, c.hysteresis, -c.gap, u[0], phase, smoothing);
+  const double normal = compliant_normal_force(c.spring.stiffness, c.spring.hysteresis, -c.gap, u[0], phase, smoothing);
   Vec3 f(normal, 0, 0);
   const double slip = std::sqrt(u[1] * u[1] + u[2] * u[2]);
-  if (c.friction > 0 && slip > 0 && normal > 0) {
+  if (c.surface.friction > 0 && slip > 0 && normal > 0) {
     const Vec3 along = (u[1] * c.frame.col(1) + u[2] * c.frame.col(2)) / slip;
     // the adaptive scheme follows friction down to a slip that its tolerance is blind to; fixed steps need a width they can follow
-    const double regular = adaptive
-                               ? kAdaptiveSlip
-                               : std::max(kSlipSpeed, c.friction * normal * free_response(world_, stage_, c, along) * h_ / kStable);
-    const double tangential = c.friction * normal * regularised_friction(slip, regular);
+    const double regular =
+        adaptive ? kAdaptiveSlip
+                 : std::max(kSlipSpeed, c.surface.friction * normal * free_response(world_, stage_, c, along) * h_ / kStable);
+    const double tangential = c.surface.friction * normal * regularised_friction(slip, regular);
     f[1] = -tangential * u[1] / slip;
     f[2] = -tangential * u[2] / slip;
   }
@@ -128,8 +129,8 @@ void CompliantContacts::exchange(const Constraint& c, const Vec3& f, double weig
   at->impulse_W += weight * h_ * (c.frame * f);
   at->pressed += weight * h_ * std::abs(f[0]);
   for (int r = 0; r < 3; ++r) {
-    if (c.body_a >= 0) at->on_a += weight * h_ * f[r] * c.J_a.row(r).transpose();
-    if (c.body_b >= 0) at->on_b += weight * h_ * f[r] * c.J_b.row(r).transpose();
+    if (c.a.body >= 0) at->on_a += weight * h_ * f[r] * c.a.J.row(r).transpose();
+    if (c.b.body >= 0) at->on_b += weight * h_ * f[r] * c.b.J.row(r).transpose();
   }
 }
 
@@ -144,7 +145,7 @@ void CompliantContacts::end_part(const std::vector<Twist>& V_start, const std::v
   double pressed = 0;
   for (const Exchange& e : exchanged_) pressed += e.pressed;
   for (Exchange& e : exchanged_) {
-    e.work += work_on(e.contact.body_a, e.on_a) + work_on(e.contact.body_b, e.on_b);
+    e.work += work_on(e.contact.a.body, e.on_a) + work_on(e.contact.b.body, e.on_b);
     if (pressed > 0) e.work += e.pressed / pressed * lifted;
     e.on_a.setZero();
     e.on_b.setZero();
@@ -165,8 +166,8 @@ void CompliantContacts::add_forces(const std::vector<Pose>& X, const std::vector
     if (phase == ContactPhase::open) continue;
     const Vec3 f = force_of(c, u, phase);
     for (int r = 0; r < 3; ++r) {
-      if (c.body_a >= 0) force[c.body_a] += c.J_a.row(r).transpose() * f[r];
-      if (c.body_b >= 0) force[c.body_b] += c.J_b.row(r).transpose() * f[r];
+      if (c.a.body >= 0) force[c.a.body] += c.a.J.row(r).transpose() * f[r];
+      if (c.b.body >= 0) force[c.b.body] += c.b.J.row(r).transpose() * f[r];
     }
     exchange(c, f, weight);
   }
@@ -260,7 +261,7 @@ void CompliantContacts::finish(const Motion& end, const Crossing* crossing, std:
     if (e.impulse_W.squaredNorm() == 0) continue;
     Constraint c = e.contact;
     c.impulse = c.frame.transpose() * e.impulse_W;
-    c.u_before = c.u_after = row_velocity(c, end.V_WB);
+    c.u.before = c.u.after = row_velocity(c, end.V_WB);
     state_->energy.dissipated[c.effect] -= e.work;
     done.push_back(c);
   }

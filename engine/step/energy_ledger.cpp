@@ -17,8 +17,8 @@ double work_of(const StepContext& s, std::size_t i) {
   const Constraint& c = s.constraints[i];
   // what it displaces the smooth forces' potential gains or loses: of compliant contacts in the stages, which have none, not theirs
   const bool stop = c.kind == ConstraintKind::limit && contacts_in_stages(s.world.model.settings);
-  const Vec3 pull = stop ? s.buffers.pull[i] : Vec3(c.u_smooth - c.u_before);
-  const Vec3 mean = 0.5 * (c.u_smooth + c.u_after) - s.buffers.weight[i] * pull;
+  const Vec3 pull = stop ? s.buffers.pull[i] : Vec3(c.u.smooth - c.u.before);
+  const Vec3 mean = 0.5 * (c.u.smooth + c.u.after) - s.buffers.weight[i] * pull;
   double work = 0;
   for (int r = 0; r < c.rows; ++r) work += c.impulse[r] * mean[r];
   return work;
@@ -65,8 +65,8 @@ void note_pull(StepContext& s) {
   for (std::size_t i = 0; i < s.constraints.size(); ++i) {
     const Constraint& c = s.constraints[i];
     for (int r = 0; r < c.rows; ++r) {
-      if (c.body_a >= 0) s.buffers.pull[i][r] += s.length * c.J_a.row(r).dot(s.buffers.result[c.body_a]);
-      if (c.body_b >= 0) s.buffers.pull[i][r] += s.length * c.J_b.row(r).dot(s.buffers.result[c.body_b]);
+      if (c.a.body >= 0) s.buffers.pull[i][r] += s.length * c.a.J.row(r).dot(s.buffers.result[c.a.body]);
+      if (c.b.body >= 0) s.buffers.pull[i][r] += s.length * c.b.J.row(r).dot(s.buffers.result[c.b.body]);
     }
   }
 }
@@ -104,7 +104,7 @@ void note_gains(StepContext& s) {
     for (std::size_t i = 0; s.impulses && i < s.constraints.size(); ++i)
       if (const Constraint& c = s.constraints[i]; c.effect == static_cast<int>(e) && work_of(s, i) > most) {
         most = work_of(s, i);
-        log.gain.body_a = c.record_a, log.gain.body_b = c.record_b;
+        log.gain.body_a = c.a.record, log.gain.body_b = c.b.record;
       }
   }
 }

@@ -23,26 +23,26 @@ bool is_formulated(const Constraint& c) {
 bool strikes(const Constraint& c, double h, double v_impact) {
   const double threshold = is_angular_limit(c) ? kLimitImpact : v_impact;
   const bool hard = c.kind == ConstraintKind::contact || c.kind == ConstraintKind::limit;
-  return hard && !is_compliant(c) && c.u_before[0] < -threshold && c.gap + h * std::min(c.u_before[0], c.u_free[0]) < 0;
+  return hard && !is_compliant(c) && c.u.before[0] < -threshold && c.gap + h * std::min(c.u.before[0], c.u.free[0]) < 0;
 }
 
 /// Rigid: no deeper than touching at the end of the step. An impulse that acts all through the step displaces by half of what an
 /// impact does.
 double formulate_rigid(Constraint& c, double h, bool impact) {
-  c.target = impact ? -std::max(0.0, c.gap) / h : -std::max(0.0, 2 * c.gap / h + c.u_before[0]);
+  c.target = impact ? -std::max(0.0, c.gap) / h : -std::max(0.0, 2 * c.gap / h + c.u.before[0]);
   return impact ? 1.0 : 0.5;
 }
 
 /// A stop that gives way: torque k depth + c rate, never a pull, damped critically for the two bodies were they free.
 double formulate_compliant_stop(Constraint& c, double h, bool whole) {
-  const double k = c.stiffness, inertia = 1 / c.free_response;
+  const double k = c.spring.stiffness, inertia = 1 / c.response.free;
   const double damping = c.gap < 0 ? 2 * std::sqrt(k * inertia) : 0;  // nothing brakes before it is reached
   const bool followed = !whole && h * h * k < 0.5 * inertia;
   // at the mean of both ends, L = -h (k (gap + h (u_before + u_after) / 4) + damping (u_before + u_after) / 2); a step too long
   // for that: at its end, which is stable however stiff, L = -h (k (gap + h u_after) + damping u_after)
   const double slope = followed ? h * k / 4 + damping / 2 : h * k + damping;
   c.softness = 1 / (h * slope);
-  c.target = -k * c.gap / slope - (followed ? c.u_before[0] : 0);
+  c.target = -k * c.gap / slope - (followed ? c.u.before[0] : 0);
   return followed ? 0.5 : 1;
 }
 
@@ -50,14 +50,14 @@ double formulate_compliant_stop(Constraint& c, double h, bool whole) {
 /// than the lightest thing they push: a bicycle's on its stop, a calf under a van. The impulse must then displace by as much. By
 /// half of it, what stops that thing (road, bonnet) would throw it back into the spring and charge it.
 double weight_of_wheel(const Constraint& c) {
-  const bool followed = c.free_response < c.softness;
+  const bool followed = c.response.free < c.softness;
   return followed ? 0.5 : 1;
 }
 
 /// A wheel that stands on somebody who yields. There all impulses of the island displace by their whole: a limb that the wheel
 /// displaces by its whole and the road by half sinks by half of what the wheel gives it in a step.
 bool stands_on_what_yields(const Constraint& c, const Model& model) {
-  return c.kind == ConstraintKind::wheel && c.body_b >= 0 && yields_between(model, c.record_b, -1);
+  return c.kind == ConstraintKind::wheel && c.b.body >= 0 && yields_between(model, c.b.record, -1);
 }
 
 /// Pressed in, or beyond its stop.
@@ -69,9 +69,9 @@ bool gives_way(const Constraint& c) {
 /// press on it from two sides.
 double coupling(const StepContext& s, const Constraint& one, const Constraint& other) {
   double sum = 0;
-  const auto row = [](const Constraint& c, int body) { return Vec6((body == c.body_a ? c.J_a : c.J_b).row(0).transpose()); };
-  for (const int b : {one.body_a, one.body_b}) {
-    if (b < 0 || (b != other.body_a && b != other.body_b)) continue;
+  const auto row = [](const Constraint& c, int body) { return Vec6((body == c.a.body ? c.a.J : c.b.J).row(0).transpose()); };
+  for (const int b : {one.a.body, one.b.body}) {
+    if (b < 0 || (b != other.a.body && b != other.b.body)) continue;
     const Body& body = s.world.model.bodies[b];
     const Vec6 J = row(one, b), K = row(other, b);
     sum += J.head<3>().dot(K.head<3>()) / body.mass;
@@ -95,7 +95,7 @@ bool squeezes_by_unequal_shares(const StepContext& s, const std::vector<int>& is
 /// How fast the resting law falls with the separating speed [N s/m], at a speed.
 double resting_slope(const Constraint& c, double at, double share, double smoothing) {
   const double tanh = math::tanh(at / smoothing);
-  return c.stiffness * -c.gap * (1 - share) * 0.5 * (1 - tanh * tanh) / smoothing;
+  return c.spring.stiffness * -c.gap * (1 - share) * 0.5 * (1 - tanh * tanh) / smoothing;
 }
 
 /// Between loading and unloading the spring's force falls with speed, steeply where things rest. Taken at the speed before the step
@@ -103,22 +103,24 @@ double resting_slope(const Constraint& c, double at, double share, double smooth
 /// `speed`. Under a wheel (`whole`) a limb that comes up faster than the law is wide would have neither force nor slope, and the
 /// wheel would press it in unhindered: there the slope is taken where the law still has one.
 double formulate_compliant_contact(Constraint& c, double h, double gravity, double speed, bool rests, bool whole) {
-  const double smoothing = std::max(1e-3, h * gravity), share = std::max(c.hysteresis, 1e-3);
+  const double smoothing = std::max(1e-3, h * gravity), share = std::max(c.spring.hysteresis, 1e-3);
   const bool pressed = c.gap < 0;
   const double at = whole && rests ? std::clamp(speed, -smoothing, smoothing) : speed;
-  const double S = pressed ? compliant_normal_force(c.stiffness, share, 1, at, ContactPhase::resting, smoothing) : c.stiffness;
+  const double S =
+      pressed ? compliant_normal_force(c.spring.stiffness, share, 1, at, ContactPhase::resting, smoothing) : c.spring.stiffness;
   const double damping = rests && pressed ? resting_slope(c, at, share, smoothing) : 0;
   // no more than stops what it stops within the step
-  const double closing = std::max(0.0, -c.u_before[0]);
-  const double extra =
-      c.room > 0 ? std::min(bottoming_force(S, -c.gap, closing, c.struck_mass, c.room), c.struck_mass * closing / h) : 0;
+  const double closing = std::max(0.0, -c.u.before[0]);
+  const double extra = c.spring.room > 0 ? std::min(bottoming_force(S, -c.gap, closing, c.spring.struck_mass, c.spring.room),
+                                                    c.spring.struck_mass * closing / h)
+                                         : 0;
   // the spring at the mean of its depths at both ends, which neither gains nor loses energy of itself:
   // L = -h (S (gap + h (u_before + u_after) / 4) + damping (u_after - u_before)); a step too long to follow it: at its end, which
   // is stable however stiff, L = -h (S (gap + h u_after) + damping (u_after - u_before))
-  const bool followed = !whole && h * h * S * c.free_response < 1;
+  const bool followed = !whole && h * h * S * c.response.free < 1;
   const double slope = (followed ? h * S / 4 : h * S) + damping;
   c.softness = 1 / (h * slope);
-  c.target = (damping * at - S * c.gap - (followed ? S * h * c.u_before[0] / 4 : 0)) / slope + h * extra * c.softness;
+  c.target = (damping * at - S * c.gap - (followed ? S * h * c.u.before[0] / 4 : 0)) / slope + h * extra * c.softness;
   return followed ? 0.5 : 1;
 }
 
@@ -136,7 +138,7 @@ void formulate_island(StepContext& s, const std::vector<int>& island, bool whole
     else if (c.kind == ConstraintKind::limit)
       weight = formulate_compliant_stop(c, h, whole);
     else
-      weight = formulate_compliant_contact(c, h, gravity, c.u_before[0], std::abs(c.u_before[0]) < 2 * v_impact, whole);
+      weight = formulate_compliant_contact(c, h, gravity, c.u.before[0], std::abs(c.u.before[0]) < 2 * v_impact, whole);
   }
 }
 
@@ -147,12 +149,12 @@ void drop_open_conditions(StepContext& s) {
   std::erase_if(s.constraints, [&](Constraint& c) {
     c.impulse.setZero();
     c.push = 0;
-    c.u_smooth = row_velocity(c, s.end.V_WB);
+    c.u.smooth = row_velocity(c, s.end.V_WB);
     if (is_formulated(c)) return false;
     // an impact that the cut step ends at: a row would brake the approach
-    if (s.placing && c.gap > 0 && c.u_before[0] < -v_impact && is_instant(s.world, c)) return true;
+    if (s.placing && c.gap > 0 && c.u.before[0] < -v_impact && is_instant(s.world, c)) return true;
     const double spare = is_angular_limit(c) ? 0.02 + 5 * h : 1e-3 + h;  // [rad], [m]: what other impulses may add
-    return c.gap + h * std::min(c.u_before[0], c.u_smooth[0]) > spare;
+    return c.gap + h * std::min(c.u.before[0], c.u.smooth[0]) > spare;
   });
   // the smooth motion keeps closed loops; their rows are there for what other impulses ask of them
   const auto of_loop = [](const Constraint& c) { return c.kind == ConstraintKind::bilateral; };
@@ -162,12 +164,13 @@ void drop_open_conditions(StepContext& s) {
 void take_mean_friction(StepContext& s) {
   const Model& model = s.world.model;
   for (Constraint& c : s.constraints) {
-    if (!is_contact(c) || c.record_a < 0 || c.rolls) continue;
-    const Twist& V = s.state.V_WB[c.record_a];
-    const StepWay way{c.point, V.v + V.w.cross(c.point - s.state.X_WB[c.record_a].p), s.state.time, s.length};
-    const Body& body = model.bodies[c.record_a];
-    c.friction = c.record_b < 0 ? mean_friction(body, model.ground, way) : mean_friction(body, model.bodies[c.record_b], way);
-    c.friction += c.ploughing;
+    if (!is_contact(c) || c.a.record < 0 || c.surface.rolls) continue;
+    const Twist& V = s.state.V_WB[c.a.record];
+    const StepWay way{c.point, V.v + V.w.cross(c.point - s.state.X_WB[c.a.record].p), s.state.time, s.length};
+    const Body& body = model.bodies[c.a.record];
+    c.surface.friction =
+        c.b.record < 0 ? mean_friction(body, model.ground, way) : mean_friction(body, model.bodies[c.b.record], way);
+    c.surface.friction += c.surface.ploughing;
   }
 }
 
@@ -189,7 +192,7 @@ namespace {
 
 /// A compliant contact that gives back a part of its energy and was slow, or closed.
 bool may_turn(const Constraint& c, double slow) {
-  return is_contact(c) && is_compliant(c) && c.hysteresis < 1 && c.u_before[0] < slow;
+  return is_contact(c) && is_compliant(c) && c.spring.hysteresis < 1 && c.u.before[0] < slow;
 }
 
 }  // namespace
@@ -202,9 +205,9 @@ bool wake_struck_springs(StepContext& s) {
   for (const int k : islands.roots)
     for (const int i : islands.members[k]) {
       Constraint& c = s.constraints[i];
-      if (!may_turn(c, slow) || c.gap >= 0 || c.u_before[0] <= -slow || std::abs(c.u_after[0]) <= slow) continue;
+      if (!may_turn(c, slow) || c.gap >= 0 || c.u.before[0] <= -slow || std::abs(c.u.after[0]) <= slow) continue;
       const bool whole = islands.by_whole[k];
-      formulate_compliant_contact(c, s.length, gravity, whole ? c.u_after[0] : c.u_before[0], false, whole);
+      formulate_compliant_contact(c, s.length, gravity, whole ? c.u.after[0] : c.u.before[0], false, whole);
       any = true;
     }
   return any;
@@ -214,9 +217,9 @@ bool hold_spent_springs(StepContext& s) {
   const double slow = 2 * impact_speed(s);
   bool any = false;
   for (Constraint& c : s.constraints) {
-    if (!may_turn(c, slow) || c.u_after[0] <= slow) continue;
+    if (!may_turn(c, slow) || c.u.after[0] <= slow) continue;
     c.softness = 0;
-    c.target = c.hysteresis * c.u_after[0];
+    c.target = c.spring.hysteresis * c.u.after[0];
     any = true;
   }
   return any;

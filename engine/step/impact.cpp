@@ -30,12 +30,12 @@ bool choose_members(StepContext& s, const std::vector<int>& island) {
   for (const int i : island) {
     Constraint& c = s.constraints[i];
     if (c.kind == ConstraintKind::wheel || c.gap > touching) continue;  // closed loops have no gap: they take part
-    const bool closing = c.u_before[0] < -v_impact, instant = is_instant(s.world, c);
+    const bool closing = c.u.before[0] < -v_impact, instant = is_instant(s.world, c);
     if (placing && closing && instant && c.gap > kTogether) continue;
     s.buffers.members.push_back(i);
     any = any || (closing && instant);
-    c.target = closing ? -c.restitution * c.u_before[0] : 0;
-    c.u_free = c.u_smooth = c.u_before;
+    c.target = closing ? -c.surface.restitution * c.u.before[0] : 0;
+    c.u.free = c.u.smooth = c.u.before;
     c.impulse.setZero();
   }
   return any;
@@ -53,7 +53,7 @@ void take_out_gain(StepContext& s, SolveReport& report) {
   double energy_before = 0;
   for (const int i : members)
     for (int r = 0; r < s.constraints[i].rows; ++r)
-      energy_before += std::abs(s.constraints[i].impulse[r] * s.constraints[i].u_free[r]);
+      energy_before += std::abs(s.constraints[i].impulse[r] * s.constraints[i].u.free[r]);
   if (!(energy_change > 1e-12 * energy_before)) return;
   std::vector<double>& targets = s.buffers.targets;
   targets.clear();
@@ -75,8 +75,8 @@ void apply_at_once(StepContext& s) {
   for (const int i : s.buffers.members) {
     const Constraint& c = s.constraints[i];
     for (int r = 0; r < c.rows; ++r) {
-      if (c.body_a >= 0) force[c.body_a] += c.J_a.row(r).transpose() * c.impulse[r];
-      if (c.body_b >= 0) force[c.body_b] += c.J_b.row(r).transpose() * c.impulse[r];
+      if (c.a.body >= 0) force[c.a.body] += c.a.J.row(r).transpose() * c.impulse[r];
+      if (c.b.body >= 0) force[c.b.body] += c.b.J.row(r).transpose() * c.impulse[r];
     }
   }
   for (const int tree : world.active_trees) {
@@ -101,7 +101,7 @@ void exchange(StepContext& s) {
   apply_at_once(s);
   for (const int i : s.buffers.members) {
     const Constraint& c = s.constraints[i];
-    s.state.energy.dissipated[c.effect] -= c.impulse.dot(0.5 * (c.u_before + c.u_after));
+    s.state.energy.dissipated[c.effect] -= c.impulse.dot(0.5 * (c.u.before + c.u.after));
   }
 }
 
@@ -109,13 +109,13 @@ void exchange(StepContext& s) {
 
 bool is_instant(const World& world, const Constraint& c) {
   if (is_compliant(c)) return false;
-  if (c.kind == ConstraintKind::limit) return world.model.bodies[c.record_a].person < 0;
+  if (c.kind == ConstraintKind::limit) return world.model.bodies[c.a.record].person < 0;
   if (!is_contact(c)) return false;
-  return c.restitution > 0 || is_between_free(world, c);
+  return c.surface.restitution > 0 || is_between_free(world, c);
 }
 
 bool is_between_free(const World& world, const Constraint& c) {
-  return is_free(world, c.body_a) && is_free(world, c.body_b);
+  return is_free(world, c.a.body) && is_free(world, c.b.body);
 }
 
 bool places_impacts(const World& world, const State& state) {
@@ -127,8 +127,8 @@ NextImpact next_impact(const StepContext& s) {
   NextImpact next{s.length, 0};
   const double v_impact = impact_speed(s);
   for (const Constraint& c : s.constraints) {
-    if (c.gap <= kPlaced || c.u_before[0] > -v_impact || !is_instant(s.world, c)) continue;
-    if (const double time = c.gap / -c.u_before[0]; time < next.time) next = {time, c.key};
+    if (c.gap <= kPlaced || c.u.before[0] > -v_impact || !is_instant(s.world, c)) continue;
+    if (const double time = c.gap / -c.u.before[0]; time < next.time) next = {time, c.key};
   }
   return next;
 }
@@ -137,7 +137,7 @@ bool exchange_impacts(StepContext& s, const OnImpulses& on_impulses) {
   const double v_impact = impact_speed(s);
   const double nearest = places_impacts(s.world, s.state) ? kPlaced : s.world.model.settings.touch_distance;
   const bool any = std::any_of(s.constraints.begin(), s.constraints.end(), [&](const Constraint& c) {
-    return c.gap <= nearest && c.u_before[0] < -v_impact && is_instant(s.world, c);
+    return c.gap <= nearest && c.u.before[0] < -v_impact && is_instant(s.world, c);
   });
   if (!any) return false;
   const Meter::Span span(s.world.meter, Phase::impulses);

@@ -50,7 +50,7 @@ void build_islands(StepContext& s) {
   const auto tree_of = [&](int body) { return body < 0 ? -1 : s.world.topology.tree_of_body[body]; };
   islands.ends.clear();
   for (const Constraint& c : s.constraints) {
-    const int a = tree_of(c.body_a), b = tree_of(c.body_b);
+    const int a = tree_of(c.a.body), b = tree_of(c.b.body);
     islands.ends.emplace_back(a < 0 ? b : a, b < 0 ? a : b);
   }
   for (const auto& [a, b] : islands.ends) {

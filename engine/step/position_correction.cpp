@@ -17,7 +17,7 @@ constexpr double kLimitRecoverySpeed = 2;  // [rad/s]
 double wanted(const Constraint& c, double h, double weight) {
   const bool limit = is_angular_limit(c);
   const double slop = limit ? kLimitSlop : kSlop;
-  const double travel = h * (0.5 * (c.u_before[0] + c.u_smooth[0]) + weight * (c.u_after[0] - c.u_smooth[0]));
+  const double travel = h * (0.5 * (c.u.before[0] + c.u.smooth[0]) + weight * (c.u.after[0] - c.u.smooth[0]));
   const double end = c.gap + travel;
   double floor = -slop;
   if (c.gap < -slop) {

@@ -23,7 +23,7 @@ void warm_start(Constraint& c, const std::vector<WarmStart>& warm) {
   if (found == warm.end() || found->key != c.key) return;
   if (c.rows == 3) {
     c.impulse = c.frame.transpose() * found->impulse_W;
-    if (is_contact(c)) c.impulse = project_to_cone(c.impulse, c.friction);
+    if (is_contact(c)) c.impulse = project_to_cone(c.impulse, c.surface.friction);
   } else {
     c.impulse[0] = found->impulse_W[0];
   }
@@ -73,8 +73,8 @@ void gather_impulses(StepContext& s) {
     const Constraint& c = s.constraints[i];
     const auto act = [&c](std::vector<Vec6>& on, int row, double amount) {
       if (amount == 0) return;
-      if (c.body_a >= 0) on[c.body_a] += c.J_a.row(row).transpose() * amount;
-      if (c.body_b >= 0) on[c.body_b] += c.J_b.row(row).transpose() * amount;
+      if (c.a.body >= 0) on[c.a.body] += c.a.J.row(row).transpose() * amount;
+      if (c.b.body >= 0) on[c.b.body] += c.b.J.row(row).transpose() * amount;
     };
     const double share = s.buffers.weight[i] * s.length;
     for (int r = 0; r < c.rows; ++r) {
@@ -128,7 +128,7 @@ void exchange_over_step(StepContext& s) {
       factor_for_impulses(s, &s.buffers.dampers);
       apply_resistance(s);
     }
-    for (Constraint& c : s.constraints) c.u_free = row_velocity(c, s.end.V_WB);
+    for (Constraint& c : s.constraints) c.u.free = row_velocity(c, s.end.V_WB);
     if (pass == 0) build_islands(s);
     formulate(s);
     solve_islands(s, pass > 0 ? Solve::other_joints : Solve::first);

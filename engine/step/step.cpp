@@ -36,7 +36,7 @@ double Stepper::advance(State& state, double most) {
   std::optional<StepContext> step;
   step.emplace(world_, state, buffers_, control.length());
   if (exchange_impacts(*step, on_impulses_))
-    for (Constraint& c : step->constraints) c.u_before = row_velocity(c, state.V_WB);
+    for (Constraint& c : step->constraints) c.u.before = row_velocity(c, state.V_WB);
 
   Verdict verdict = attempt(state, control, step);
   while (verdict.kind == Verdict::Kind::again || verdict.kind == Verdict::Kind::place) {
@@ -62,7 +62,7 @@ void Stepper::find_contacts_at_start(State& state) {
   find_contacts(world_, state, state, contacts.list);
   if (state.time > 0) return;
   for (const Constraint& c : contacts.list)
-    if (is_contact(c) && !is_compliant(c)) warn_of_overlap(world_, c.record_a, c.record_b, c.gap);
+    if (is_contact(c) && !is_compliant(c)) warn_of_overlap(world_, c.a.record, c.b.record, c.gap);
 }
 
 Verdict Stepper::attempt(State& state, StepControl& control, std::optional<StepContext>& step) {

@@ -39,7 +39,7 @@ StepContext::StepContext(World& w, State& s, StepBuffers& b, double h)
     world.effects[e]->find(*this);
   }
   constraints.insert(constraints.end(), contact, state.contacts.list.end());
-  for (Constraint& c : constraints) c.u_before = row_velocity(c, state.V_WB);
+  for (Constraint& c : constraints) c.u.before = row_velocity(c, state.V_WB);
 }
 
 Vec3 row_velocity(const Constraint& c, const std::vector<Twist>& V_WB) {
@@ -50,8 +50,8 @@ Vec3 row_velocity(const Constraint& c, const std::vector<Twist>& V_WB) {
     const Twist& V = V_WB[body];
     for (int r = 0; r < c.rows; ++r) u[r] += J.row(r).head<3>().dot(V.v) + J.row(r).tail<3>().dot(V.w);
   };
-  add(c.body_a, c.J_a);
-  add(c.body_b, c.J_b);
+  add(c.a.body, c.a.J);
+  add(c.b.body, c.b.J);
   return u;
 }
 

@@ -177,7 +177,7 @@ TEST(Cone, NothingPullsEvenWithoutFriction) {
     EXPECT_EQ(project_to_cone({-1, 0, 0}, mu), Vec3(0, 0, 0)) << mu;
     EXPECT_EQ(project_to_cone({2, 0, 0}, mu), Vec3(2, 0, 0)) << mu;
     Constraint open;  // parts at 1 m/s, and may close at 3
-    open.friction = mu;
+    open.surface.friction = mu;
     open.rows = 3;
     open.target = -3;
     EXPECT_EQ(natural_residual(open, {1, 0, 0}, Mat3::Identity(), -1), 0) << mu;

@@ -86,9 +86,9 @@ TEST(EnergyWatch, NamesTheEffectAndBodiesOfAGiftInAStep) {
   // the ground throws `low` up: an impulse along what it moves by
   Constraint c;
   c.effect = ground;
-  c.body_a = c.record_a = 1;
+  c.a.body = c.a.record = 1;
   c.impulse = {4, 0, 0};
-  c.u_after = {2, 0, 0};
+  c.u.after = {2, 0, 0};
   step.constraints = {c};
   step.impulses = true;
   buffers.weight = {0.5};

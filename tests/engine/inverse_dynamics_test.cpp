@@ -254,11 +254,11 @@ TEST_P(JointKinds, RowsAnswerEachOtherAsTheBodiesMoveUnderThem) {
       for (int b = -1; b < a; ++b) {
         Constraint c;
         c.rows = (a + b) % 3 == 0 ? 1 : 3;
-        c.body_a = a;
-        c.body_b = b;
+        c.a.body = a;
+        c.b.body = b;
         for (int r = 0; r < c.rows; ++r) {
-          c.J_a.row(r) << random.vector(1).transpose(), random.vector(1).transpose();
-          if (b >= 0) c.J_b.row(r) << random.vector(1).transpose(), random.vector(1).transpose();
+          c.a.J.row(r) << random.vector(1).transpose(), random.vector(1).transpose();
+          if (b >= 0) c.b.J.row(r) << random.vector(1).transpose(), random.vector(1).transpose();
         }
         if (all.size() % 7 == 3) {
           all.push_back(c);  // one that is not asked for
@@ -288,14 +288,14 @@ TEST_P(JointKinds, RowsAnswerEachOtherAsTheBodiesMoveUnderThem) {
       for (int q = 0; q < all[members[j]].rows; ++q) {
         const Constraint& push = all[members[j]];
         std::vector<Vec6> force(e.X.size(), Vec6::Zero()), a(e.X.size(), Vec6::Zero());
-        force[push.body_a] += push.J_a.row(q).transpose();
-        if (push.body_b >= 0) force[push.body_b] += push.J_b.row(q).transpose();
+        force[push.a.body] += push.a.J.row(q).transpose();
+        if (push.b.body >= 0) force[push.b.body] += push.b.J.row(q).transpose();
         for (const int tree : {0, 1}) articulation.solve(topology, tree, force, a, Articulation::Bias::zero);
         for (std::size_t i = 0; i < members.size(); ++i)
           for (int r = 0; r < all[members[i]].rows; ++r) {
             const Constraint& c = all[members[i]];
-            double expected = c.J_a.row(r).dot(a[c.body_a]);
-            if (c.body_b >= 0) expected += c.J_b.row(r).dot(a[c.body_b]);
+            double expected = c.a.J.row(r).dot(a[c.a.body]);
+            if (c.b.body >= 0) expected += c.b.J.row(r).dot(a[c.b.body]);
             const double here = found(offset[i] + r, offset[j] + q);
             const double size_of_both = std::sqrt(found(offset[i] + r, offset[i] + r) * found(offset[j] + q, offset[j] + q));
             largest = std::max(largest, std::abs(here - expected) / size_of_both);
