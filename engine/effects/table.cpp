@@ -49,9 +49,11 @@ void prove_needless(const Model& model, const EffectKind& effect, const Reach& r
   line.not_before = effect.not_before(model, reach);
   if (line.forced || line.not_before < model.settings.duration) return;
   line.active = line.called_for = false;
-  const std::string why = reach.who.empty() ? "nothing can touch anything" : "nothing can touch before, nearest are " + reach.who;
+  const std::string what = reach.all_bodies_wait ? "nothing can touch who waits" : "nothing can touch";
+  const std::string why = reach.who.empty() ? what : what + " before, nearest are " + reach.who;
   line.reason = "cannot matter within " + number(model.settings.duration) + " s (" + why + "); " + line.reason;
-  line.left_out = "nothing: the bound on every speed is that of energy and drive";
+  line.left_out = reach.all_bodies_wait ? "what zero_condition takes to be in balance"
+                                        : "nothing: the bound on every speed is that of energy and drive";
 }
 
 }  // namespace

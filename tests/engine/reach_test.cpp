@@ -169,6 +169,27 @@ TEST(Reach, TwoWhoWaitWithinTheSpareMayTouchAtOnce) {
   EXPECT_EQ(reach_of(model).first_touch, 0);
 }
 
+TEST(Reach, GravityAndStillAirAreNeedlessWhileAllWait) {
+  Model model = waiting_pair({0, 0.01, 0}, 0.5);
+  model.bodies[0].fixed = true;
+  model.bodies[0].V_WB.v.setZero();
+  model.settings.gravity.z() = -kGravity;
+  model.ground.plane = true;
+  for (const char* effect : {"gravity", "air_drag", "joint_limits", "ground_contact"}) EXPECT_FALSE(is_on(model, effect)) << effect;
+  EXPECT_EQ(hash(simulate(with_all_forced_on(model))), hash(simulate(model)));
+  // the push of the wind on who waits is left out, which the line of the effect must go on to say
+  Model windy = model;
+  windy.inputs["air.density"] = {1.2, 0, 0};
+  windy.inputs["air.wind"] = {30, 0, 0};
+  windy.inputs["air.drag"] = {1.2, 0, 0};
+  EXPECT_TRUE(is_on(windy, "air_drag"));
+  // a ball that falls somewhere is reason enough for both
+  Model falling = waiting_pair({0, 0.01, 0}, 0.5);
+  falling.settings.gravity.z() = -kGravity;
+  EXPECT_TRUE(is_on(falling, "gravity"));
+  EXPECT_TRUE(is_on(falling, "air_drag"));
+}
+
 TEST(Reach, ARunTellsWhenAnEffectActed) {
   // dropped from 1 m with e = 0.5: the first touch after sqrt(2 h/g) = 0.452 s
   Model model = in_space({ball({0, 0, 1.1}, {0, 0, 0})}, 0.5);
