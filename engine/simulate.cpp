@@ -6,7 +6,7 @@
 #include "engine/divergence.h"
 #include "engine/effects/effect.h"
 #include "engine/local_frame.h"
-#include "engine/recorder.h"
+#include "engine/record/recorder.h"
 #include "engine/start.h"
 #include "engine/step/step.h"
 #include "engine/step_watch.h"
@@ -69,7 +69,7 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
     recorder.sample(world, state, recording);
     if ((k + 1) % per_snapshot == 0 || k + 1 == steps) {
       recorder.snapshot(world, state, recording);
-      if (model.settings.stop_at_rest && recorder.all_at_rest(world, state)) break;
+      if (model.settings.stop_at_rest && recorder.all_at_rest(state)) break;
     }
     if (options.progress && (k + 1) % kAskEvery == 0 && !options.progress(state.time)) break;
   }

@@ -54,6 +54,13 @@ std::vector<int> trunk_of(const Model& model, int p) {
   return trunk;
 }
 
+std::vector<char> trunks_of(const Model& model) {
+  std::vector<char> of_trunk(model.bodies.size(), 0);
+  for (int p = 0; p < static_cast<int>(model.persons.size()); ++p)
+    for (const int b : trunk_of(model, p)) of_trunk[b] = 1;
+  return of_trunk;
+}
+
 std::vector<int> joined_for_good(const Model& model, std::vector<int> joined) {
   for (std::size_t i = 0; i < joined.size(); ++i)
     for (const Joint& j : model.joints) {

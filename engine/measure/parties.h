@@ -28,6 +28,9 @@ Vec3 velocity_of(const Model&, const Party&, const Snapshot&);
 /// Hips, head and the parts that join them; of a person without a head hips and torso.
 std::vector<int> trunk_of(const Model&, int person);
 
+/// Per body: is it of a person's trunk?
+std::vector<char> trunks_of(const Model&);
+
 /// The bodies given and all that are joined to them for good, as a trailer to what tows it.
 std::vector<int> joined_for_good(const Model&, std::vector<int> bodies);
 

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "engine/recorder.h"
+#include "engine/record/recorder.h"
 #include "engine/start.h"
 #include "engine/step/step.h"
 #include "scenes/scene.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/effects/effect.h"
-#include "engine/energy_watch.h"
+#include "engine/record/energy_watch.h"
 #include "engine/start.h"
 #include "engine/step/energy_ledger.h"
 #include "engine/step_watch.h"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/measure/metrics.h"
-#include "engine/recorder.h"
+#include "engine/record/rest_watch.h"
 #include "engine/simulate.h"
 #include "scenes/scene.h"
 

@@ -1,4 +1,4 @@
-#include "engine/energy_watch.h"
+#include "engine/record/energy_watch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,147 @@
+#include "engine/record/rest_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/measure/parties.h"
+
+namespace engine {
+namespace {
+
+constexpr double kStillSpeed = 0.05;  // [m/s]
+constexpr double kStillTurn = 0.3;    // [rad/s]
+constexpr double kStillTime = 0.25;   // [s] that long below both: at rest
+
+/// How fast a body of that motion is, by what counts as still.
+double pace_of(const Twist& V) {
+  return std::max(V.v.norm() / kStillSpeed, V.w.norm() / kStillTurn);
+}
+
+/// Of the fastest body of a tree, whatever it does.
+double motion_of(const World& world, const State& state, std::size_t tree) {
+  double motion = 0;
+  for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l)
+    motion = std::max(motion, pace_of(state.V_WB[world.topology.links[l].body]));
+  return motion;
+}
+
+/// Whether a tree stands from `time` on. What rocks on its edges is slow there, and goes on: it has no halt.
+bool halts(const World& world, const Recording& recording, std::size_t tree, double time) {
+  constexpr double kStands = 5e-3;  // [m/s] and [rad/s]
+  const auto& all = recording.snapshots;
+  if (time > all.back().time) return false;
+  for (auto s = all.rbegin(); s != all.rend() && s->time > time; ++s)
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+      const int b = world.topology.links[l].body;
+      const BodyState& body = s->bodies[static_cast<std::size_t>(b)];
+      const Twist V = travel_of(world.model, b, body.X_WB, body.V_WB);
+      if (V.v.norm() > kStands || V.w.norm() > kStands) return false;
+    }
+  return true;
+}
+
+}  // namespace
+
+Twist travel_of(const Model& model, int b, const Pose& X, const Twist& V) {
+  constexpr double kUpright = 0.7;                // [-] cosine: leaning by 45 deg it is about to fall on its side
+  constexpr double kRocks = 0.5, kBounces = 0.3;  // [rad/s], [m/s] more is no rocking on springs
+  const int v = model.bodies[b].vehicle;
+  if (v < 0 || model.vehicles[v].body != b || model.vehicles[v].wheels.empty()) return V;
+  const Vec3 up = X.q * Vec3::UnitZ();
+  const double yaw = up.dot(V.w);
+  if (up.z() < kUpright || (V.w - yaw * up).norm() > kRocks || std::abs(up.dot(V.v)) > kBounces) return V;
+  double height = 0;  // of the road, from the centre
+  for (const Wheel& wheel : model.vehicles[v].wheels) height += wheel.hub_B.z() - wheel.radius;
+  const Vec3 at_road = V.v + height / static_cast<double>(model.vehicles[v].wheels.size()) * V.w.cross(up);
+  return {yaw * up, at_road - up.dot(at_road) * up};
+}
+
+RestWatch::RestWatch(const World& world)
+    : of_trunk_(trunks_of(world.model)),
+      has_trunk_(world.topology.trees.size(), 0),
+      still_since_(world.topology.trees.size(), -1),
+      rest_since_(world.topology.trees.size(), -1),
+      halted_(world.topology.trees.size(), 0),
+      motion_(world.topology.trees.size(), 0),
+      step_motion_(world.topology.trees.size(), 0) {
+  for (int t = 0; t < static_cast<int>(world.topology.trees.size()); ++t) {
+    const auto& tree = world.topology.trees[t];
+    if (tree.end - tree.begin == 1) alone_.push_back(t);
+    for (int l = tree.begin; l < tree.end; ++l) has_trunk_[t] = has_trunk_[t] || of_trunk_[world.topology.links[l].body];
+  }
+}
+
+/// Of the fastest body that tells when the tree rests, by its way. A person rests with its trunk: a foot may go on sinking.
+double RestWatch::travel_of_tree(const World& world, const State& state, std::size_t tree) const {
+  double motion = 0;
+  for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+    const int b = world.topology.links[l].body;
+    if (has_trunk_[tree] && !of_trunk_[b]) continue;
+    motion = std::max(motion, pace_of(travel_of(world.model, b, state.X_WB[b], state.V_WB[b])));
+  }
+  return motion;
+}
+
+/// A body by itself slides to rest at once, and friction may change on its last steps: the step after which it would stop within
+/// two more tells when, but not the one in which it stops. Limbs settle for long: of them the recorded interval tells.
+void RestWatch::watch_step(const World& world, const State& state) {
+  constexpr double kHum = 3e-4;  // [-] what the solver may leave of a speed that is none
+  const double step = state.time - watched_;
+  watched_ = state.time;
+  for (const int tree : alone_) {
+    const auto t = static_cast<std::size_t>(tree);
+    const double motion = travel_of_tree(world, state, t), slowed = step_motion_[t] - motion;
+    step_motion_[t] = motion;
+    if (motion < 1 && motion > std::max(0.5 * slowed, kHum) && motion < 2 * slowed)
+      halted_[t] = state.time + motion / slowed * step;
+  }
+}
+
+void RestWatch::list_stirring(const World& world) {
+  listed_ = world.still.changes;
+  stirs_.assign(world.topology.trees.size(), 0);
+  for (const int b : world.still.others)
+    if (const int tree = world.topology.tree_of_body[b]; tree >= 0) stirs_[tree] = 1;
+}
+
+void RestWatch::watch_snapshot(const World& world, const State& state, double since) {
+  if (listed_ != world.still.changes) list_stirring(world);
+  for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
+    if (!stirs_[t] && rest_since_[t] >= 0 && still_since_[t] >= 0 && motion_[t] == 0) continue;  // nothing new
+    const double any = motion_of(world, state, t);
+    if (!(any < 1))
+      still_since_[t] = -1;
+    else if (still_since_[t] < 0)
+      still_since_[t] = state.time;
+    const double motion = travel_of_tree(world, state, t);
+    if (!(motion < 1)) {
+      rest_since_[t] = -1;
+    } else if (rest_since_[t] < 0) {
+      rest_since_[t] = state.time;
+      // it slows down as it has since the instant before: that is when it stops, and not at the first instant it is slow
+      const double slowing = since > 0 && !has_trunk_[t] ? (motion_[t] - motion) / since : 0;
+      const bool seen = since > 0 && halted_[t] > state.time - since;   // step by step
+      const double wait = slowing > 0 ? motion / slowing : kStillTime;  // long where it rocks or creeps: not by this slowing
+      if (!seen) halted_[t] = state.time + (wait < kStillTime ? wait : 0);
+    }
+    motion_[t] = motion;
+  }
+}
+
+bool RestWatch::all_at_rest(const State& state) const {
+  return !still_since_.empty() && std::all_of(still_since_.begin(), still_since_.end(),
+                                              [&](double since) { return !(since < 0 || state.time - since < kStillTime); });
+}
+
+void RestWatch::tell(const World& world, const State& state, const Recording& recording, std::vector<Event>& events) const {
+  for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
+    if (rest_since_[t] < 0 || state.time - rest_since_[t] < 0.9 * kStillTime) continue;
+    const int root = world.topology.links[world.topology.trees[t].end - 1].body;
+    const int person = world.model.bodies[root].person;
+    if (person >= 0 && !state.released[person]) continue;
+    const double time = halts(world, recording, t, halted_[t]) ? halted_[t] : rest_since_[t];
+    events.push_back({time, "rest", root, -1, recording.at(time).bodies[root].X_WB.p, 0});
+  }
+}
+
+}  // namespace engine
