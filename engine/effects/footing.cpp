@@ -1,10 +1,14 @@
 #include "engine/effects/footing.h"
 
+#include <algorithm>
+
 #include "engine/contact/round_tyre.h"
 #include "engine/world.h"
 
 namespace engine {
 namespace {
+
+constexpr double kSteepest = 0.5 * kWheelFacing;  // [-] no step turns a wheel that stands to what is steeper
 
 /// A plane through `on`, met by a tyre round across as it is along (a torus): leaning, it rolls on its shoulder and ends on its
 /// flank.
@@ -18,7 +22,7 @@ Footing on_plane(const Wheel& spec, const Pose& X, const Vec3& on, const Vec3& n
   Footing footing;
   footing.normal = normal;
   footing.near = facing <= kWheelFacing;
-  if (footing.near) return footing;
+  if (facing < kSteepest) return footing;
   footing.compression = (height - normal.dot(hub - on)) / facing;
   footing.point = hub + footing.compression * up - crown * normal;
   if (lean > 0) footing.point -= (spec.radius - crown) / lean * across;
@@ -30,15 +34,16 @@ Footing on_plane(const Wheel& spec, const Pose& X, const Vec3& on, const Vec3& n
 Footing footing_of(const Ground& ground, const Wheel& spec, const Pose& X, double droop) {
   const Vec3 hub = X * spec.hub_B, up = X.q * Vec3::UnitZ();
   Footing best;
-  best.compression = -droop;
+  best.compression = best.leaving = -droop;
   auto look_at = [&](const Vec3& on, const Vec3& normal) {
     const Footing f = on_plane(spec, X, on, normal);
     best.near = best.near || (f.near && normal.dot(hub - on) < spec.radius + droop);
+    if (f.near) best.leaving = std::max(best.leaving, f.compression);
     if (f.near || f.compression <= best.compression) return;
-    const bool near = best.near;
-    best = f;
     best.found = true;
-    best.near = near;
+    best.compression = f.compression;
+    best.point = f.point;
+    best.normal = f.normal;
   };
   if (ground.plane) look_at(Vec3(hub.x(), hub.y(), ground.height), Vec3::UnitZ());
   if (ground.terrain) {

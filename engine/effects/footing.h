@@ -12,6 +12,7 @@ struct Footing {
   bool found = false;      // the wheel reaches it
   bool near = false;       // it is there, but too steep to the vehicle to roll on: the car lies on its side
   double compression = 0;  // [m] of the suspension from static ride, at which the tyre just touches
+  double leaving = 0;      // [m] the same of what has just become too steep
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();
 };

@@ -138,23 +138,28 @@ double engine_share(const Constraint& c) {
 
 }  // namespace
 
-/// A strut whose wheel has come from its flank down onto its tread. Nothing moved along it there, so it goes on from where it
-/// stood: what the road now asks of it beyond that is slack, which only lessens.
+/// A strut whose wheel goes from its tread over onto its flank, and comes back. The step in which it leaves the tread moves the
+/// strut to its end. Nothing moves along it on the flank, so it goes on from where it stood: what the road then asks of it beyond
+/// that is slack, which only lessens.
 struct StrutMemory {
-  bool lying = false;  // on its flank at the last look
+  bool stood = false;  // on its tread at the last look
+  bool lying = false;  // on its flank
   double slack = 0;    // [m]
 
   /// How far the strut is pressed in on this footing, where it was by `before` [m].
   double pressed(const Footing& footing, double before, double droop) {
     if (lying && footing.found) slack = std::max(0.0, footing.compression - before);
+    const bool left = stood && footing.near && !footing.found;
     lying = footing.near && !footing.found;
-    if (lying) return before;
-    slack = std::min(slack, std::max(0.0, footing.compression + droop));
-    return footing.compression - slack;
+    stood = footing.found;
+    if (lying && !left) return before;
+    const double asked = left ? footing.leaving : footing.compression;
+    slack = std::min(slack, std::max(0.0, asked + droop));
+    return asked - slack;
   }
   template <class S>
   static auto fields(S& s) {
-    return std::tie(s.lying, s.slack);
+    return std::tie(s.stood, s.lying, s.slack);
   }
 };
 struct TyresMemory {

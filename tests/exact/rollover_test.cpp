@@ -26,12 +26,17 @@ engine::Vec3 up_of(const engine::Snapshot& s, int body) {
 /// A car comes down on its wheels and its steps are cut: springs are booked in the step that pressed them. Booked in the next one,
 /// which may be half as long, the dampers seemed to give 268 J.
 TEST(Rollover, BooksSpringsInTheStepThatPressesThem) {
+  const engine::Recording run = engine::simulate(scenes::load(kCasesFolder + "rollover.toml").model);
+  EXPECT_GT(run.diagnostics.substeps, 0) << "steps of several lengths";
+  EXPECT_LT(run.diagnostics.max_effect_gain, 1);
+}
+
+/// A wheel that lands leaning goes over onto its flank under 15 tonnes. A strut that stayed where the step began gave 250 J.
+TEST(Rollover, MovesTheStrutToTheEndOfTheStepInWhichItsWheelLeavesTheTread) {
   engine::Model model = scenes::load(std::string(CRASHREEL_SOURCE_DIR) + "/scenes/gallery/rollover_bank.toml").model;
   model.settings.duration = 1.2;
-  const engine::Recording run = engine::simulate(model);
-  EXPECT_GT(run.diagnostics.substeps, 0) << "steps of several lengths";
   // what remains is of first order in the step: a spring of 30 kN/m beyond its stop that closes at 10 m/s
-  EXPECT_LT(run.diagnostics.max_effect_gain, 20);
+  EXPECT_LT(engine::simulate(model).diagnostics.max_effect_gain, 20);
 }
 
 TEST(Rollover, OfASedanTrippedAtSixtyRunsToRestWithoutGainingEnergy) {
@@ -43,9 +48,9 @@ TEST(Rollover, OfASedanTrippedAtSixtyRunsToRestWithoutGainingEnergy) {
   EXPECT_TRUE(std::any_of(run.snapshots.begin(), run.snapshots.end(), [](const auto& s) { return up_of(s, 0).z() < -0.5; }));
   EXPECT_LT(run.end_time(), scene.model.settings.duration - 1) << "has come to rest";
   EXPECT_LT(run.snapshots.back().bodies[0].V_WB.v.norm(), 0.05);
-  EXPECT_LT(run.diagnostics.rest_penetration, 5e-3);
-  // a point of 17 m/s and a turning body meet a rigid edge within a step: second order in it
-  EXPECT_LT(run.diagnostics.max_penetration, 0.02);
+  EXPECT_LT(run.diagnostics.rest_penetration, 1e-5);
+  // nor do wheels that come down onto their flank pressed in: 4.8 mm where they were as hard there as the body
+  EXPECT_LT(run.diagnostics.max_penetration, 1e-3);
   const double initial = mechanical(run.snapshots.front());
   double lowest = initial, rise = 0, unexplained = 0;
   for (const auto& s : run.snapshots) {
@@ -154,7 +159,8 @@ TEST(Rollover, DownABankOfTrianglesComesToRestOnThem) {
                        [](const auto& c) { return c.shapes.b == engine::ShapeKind::terrain; });
   }));
   EXPECT_LT(run.snapshots.back().bodies[0].V_WB.v.norm(), 0.05);
-  EXPECT_LT(run.diagnostics.rest_penetration, 5e-3);
+  EXPECT_LT(run.diagnostics.rest_penetration, 1e-5);
+  EXPECT_LT(run.diagnostics.max_penetration, 1e-3) << "6.8 mm with wheels as hard on their flanks as the body";
   // it comes back onto its wheels, whose struts go on from where they stood on their flanks; set to what the road asks of them at
   // once, they gave 21 J. What remains is a part of a step of what springs take, of 0.5 * 1500 * 11.1^2 = 92 kJ
   EXPECT_LT(run.diagnostics.max_energy_rise, 5);
