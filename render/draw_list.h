@@ -49,13 +49,17 @@ struct SkinItem {
   std::vector<Material> materials;  // one per material of the topology, repainted; empty: as they are
 };
 
+/// What is drawn of a line, an arrow or a marker where something stands before it: all of it, a shade of it, nothing. What is
+/// nearer to it than half a metre, as the limb that hides a contact of its own, does not stand before what would be faint.
+enum class Occluded { shown, faint, hidden };
+
 /// Anti-aliased line on top of the picture, width in pixels at 1080 lines. `outline` draws a dark edge.
 struct LineItem {
   std::vector<Float3> points;
   Float4 colour{1, 1, 1, 1};  // sRGB, straight alpha
   float width = 2;
   bool outline = true;
-  bool hidden_behind = false;   // depth-tested: traces pass behind a car
+  Occluded occluded = Occluded::shown;
   std::vector<Float3> normals;  // of the ground under each point, that it may lie on it with all its width; empty: it faces the eye
 };
 
@@ -65,6 +69,7 @@ struct ArrowItem {
   Float3 to{};
   Float4 colour{1, 0.6f, 0.1f, 1};
   float width = 4;
+  Occluded occluded = Occluded::shown;  // not hidden
 };
 
 /// A disc of pixel radius at a world point.
@@ -72,6 +77,7 @@ struct MarkerItem {
   Float3 at{};
   Float4 colour{1, 1, 1, 1};
   float radius = 4;
+  Occluded occluded = Occluded::shown;  // not hidden
 };
 
 /// Decal on the ground: a strip such as a skid mark.

@@ -11,6 +11,8 @@ namespace render::gl {
 namespace {
 
 constexpr float kNearPlane = 0.05f;  // clip w below which a point is behind the camera
+constexpr float kOwn = 0.5f;         // [m] what hides a faint thing stands before it by more
+constexpr float kFaint = 0.25f;      // [-] of the opacity there
 const Float4 kOutline{0.05f, 0.05f, 0.06f, 0.85f};
 
 constexpr std::size_t kFloats = 12;  // a vertex: corner 3, tint 4, shape 3, extent 2
@@ -21,6 +23,12 @@ OverlayPass::OverlayPass()
     : in_front_("", glsl::line_vert, glsl::line_frag),
       behind_(std::string("#define BEHIND_THINGS\n") + glsl::nearest, glsl::line_vert, glsl::line_frag) {
   lay_out(array_, buffer_, {3, 4, 3, 2});
+}
+
+/// Of a point in clip coordinates, moved towards the eye by what may hide it.
+float OverlayPass::depth_of(const Eigen::Vector4f& c) const {
+  const float w = c[3] + per_depth_[1] * towards_eye_;
+  return w < kNearPlane ? 0 : (c[2] + per_depth_[0] * towards_eye_) / w * 0.5f + 0.5f;
 }
 
 bool OverlayPass::project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb) const {
@@ -34,7 +42,7 @@ bool OverlayPass::project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb
   cut(cb, ca);
   const auto pixel = [&](const Vector4f& c) {
     return Pixel{(c[0] / c[3] * 0.5f + 0.5f) * static_cast<float>(width_),
-                 (c[1] / c[3] * 0.5f + 0.5f) * static_cast<float>(height_), c[2] / c[3] * 0.5f + 0.5f};
+                 (c[1] / c[3] * 0.5f + 0.5f) * static_cast<float>(height_), depth_of(c)};
   };
   pa = pixel(ca);
   pb = pixel(cb);
@@ -112,29 +120,38 @@ void OverlayPass::arrow(const ArrowItem& item, float extra, const Float4& colour
           Ends::square);
 }
 
-void OverlayPass::begin(const DrawList& list, int width, int height) {
-  clip_ = (from_gl(list.view.eye_to_clip) * from_gl(list.view.world_to_eye)).cast<float>();
-  width_ = width;
-  height_ = height;
-  scale_ = static_cast<float>(height) / 1080 * list.scale;
-  vertices_.clear();
-  for (const bool behind : {true, false}) {
-    for (const LineItem& line : list.lines)
-      if (line.hidden_behind == behind && line.outline) polyline(line, 1.2f, kOutline);
-    for (const LineItem& line : list.lines)
-      if (line.hidden_behind == behind) polyline(line, 0, line.colour);
-    if (behind) behind_count_ = vertices_.size() / kFloats;
-  }
+void OverlayPass::gather(const DrawList& list, Occluded group) {
+  towards_eye_ = group == Occluded::faint ? kOwn : 0;
+  for (const LineItem& line : list.lines)
+    if (line.occluded == group && line.outline) polyline(line, 1.2f, kOutline);
+  for (const LineItem& line : list.lines)
+    if (line.occluded == group) polyline(line, 0, line.colour);
   for (const ArrowItem& item : list.arrows) {
+    if (item.occluded != group) continue;
     arrow(item, 1.4f, kOutline);
     arrow(item, 0, item.colour);
   }
   for (const MarkerItem& marker : list.markers) {
     Pixel a{}, b{};
-    if (!project(marker.at, marker.at, a, b)) continue;
+    if (marker.occluded != group || !project(marker.at, marker.at, a, b)) continue;
     capsule(a, b, marker.radius * scale_ + 1.4f * scale_, marker.radius * scale_ + 1.4f * scale_, kOutline);
     capsule(a, b, marker.radius * scale_, marker.radius * scale_, marker.colour);
   }
+}
+
+void OverlayPass::begin(const DrawList& list, int width, int height) {
+  const Eigen::Matrix4f eye_to_clip = from_gl(list.view.eye_to_clip).cast<float>();
+  clip_ = (from_gl(list.view.eye_to_clip) * from_gl(list.view.world_to_eye)).cast<float>();
+  per_depth_ = {eye_to_clip(2, 2), eye_to_clip(3, 2)};
+  width_ = width;
+  height_ = height;
+  scale_ = static_cast<float>(height) / 1080 * list.scale;
+  vertices_.clear();
+  gather(list, Occluded::hidden);
+  hidden_end_ = vertices_.size() / kFloats;
+  gather(list, Occluded::faint);
+  faint_end_ = vertices_.size() / kFloats;
+  gather(list, Occluded::shown);
   if (vertices_.empty()) return;
   upload(buffer_, vertices_);
   reach_ = around(vertices_.data(), vertices_.size() / kFloats, kFloats, width, height);
@@ -157,18 +174,21 @@ void OverlayPass::draw(const Program& program, const Rectangle& r, std::size_t f
 }
 
 void OverlayPass::draw_behind(const Rectangle& r) {
-  draw(in_front_, r, 0, behind_count_);
+  draw(in_front_, r, 0, faint_end_);
 }
 
 void OverlayPass::draw_behind(const ObjectPass& objects, const Rectangle& r, int samples) {
-  if (behind_count_ == 0) return;
+  if (faint_end_ == 0) return;
   objects.bind_depth(behind_, samples, reach_.x, reach_.y);
-  draw(behind_, r, 0, behind_count_);
+  behind_.set("occluded", 0.0f);
+  draw(behind_, r, 0, hidden_end_);
+  behind_.set("occluded", kFaint);
+  draw(behind_, r, hidden_end_, faint_end_ - hidden_end_);
 }
 
 void OverlayPass::finish(const shade::Canvas& canvas) {
   if (vertices_.empty() || reach_.width == 0 || reach_.height == 0) return;
-  draw(in_front_, reach_, behind_count_, vertices_.size() / kFloats - behind_count_);
+  draw(in_front_, reach_, faint_end_, vertices_.size() / kFloats - faint_end_);
   constexpr int kStrip = 32;  // rows at a time
   const int top = reach_.y + reach_.height;
   lines_.resize(4 * kStrip * static_cast<std::size_t>(reach_.width));

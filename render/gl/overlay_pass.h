@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -17,7 +18,7 @@ class OverlayPass {
  public:
   OverlayPass();
   void begin(const DrawList&, int width, int height);
-  /// Lines that pass behind things, in a part of the picture without things.
+  /// What things may hide, in a part of the picture without things.
   void draw_behind(const Rectangle&);
   /// In a part whose things the object pass holds.
   void draw_behind(const ObjectPass&, const Rectangle&, int samples);
@@ -30,6 +31,8 @@ class OverlayPass {
     float slope_x = 0, slope_y = 0;  // of the depth over the picture, where a line lies on a surface
   };
   enum class Ends { round, square };
+  void gather(const DrawList&, Occluded);
+  float depth_of(const Eigen::Vector4f& clip) const;
   bool project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb) const;
   void lie_on(const Float3& at, const Float3& normal, Pixel&) const;
   void capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour, Ends = Ends::round);
@@ -43,8 +46,11 @@ class OverlayPass {
   VertexArray array_;
   Buffer buffer_;
   std::vector<float> vertices_;
-  std::size_t behind_count_ = 0;  // of the vertices, at their beginning
+  std::size_t hidden_end_ = 0;  // of the vertices: before it what things hide, then
+  std::size_t faint_end_ = 0;   // what they make faint
   Eigen::Matrix4f clip_;
+  std::array<float, 2> per_depth_{};  // of z and w in clip coordinates, by metre towards the eye
+  float towards_eye_ = 0;             // [m]
   int width_ = 0, height_ = 0;
   float scale_ = 1;
   std::vector<std::uint8_t> lines_;  // premultiplied

@@ -50,7 +50,7 @@ void add_contact_history(const Frame& frame, DrawList& list) {
     dot.points.assign(2, to_float(p + kTowards * (eye - p).normalized()));
     dot.colour = colour_of_share(by_time ? mark.time / std::max(last, 1e-9) : mark.impulse / strongest);
     dot.width = 9;
-    dot.hidden_behind = true;
+    dot.occluded = Occluded::hidden;
     list.lines.push_back(std::move(dot));
   }
 }

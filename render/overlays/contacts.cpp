@@ -22,11 +22,12 @@ bool of_interest(const engine::ContactRecord& c) {
 void add_contacts(const Frame& frame, DrawList& list) {
   for (const auto& c : frame.now.contacts) {
     if (!of_interest(c)) continue;
-    list.markers.push_back({to_float(c.point), {1, 1, 1, 1}, 4});
+    list.markers.push_back({to_float(c.point), {1, 1, 1, 1}, 4, Occluded::faint});
     LineItem normal;
     normal.points = {to_float(c.point), to_float(c.point + kNormalLength * c.normal)};
     normal.colour = {1, 1, 1, 0.95f};
     normal.width = 1.6f;
+    normal.occluded = Occluded::faint;
     list.lines.push_back(normal);
   }
 }
@@ -47,7 +48,7 @@ void add_forces(const Frame& frame, DrawList& list) {
     const std::string& part = frame.recording.body_names[static_cast<std::size_t>(c.body_a)];
     const double force = c.force.norm();
     const Vec3 tip = c.point + c.force / force * std::max(0.12, arrow_length(force, frame.stage.overlays.of("force_scale")));
-    list.arrows.push_back({to_float(c.point), to_float(tip), colour_of_part(part), 4.5f});
+    list.arrows.push_back({to_float(c.point), to_float(tip), colour_of_part(part), 4.5f, Occluded::faint});
     if (c.shapes.on_vehicle() && (!largest || force > largest->force.norm())) largest = &c;
   }
   // impacts last a millisecond: the label of the largest of the last moments stays long enough to be read
@@ -86,13 +87,14 @@ void add_forces(const Frame& frame, DrawList& list) {
 }  // namespace
 
 struct Contacts {
-  static constexpr OverlayKey kKeys[] = {{"contacts", 1, "Contact points and normals."}};
+  static constexpr OverlayKey kKeys[] = {
+      {"contacts", 1, "Contact points and normals; faint where something stands well before them."}};
   static constexpr Overlay kOverlay{"contacts", kKeys, add_contacts};
 };
 template struct Drawn<Contacts>;
 
 struct Forces {
-  static constexpr OverlayKey kKeys[] = {{"forces", 1, "Arrows, long by force."},
+  static constexpr OverlayKey kKeys[] = {{"forces", 1, "Arrows, long by force; faint as contacts are."},
                                          {"force_scale", 10e3, "Force that one metre of arrow stands for.", "N/m"}};
   static constexpr Overlay kOverlay{"forces", kKeys, add_forces};
 };

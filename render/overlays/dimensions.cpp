@@ -33,9 +33,10 @@ void add_one(const Frame& frame, const Dimension& d, DrawList& list) {
     item.colour = kDimensionColour;
     item.width = 2.4f;
     // where something stands before it, it is seen through, pale
-    item.hidden_behind = true;
+    item.occluded = Occluded::hidden;
     list.lines.push_back(item);
-    item.hidden_behind = item.outline = false;
+    item.occluded = Occluded::shown;
+    item.outline = false;
     item.colour[3] = 0.35f;
     list.lines.push_back(std::move(item));
   };

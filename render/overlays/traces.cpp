@@ -22,7 +22,7 @@ void add_traces(const Frame& frame, DrawList& list) {
     line.colour = colour_of_part(frame.recording.body_names[b]);
     line.colour[3] = 0.9f;
     line.width = 2.5f;
-    line.hidden_behind = true;
+    line.occluded = Occluded::hidden;
     double last = -1;
     for (const auto& s : frame.recording.snapshots) {
       if (s.time > frame.now.time) break;

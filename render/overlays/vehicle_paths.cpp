@@ -26,7 +26,7 @@ void add_vehicle_paths(const Frame& frame, DrawList& list) {
     LineItem line;
     line.colour = {0.35f, 0.78f, 1.00f, 0.95f};
     line.width = 2.5f;
-    line.hidden_behind = true;
+    line.occluded = Occluded::hidden;
     Vec3 last = Vec3::Constant(1e9);
     for (const engine::Snapshot& s : frame.recording.snapshots) {
       if (s.time > frame.now.time) break;

@@ -14,7 +14,7 @@ void add_wheel_traces(const Frame& frame, DrawList& list) {
     LineItem line;
     line.colour = {0.98f, 0.98f, 0.92f, 0.9f};
     line.width = 1.4f;
-    line.hidden_behind = true;
+    line.occluded = Occluded::hidden;
     Vec3 last = Vec3::Constant(1e9);
     auto close = [&] {
       if (line.points.size() > 1) list.lines.push_back(line);

@@ -107,7 +107,7 @@ TEST(Frame, DependsOnItsListAlone) {
   one.ellipsoids.push_back(ball({0.5f, 6, 0.5f}, 0.5));
   LineItem trace;
   trace.points = {{-2, 8, 0.5f}, {2, 8, 0.5f}};
-  trace.hidden_behind = true;
+  trace.occluded = render::Occluded::hidden;
   DrawList two = plain(look_down(1, 6, 9, kAspect));
   two.ellipsoids.push_back(ball({1, 6, 2}, 0.8));
   two.lines.push_back(trace);
@@ -122,6 +122,31 @@ TEST(Frame, DependsOnItsListAlone) {
     EXPECT_TRUE(first.rgba == b_first.rgba && top.rgba == b_top.rgba && traced.rgba == b_traced.rgba) << "drawn in another order";
     EXPECT_FALSE(first.rgba == traced.rgba) << "the line must be seen, else the comparison proves little";
   }
+}
+
+TEST(Marker, IsFaintBehindWhatStandsWellBeforeIt) {
+  // at 6 m, with a ball of 0.5 m around 5.8 m before it, whose face is 0.7 m nearer, and around 6.1 m, 0.4 m nearer
+  const auto blue_of = [](const DrawList& list) {
+    Renderer renderer(kWidth, kHeight, Quality::standard);
+    return pixel(draw_with(renderer, list), kWidth / 2, kHeight / 2)[2];
+  };
+  const DrawList empty = plain(look_along_y({0, 0, 2}, 0.4f, kAspect));
+  for (const auto& [place, hides] : {std::pair(5.8f, true), std::pair(6.1f, false)})
+    for (const Occluded occluded : {Occluded::shown, Occluded::faint}) {
+      DrawList bare = empty;
+      bare.ellipsoids.push_back(ball({0, place, 2}, 0.5));
+      DrawList marked = bare;
+      marked.markers.push_back({{0, 6, 2}, {1, 1, 1, 1}, 12, occluded});
+      const int dark = blue_of(bare), seen = blue_of(marked);
+      if (hides && occluded == Occluded::faint)
+        EXPECT_NEAR(seen, dark + 0.25 * (255 - dark), 12);
+      else
+        EXPECT_GE(seen, 250);
+    }
+  // with nothing before it, and where there are no things at all
+  DrawList alone = empty;
+  alone.markers.push_back({{0, 6, 2}, {1, 1, 1, 1}, 12, Occluded::faint});
+  EXPECT_GE(blue_of(alone), 250);
 }
 
 TEST(Frame, OfAStandingCameraDoesNotDependOnTheOnesBefore) {

@@ -92,7 +92,7 @@ TEST(Marks, OfRollingTyresAreTracesOnTheTerrainAndNoStrips) {
   EXPECT_TRUE(list.strips.empty());
   std::size_t pieces = 0;
   for (const LineItem& line : list.lines) {
-    if (!line.hidden_behind) continue;
+    if (line.occluded != render::Occluded::hidden) continue;
     ASSERT_EQ(line.normals.size(), line.points.size());
     for (std::size_t i = 1; i < line.points.size(); ++i, ++pieces) expect_on_the_ground(line.points[i - 1], line.points[i]);
   }

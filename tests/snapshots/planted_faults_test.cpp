@@ -92,7 +92,7 @@ TEST(PlantedFault, AThinLineMovedByAPixel) {
   for (const Size size : {kLarge, kSmall}) {
     render::DrawList right = shown.list(size);
     // across the road, as thin as lines are drawn; two pixels of a picture of 1080 lines
-    right.lines.push_back({{{-4, -1, 0.6f}, {6, -1, 0.6f}}, {1, 1, 1, 1}, 2, false, false, {}});
+    right.lines.push_back({{{-4, -1, 0.6f}, {6, -1, 0.6f}}, {1, 1, 1, 1}, 2, false, render::Occluded::shown, {}});
     render::DrawList wrong = right;
     // moved up the screen: y of clip space spans two over the height
     const render::View& view = right.view;
