@@ -9,6 +9,7 @@
 #include "cli/disk_room.h"
 #include "cli/film_plan.h"
 #include "engine/geometry/hyper_ellipsoid.h"
+#include "engine/geometry/mesh_overlap.h"
 #include "engine/simulate.h"
 #include "render/cameras.h"
 #include "render/frames.h"
@@ -23,6 +24,7 @@ constexpr double kFastestVehicle = 250 / 3.6;  // [m/s] beyond it a unit is wron
 constexpr double kFastestPerson = 45 / 3.6;    // [m/s] the fastest sprint; riders are not held to it
 constexpr double kHardestDriving = 10;         // [m/s^2] no tyre accelerates or brakes harder on the road
 constexpr double kRoughestGround = 1.5;        // [-] beyond it no tyre or cloth on a road
+constexpr double kHovers = 0.05;               // [m] of one that waits
 constexpr double kHighestStart = 1;            // [m] of a person's lowest point
 constexpr int kFirstSteps = 3;
 
@@ -108,25 +110,49 @@ Sentences unlikely_speeds(const engine::Model& model) {
   return out;
 }
 
+/// The lowest point of a person's bodies, beneath the centre of one.
+Vec3 lowest_of(const engine::Model& model, const engine::Person& person) {
+  Vec3 lowest(0, 0, 1e300);
+  for (const int b : person.bodies) {
+    const engine::Body& body = model.bodies[static_cast<std::size_t>(b)];
+    const auto* shape = std::get_if<engine::HyperEllipsoid>(&body.shape);
+    if (!shape) continue;
+    const double z = body.X_WB.p.z() - engine::aabb_half_widths(*shape, body.X_WB.q).z();
+    if (z < lowest.z()) lowest = {body.X_WB.p.x(), body.X_WB.p.y(), z};
+  }
+  return lowest;
+}
+
+/// Whether the box of somebody else, a kerb's or a lorry's, reaches beneath the point.
+bool is_over_something(const engine::Model& model, const engine::Person& person, const Vec3& point) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(), [&](const engine::Body& body) {
+    engine::Aabb box{point + Vec3::Ones(), point + Vec3::Ones()};
+    if (const auto* mesh = std::get_if<engine::MeshShape>(&body.shape))
+      box = engine::world_bounds(*mesh->mesh, body.X_WB * mesh->X_BM);
+    if (const auto* round = std::get_if<engine::HyperEllipsoid>(&body.shape)) {
+      const Vec3 half = engine::aabb_half_widths(*round, body.X_WB.q);
+      box = {body.X_WB.p - half, body.X_WB.p + half};
+    }
+    const bool own = body.person >= 0 && &model.persons[static_cast<std::size_t>(body.person)] == &person;
+    return !own && (box.lower.array() <= point.array()).all() && (box.upper.array() >= point.array()).head<2>().all();
+  });
+}
+
 Sentences unlikely_ground(const engine::Model& model) {
   Sentences out;
   const double friction = model.ground.surface.friction_ground.at(0);
   if (friction > kRoughestGround) out.push_back(fmt::format("ground.friction is {:.3g}; dry asphalt has 0.7 to 0.8", friction));
   if (model.ground.terrain || !model.ground.plane) return out;
-  const auto lowest = [&model](const engine::Person& person) {
-    double z = 1e300;
-    for (const int b : person.bodies) {
-      const engine::Body& body = model.bodies[static_cast<std::size_t>(b)];
-      if (const auto* shape = std::get_if<engine::HyperEllipsoid>(&body.shape))
-        z = std::min(z, body.X_WB.p.z() - engine::aabb_half_widths(*shape, body.X_WB.q).z());
-    }
-    return z;
-  };
   // `height` taken for the stature; who shall fall from that high reads it once
   for (const engine::Person& person : model.persons) {
-    const double z = lowest(person);
-    if (person.mount < 0 && z > kHighestStart && z < 1e3)
+    const Vec3 lowest = lowest_of(model, person);
+    const double z = lowest.z() - model.ground.height;
+    if (person.mount >= 0 || z >= 1e3) continue;
+    if (z > kHighestStart)
       out.push_back(fmt::format("{} starts {:.3g} m above the ground; the length of the body is `stature`", person.name, z));
+    else if (z > kHovers && person.zero_condition && !is_over_something(model, person, lowest))
+      out.push_back(fmt::format(
+          "{} hovers {:.3g} m above the ground until something touches it; zero_condition = false lets it fall", person.name, z));
   }
   return out;
 }

@@ -292,6 +292,14 @@ TEST(Check, ForeseesWhatARunWouldTellTooLate) {
   EXPECT_THAT(told(car + kPerson + "position = \"200 0 m\"\n"), HasSubstr("p can touch nothing: at the start it is 19"));
   EXPECT_EQ(told(car + kPerson + "height = \"1.7 m\"\nposition = \"4 3 m\"\n"),
             "a.toml: p starts 1.7 m above the ground; the length of the body is `stature`\n");
+  const std::string hovering = kPerson + "height = \"0.4 m\"\nposition = \"4 3 m\"\n";
+  EXPECT_EQ(told(car + hovering),
+            "a.toml: p hovers 0.4 m above the ground until something touches it; zero_condition = false lets it fall\n");
+  EXPECT_EQ(told(car + hovering + "zero_condition = false\n"), "");
+  EXPECT_EQ(told(car + hovering +
+                 "[[body]]\nname = \"platform\"\nfixed = true\nmass = \"1 kg\"\naxes = \"0.5 0.5 0.2 m\"\nexponent = 30\nposition "
+                 "= \"4 3 0.2 m\"\n"),
+            "");
   EXPECT_EQ(told(car + kPerson + "position = \"4 3 m\"\n[ground]\nfriction = 5\n"),
             "a.toml: ground.friction is 5; dry asphalt has 0.7 to 0.8\n");
   EXPECT_THAT(told(car + "[[camera]]\nname = \"back\"\nposition = \"-9 0 2 m\"\ntarget = \"-20 0 2 m\"\n"),
