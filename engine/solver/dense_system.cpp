@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "engine/math/wide_clones.h"
+
 namespace engine {
 
 void DenseSystem::resize(int n) {
@@ -168,9 +170,7 @@ PART_OF_BOTH void take_from_columns_behind(const Panel& panel, double* A, std::s
 }
 
 /// Wide vectors where the processor has them; without fused multiply-add, so that all processors find the same bits.
-#if defined(__x86_64__)
-__attribute__((target_clones("avx2", "default")))
-#endif
+CRASHREEL_WIDE_CLONES
 bool factor_in_place(double* A, std::size_t n, std::size_t* pivots, std::size_t* reach) {
   const double* past = A + n * n;
   for (std::size_t first = 0; first < n; first += kPanel) {
@@ -195,10 +195,9 @@ bool factor_in_place(double* A, std::size_t n, std::size_t* pivots, std::size_t*
 }
 
 /// Takes four columns by their factors from x[begin] to x[end - 1], the first of them first.
-#if defined(__x86_64__)
-__attribute__((target_clones("avx2", "default")))
-#endif
-void take_from(double* x, std::size_t begin, std::size_t end, const double* const (&columns)[kPanel], const double (&factors)[kPanel]) {
+CRASHREEL_WIDE_CLONES
+void take_from(double* x, std::size_t begin, std::size_t end, const double* const (&columns)[kPanel],
+               const double (&factors)[kPanel]) {
   for (std::size_t i = begin; i < end; i += kPanel) {
     Four sum, q0, q1, q2, q3;
     std::memcpy(&sum, x + i, sizeof sum);

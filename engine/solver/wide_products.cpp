@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "engine/math/wide_clones.h"
+
 namespace engine {
 namespace {
 
@@ -9,18 +11,14 @@ using Four = double __attribute__((vector_size(4 * sizeof(double))));
 
 }  // namespace
 
-#if defined(__x86_64__)
-__attribute__((target_clones("avx2", "default")))
-#endif
+CRASHREEL_WIDE_CLONES
 void add_three_columns(const double* G, std::size_t stride, const double* x, double* sum, std::size_t rows) {
   const double *G0 = G, *G1 = G + stride, *G2 = G1 + stride;
   const double x0 = x[0], x1 = x[1], x2 = x[2];
   for (std::size_t r = 0; r < rows; ++r) sum[r] = sum[r] + G0[r] * x0 + G1[r] * x1 + G2[r] * x2;
 }
 
-#if defined(__x86_64__)
-__attribute__((target_clones("avx2", "default")))
-#endif
+CRASHREEL_WIDE_CLONES
 void carry_up(const double* J, const Passed* way, std::size_t links, double* Y, std::size_t stride) {
   Four force[6];
   for (int t = 0; t < 6; ++t) force[t] = Four{J[t], J[6 + t], J[12 + t], 0};
@@ -46,9 +44,7 @@ void carry_up(const double* J, const Passed* way, std::size_t links, double* Y, 
   }
 }
 
-#if defined(__x86_64__)
-__attribute__((target_clones("avx2", "default")))
-#endif
+CRASHREEL_WIDE_CLONES
 void meet_rows(const double* Y, std::size_t stride, const int* freedoms, std::size_t count, Rows rows, std::size_t row,
                std::size_t columns, double* G) {
   for (std::size_t r = rows.begin; r < rows.end; r += 8) {
