@@ -49,10 +49,10 @@ void prove_needless(const Model& model, const EffectKind& effect, const Reach& r
   line.not_before = effect.not_before(model, reach);
   if (line.forced || line.not_before < model.settings.duration) return;
   line.active = line.called_for = false;
-  const std::string what = reach.all_bodies_wait ? "nothing can touch who waits" : "nothing can touch";
+  const std::string what = reach.all_bodies_wait ? "nothing can touch who waits" : "no two things can touch";
   const std::string why = reach.who.empty() ? what : what + " before, nearest are " + reach.who;
   line.reason = "cannot matter within " + number(model.settings.duration) + " s (" + why + "); " + line.reason;
-  line.left_out = reach.all_bodies_wait ? "what zero_condition takes to be in balance"
+  line.left_out = reach.all_bodies_wait ? "nothing but what zero_condition takes to be in balance"
                                         : "nothing: the bound on every speed is that of energy and drive";
 }
 
