@@ -8,8 +8,7 @@
 
 #include "cli/disk_room.h"
 #include "cli/film_plan.h"
-#include "engine/geometry/hyper_ellipsoid.h"
-#include "engine/geometry/mesh_overlap.h"
+#include "engine/effects/reach.h"
 #include "engine/simulate.h"
 #include "render/cameras.h"
 #include "render/frames.h"
@@ -24,7 +23,7 @@ constexpr double kFastestVehicle = 250 / 3.6;  // [m/s] beyond it a unit is wron
 constexpr double kFastestPerson = 45 / 3.6;    // [m/s] the fastest sprint; riders are not held to it
 constexpr double kHardestDriving = 10;         // [m/s^2] no tyre accelerates or brakes harder on the road
 constexpr double kRoughestGround = 1.5;        // [-] beyond it no tyre or cloth on a road
-constexpr double kHovers = 0.05;               // [m] of one that waits
+constexpr double kHovers = 0.05;               // [m] of one that waits: poses stand within millimetres
 constexpr double kHighestStart = 1;            // [m] of a person's lowest point
 constexpr int kFirstSteps = 3;
 
@@ -110,15 +109,13 @@ Sentences unlikely_speeds(const engine::Model& model) {
   return out;
 }
 
-/// The lowest point of a person's bodies, beneath the centre of one.
+/// The lowest point of a person's parts, beneath the centre of one.
 Vec3 lowest_of(const engine::Model& model, const engine::Person& person) {
   Vec3 lowest(0, 0, 1e300);
   for (const int b : person.bodies) {
     const engine::Body& body = model.bodies[static_cast<std::size_t>(b)];
-    const auto* shape = std::get_if<engine::HyperEllipsoid>(&body.shape);
-    if (!shape) continue;
-    const double z = body.X_WB.p.z() - engine::aabb_half_widths(*shape, body.X_WB.q).z();
-    if (z < lowest.z()) lowest = {body.X_WB.p.x(), body.X_WB.p.y(), z};
+    const double z = engine::box_at_start(body).lower.z();
+    if (is_round(body) && z < lowest.z()) lowest = {body.X_WB.p.x(), body.X_WB.p.y(), z};
   }
   return lowest;
 }
@@ -126,13 +123,7 @@ Vec3 lowest_of(const engine::Model& model, const engine::Person& person) {
 /// Whether the box of somebody else, a kerb's or a lorry's, reaches beneath the point.
 bool is_over_something(const engine::Model& model, const engine::Person& person, const Vec3& point) {
   return std::any_of(model.bodies.begin(), model.bodies.end(), [&](const engine::Body& body) {
-    engine::Aabb box{point + Vec3::Ones(), point + Vec3::Ones()};
-    if (const auto* mesh = std::get_if<engine::MeshShape>(&body.shape))
-      box = engine::world_bounds(*mesh->mesh, body.X_WB * mesh->X_BM);
-    if (const auto* round = std::get_if<engine::HyperEllipsoid>(&body.shape)) {
-      const Vec3 half = engine::aabb_half_widths(*round, body.X_WB.q);
-      box = {body.X_WB.p - half, body.X_WB.p + half};
-    }
+    const engine::Aabb box = engine::box_at_start(body);
     const bool own = body.person >= 0 && &model.persons[static_cast<std::size_t>(body.person)] == &person;
     return !own && (box.lower.array() <= point.array()).all() && (box.upper.array() >= point.array()).head<2>().all();
   });

@@ -69,7 +69,7 @@ struct ArrowItem {
   Float3 to{};
   Float4 colour{1, 0.6f, 0.1f, 1};
   float width = 4;
-  Occluded occluded = Occluded::shown;  // not hidden
+  Occluded occluded = Occluded::shown;
 };
 
 /// A disc of pixel radius at a world point.
@@ -77,7 +77,7 @@ struct MarkerItem {
   Float3 at{};
   Float4 colour{1, 1, 1, 1};
   float radius = 4;
-  Occluded occluded = Occluded::shown;  // not hidden
+  Occluded occluded = Occluded::shown;
 };
 
 /// Decal on the ground: a strip such as a skid mark.

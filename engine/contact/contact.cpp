@@ -133,12 +133,8 @@ void add_contact(ContactSearch& search, const PairKind& kind, const SurfaceConta
   Constraint c;
   c.kind = ConstraintKind::contact;
   c.rows = 3;
-  auto moving = [&](int body) { return body >= 0 && !world.model.bodies[body].fixed ? body : -1; };
-  c.a.body = moving(a);
-  c.b.body = moving(b);
+  set_bodies(c, world.model, a, b);
   if (c.a.body < 0 && c.b.body < 0) return;
-  c.a.record = a;
-  c.b.record = b;
   c.surface.rolls = touch.rolls;
   c.surface.friction = c.surface.rolls ? 0 : surfaces.friction;
   c.surface.restitution = surfaces.restitution;

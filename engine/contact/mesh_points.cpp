@@ -170,8 +170,7 @@ void touch_with_points(const Outlook& outlook, int body, const std::vector<Surfa
       if (c.gap >= margin) continue;
       c.p_b = p - c.gap * Vec3::UnitZ();
     }
-    // rubber gives: a wheel may come from its tread down onto its flank pressed in by millimetres
-    if (points[i].wheel >= 0 && c.gap < 0) c.gap = std::min(0.0, c.gap + kTyreGives);
+    if (points[i].wheel >= 0) c.gap = given(c.gap);  // it may come from its tread down onto its flank pressed in by millimetres
     c.rolls = points[i].wheel >= 0 && c.normal.dot(up) > target.rolls;
     if (c.rolls && target.is_road) continue;
     out.push_back(c);

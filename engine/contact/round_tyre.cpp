@@ -79,10 +79,7 @@ Touches touches_between<ShapeKind::round, ShapeKind::tyre>(const Outlook& outloo
                                    tyre_of(outlook, pair.wheel, outlook.state.wheels[pair.wheel].lift), margin);
   if (!contact || contact->gap < -kDeepest) return {};
   // pinched, as beside a wheel that rolls over
-  if (yields_as_rubber(world.model, pair.body))
-    contact->gap += kTyreGives;
-  else if (contact->gap < 0)
-    contact->gap = std::min(0.0, contact->gap + kTyreGives);
+  contact->gap = yields_as_rubber(world.model, pair.body) ? contact->gap + kTyreGives : given(contact->gap);
   contact->key = kTyres | static_cast<std::uint32_t>(pair.wheel);
   world.pairs.touches.clear();
   world.pairs.touches.push_back(*contact);

@@ -2,6 +2,7 @@
 // row of the pair table; beneath it, it is what the suspension stands on.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,10 @@ Tyre tyre_of(const Outlook&, int wheel, double lift);
 /// [m] by which rubber gives where it is pinched: 200 kN/m (vertical stiffness of a passenger car's tyre) under its 3.7 kN by
 /// 19 mm, in a blow by more.
 constexpr double kTyreGives = 0.03;
+/// The gap to a tyre pressed in: none as long as the rubber gives.
+inline double given(double gap) {
+  return gap < 0 ? std::min(0.0, gap + kTyreGives) : gap;
+}
 
 /// Beside a tyre: does that yield to the body where neither does by the law? Rigid both, a wheel that squeezes a limb to the road
 /// leaves it no place.

@@ -20,7 +20,7 @@ void touch_tyre(const Outlook& outlook, const WheelState& wheel, const Tyre& tyr
   for (int i = 0; i < kRimPoints; ++i) {
     SurfaceContact c = point_on_tyre(X * rim_point(spec, i) + lift, tyre);
     if (c.gap >= margin) continue;
-    if (c.gap < 0) c.gap = std::min(0.0, c.gap + kTyreGives);
+    c.gap = given(c.gap);
     c.key = key | static_cast<std::uint32_t>(i);
     out.push_back(c);
   }

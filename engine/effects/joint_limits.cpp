@@ -69,13 +69,7 @@ void add_limit(ContactSearch& search, const JointCoordinates& now, const End& en
   c.kind = ConstraintKind::limit;
   c.rows = 1;
   c.slides = end.i == kSlide;
-  auto moving = [&](int body) { return body >= 0 && !world.model.bodies[body].fixed ? body : -1; };
-  c.a.body = moving(joint.child);
-  c.b.body = moving(joint.parent);
-  c.a.record = joint.child;
-  c.b.record = joint.parent;
-  c.a.J.setZero();
-  c.b.J.setZero();
+  set_bodies(c, world.model, joint.child, joint.parent);
   const double sign = end.upper ? -1 : 1;
   if (c.slides) {
     c.a.J.row(0) << sign * gradient_W.transpose(), sign * now.r_C.cross(gradient_W).transpose();

@@ -63,19 +63,13 @@ class JointLoops final : public EffectWith<LoopLoads> {
     const State& state = step.state;
     for (const int j : world.loops.joints()) {
       const Joint& joint = world.model.joints[j];
-      auto moving = [&](int body) { return body >= 0 && !world.model.bodies[body].fixed ? body : -1; };
       JointRows rows;
       joint_rows(joint, joint.parent < 0 ? Pose{} : state.X_WB[joint.parent], state.X_WB[joint.child], rows);
       for (int k = 0; k < rows.count; ++k) {
         Constraint c;
         c.kind = ConstraintKind::bilateral;
         c.rows = 1;
-        c.a.body = moving(joint.child);
-        c.b.body = moving(joint.parent);
-        c.a.record = joint.child;
-        c.b.record = joint.parent;
-        c.a.J.setZero();
-        c.b.J.setZero();
+        set_bodies(c, world.model, joint.child, joint.parent);
         c.a.J.row(0) = row_on_child(rows, k).transpose();
         c.b.J.row(0) = row_on_parent(rows, k).transpose();
         c.softness = kGive * free_response(world.model, state.X_WB, c, 0);

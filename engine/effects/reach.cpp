@@ -71,14 +71,6 @@ double reach_of(const Model& model, const Body& body) {
   return reach;
 }
 
-/// Without wheels.
-Aabb box_of(const Body& body) {
-  if (const auto* shape = std::get_if<MeshShape>(&body.shape)) return world_bounds(*shape->mesh, body.X_WB * shape->X_BM);
-  Vec3 half = Vec3::Zero();
-  if (const auto* shape = std::get_if<HyperEllipsoid>(&body.shape)) half = aabb_half_widths(*shape, body.X_WB.q);
-  return {body.X_WB.p - half, body.X_WB.p + half};
-}
-
 /// Does an effect give energy to all there is, as the wind does? Contacts and joints are asked by themselves.
 bool something_drives(const Model& model) {
   const auto drives = [&model](const EffectKind* effect) {
@@ -102,7 +94,7 @@ bool is_unbounded(const Model& model, const ReachGroup& group, const std::vector
   }
   return std::any_of(group.bodies.begin(), group.bodies.end(), [&](int b) {
     const Body& body = model.bodies[b];
-    return body.person >= 0 || (model.ground.plane && box_of(body).lower.z() < model.ground.height - kInGround);
+    return body.person >= 0 || (model.ground.plane && box_at_start(body).lower.z() < model.ground.height - kInGround);
   });
 }
 
@@ -162,7 +154,7 @@ void bound_motion(const Model& model, ReachGroup& group) {
                  });
   if (group.steady) {
     group.velocity = velocity;
-    for (const int b : group.bodies) group.boxes.push_back(box_of(model.bodies[b]));
+    for (const int b : group.bodies) group.boxes.push_back(box_at_start(model.bodies[b]));
   }
   group.extent = all_wait || all_fixed ? spread : arms + reach;
   if (all_fixed) return;
@@ -228,6 +220,13 @@ bool is_simple(const Model& model, const ReachGroup& group) {
 }
 
 }  // namespace
+
+Aabb box_at_start(const Body& body) {
+  if (const auto* shape = std::get_if<MeshShape>(&body.shape)) return world_bounds(*shape->mesh, body.X_WB * shape->X_BM);
+  Vec3 half = Vec3::Zero();
+  if (const auto* shape = std::get_if<HyperEllipsoid>(&body.shape)) half = aabb_half_widths(*shape, body.X_WB.q);
+  return {body.X_WB.p - half, body.X_WB.p + half};
+}
 
 Reach reach_of(const Model& model) {
   const std::vector<ReachGroup> groups = reach_groups_of(model);

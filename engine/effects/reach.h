@@ -24,4 +24,7 @@ struct Reach {
 
 Reach reach_of(const Model&);
 
+/// Box in world axes of a body at the start, a vehicle without its wheels; a point where it has no shape.
+Aabb box_at_start(const Body&);
+
 }  // namespace engine

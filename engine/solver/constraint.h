@@ -7,6 +7,7 @@
 
 #include "engine/geometry/shape_pair.h"
 #include "engine/math/types.h"
+#include "engine/model/model.h"
 
 namespace engine {
 
@@ -92,6 +93,15 @@ struct Constraint {
                     s.key, s.effect, s.shapes, s.a.record, s.b.record);
   }
 };
+
+/// Names the two bodies of a condition; -1: the ground.
+inline void set_bodies(Constraint& c, const Model& model, int a, int b) {
+  const auto moving = [&model](int body) { return body >= 0 && !model.bodies[body].fixed ? body : -1; };
+  c.a.record = a;
+  c.b.record = b;
+  c.a.body = moving(a);
+  c.b.body = moving(b);
+}
 
 inline bool is_contact(const Constraint& c) {
   return c.kind == ConstraintKind::contact;

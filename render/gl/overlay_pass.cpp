@@ -140,9 +140,9 @@ void OverlayPass::gather(const DrawList& list, Occluded group) {
 }
 
 void OverlayPass::begin(const DrawList& list, int width, int height) {
-  const Eigen::Matrix4f eye_to_clip = from_gl(list.view.eye_to_clip).cast<float>();
-  clip_ = (from_gl(list.view.eye_to_clip) * from_gl(list.view.world_to_eye)).cast<float>();
-  per_depth_ = {eye_to_clip(2, 2), eye_to_clip(3, 2)};
+  const Mat4 eye_to_clip = from_gl(list.view.eye_to_clip);
+  clip_ = (eye_to_clip * from_gl(list.view.world_to_eye)).cast<float>();
+  per_depth_ = {static_cast<float>(eye_to_clip(2, 2)), static_cast<float>(eye_to_clip(3, 2))};
   width_ = width;
   height_ = height;
   scale_ = static_cast<float>(height) / 1080 * list.scale;
