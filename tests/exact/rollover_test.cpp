@@ -24,7 +24,7 @@ engine::Vec3 up_of(const engine::Snapshot& s, int body) {
 }
 
 /// A car comes down on its wheels and its steps are cut: springs are booked in the step that pressed them. Booked in the next one,
-/// which may be half as long, the dampers seemed to give 268 J.
+/// which may be half as long, the dampers seem to give 105 J.
 TEST(Rollover, BooksSpringsInTheStepThatPressesThem) {
   const engine::Recording run = engine::simulate(scenes::load(kCasesFolder + "rollover.toml").model);
   EXPECT_GT(run.diagnostics.substeps, 0) << "steps of several lengths";
