@@ -8,6 +8,7 @@
 #include <set>
 
 #include "cli/command.h"
+#include "cli/estimate.h"
 #include "cli/exit.h"
 #include "cli/output/json.h"
 #include "cli/output/lock.h"
@@ -33,6 +34,7 @@ struct SnapshotWish {
   std::vector<std::string> names;
   std::vector<std::string> allow;
   std::string jobs;
+  std::string max_memory;
   bool json = false;
   bool quiet = false;
 };
@@ -110,6 +112,8 @@ int snapshot(const SnapshotWish& wish) {
   job.only = wish.names;
   job.allow.assign(wish.allow.begin(), wish.allow.end());
   job.workers = wish.jobs.empty() ? 0 : parse_integer("--jobs", wish.jobs, 1, 256);
+  job.memory = wish.max_memory.empty() ? 0 : parse_bytes("--max-memory", wish.max_memory);
+  job.quiet = wish.quiet;
   const OutputLock lock(wish.report);
   prepare_report(wish.report);
 
@@ -148,6 +152,8 @@ std::function<int()> declare_snapshot(Arguments& arguments) {
   arguments.option("--report", wish->report, "OUT",
                    "folder for report.html, junit.xml, report.json and pictures; default: snapshot-report");
   arguments.option("-j,--jobs", wish->jobs, "N", "scenes at once, each in a process; default: one a core");
+  arguments.option("--max-memory", wish->max_memory, "SIZE",
+                   "all scenes at once take no more memory than this (2 GB); default: what the machine has");
   declare_allow(arguments, wish->allow);
   arguments.flag("--json", wish->json, "print report.json");
   arguments.flag("-q,--quiet", wish->quiet, "no progress");

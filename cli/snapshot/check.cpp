@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 #include <fnmatch.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <new>
 #include <thread>
 
+#include "cli/estimate.h"
 #include "cli/exit.h"
 #include "cli/film_plan.h"
 #include "cli/output/json.h"
@@ -14,6 +19,7 @@
 #include "cli/progress.h"
 #include "cli/snapshot/baselines.h"
 #include "cli/snapshot/judge.h"
+#include "engine/address_sanitizer.h"
 #include "engine/measure/metrics.h"
 #include "engine/simulate.h"
 #include "render/painter.h"
@@ -23,6 +29,36 @@ namespace cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kNoMemory = "not enough memory; with fewer --jobs, or more for --max-memory, each scene may take more";
+constexpr double kLeastShare = 500e6;  // [byte] for any scene of the library at 1920x1080, twice
+
+/// How many scenes at once, and what each may take.
+struct Shares {
+  int workers;
+  double memory;  // [byte]
+};
+
+Shares shares_of(const CheckJob& job, std::size_t scenes) {
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int wanted = std::min(job.workers > 0 ? job.workers : cores, std::max(1, static_cast<int>(scenes)));
+  const double machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double all = job.memory > 0 ? job.memory : machine;
+  const int fitting = std::clamp(static_cast<int>(std::min(all / kLeastShare, 1e6)), 1, wanted);
+  if (fitting < wanted && !job.quiet)
+    fmt::print(stderr, "crashreel: {} scene{} at once in place of {}, to stay below {} of memory\n", fitting,
+               fitting == 1 ? "" : "s", wanted, bytes_text(all));
+  return {fitting, all / fitting};
+}
+
+/// While a mesh is imported there are two processes for a scene, to which the same limit applies.
+void hold_to_share(double share) {
+  if (engine::kAddressSanitizer) return;  // its own addresses would count
+  const auto bytes = static_cast<rlim_t>(share / 2);
+  const rlimit limit{bytes, bytes};
+  if (setrlimit(RLIMIT_DATA, &limit) != 0) throw MachineError("the system sets no limit of memory");
+}
+
 /// Everything about one scene. What it cannot do stands in its errors.
 Json check_scene(const fs::path& file, const CheckJob& job) {
   const double start = clock_seconds();
@@ -57,6 +93,8 @@ Json check_scene(const fs::path& file, const CheckJob& job) {
     }
   } catch (const scenes::SceneErrors& errors) {
     for (const std::string& line : errors.lines) out["errors"].push_back(line);
+  } catch (const std::bad_alloc&) {
+    out["errors"].push_back(kNoMemory);
   } catch (const std::exception& error) {
     out["errors"].push_back(error.what());
   }
@@ -68,15 +106,22 @@ std::string text_of(const fs::path& scene, const CheckJob& job) {
   return check_scene(scene, job).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// Libraries that promise not to throw end the process where they find no memory (cli/process.h).
+bool out_of_memory(const render::TaskResult& result) {
+  return WIFEXITED(result.status) && WEXITSTATUS(result.status) == kMachineFailed;
+}
+
 Json collect(const fs::path& scene, const CheckJob& job, const render::TaskResult& result) {
   if (result.status == 0) return Json::parse(result.message);
-  return {{"scene", scene.lexically_proximate(job.root).string()},
-          {"title", ""},
-          {"names", Json::array()},
-          {"errors", {fmt::format("the process that checked it ended: {}", render::ending(result.status))}},
-          {"pictures", Json::array()},
-          {"measures", Json::array()},
-          {"wall_s", 0}};
+  return {
+      {"scene", scene.lexically_proximate(job.root).string()},
+      {"title", ""},
+      {"names", Json::array()},
+      {"errors",
+       {out_of_memory(result) ? kNoMemory : fmt::format("the process that checked it ended: {}", render::ending(result.status))}},
+      {"pictures", Json::array()},
+      {"measures", Json::array()},
+      {"wall_s", 0}};
 }
 
 }  // namespace
@@ -90,12 +135,16 @@ bool fits(const std::string& name, const std::vector<std::string>& patterns) {
 
 std::vector<SceneReport> check_scenes(const std::vector<fs::path>& scenes, const CheckJob& job,
                                       const std::function<void(int done)>& progress) {
-  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  render::Workers workers(job.workers > 0 ? job.workers : cores, check_interrupted);
+  const Shares shares = shares_of(job, scenes.size());
+  render::Workers workers(shares.workers, check_interrupted);
   std::vector<SceneReport> out(scenes.size());
   int done = 0;
   workers.run(
-      static_cast<int>(scenes.size()), [&](int i, int) { return text_of(scenes[static_cast<std::size_t>(i)], job); },
+      static_cast<int>(scenes.size()),
+      [&](int i, int) {
+        hold_to_share(shares.memory);
+        return text_of(scenes[static_cast<std::size_t>(i)], job);
+      },
       [&](const render::TaskResult& result) {
         const auto scene = static_cast<std::size_t>(result.task);
         out[scene] = collect(scenes[scene], job, result);

@@ -15,6 +15,8 @@ struct CheckJob {
   std::vector<std::string> only;             // patterns of scene or picture names (* and ?); empty: everything
   std::vector<std::filesystem::path> allow;  // folders besides the scenes' own whose meshes and pictures these may name
   int workers = 0;                           // 0: one a core
+  double memory = 0;                         // [byte] that all scenes checked at once may take; 0: what the machine has
+  bool quiet = false;
 };
 
 /// What was found of one scene; these keys are those of report.json:
@@ -25,7 +27,8 @@ struct CheckJob {
 /// Verdicts of pictures: same, different, new, missing, unreadable; of measures: same, different, missing.
 using SceneReport = nlohmann::ordered_json;
 
-/// One report a scene, in the scenes' order whatever the number of workers. A scene whose process dies reports that as its error.
+/// One report a scene, in the scenes' order whatever the number of workers. A scene whose process dies, or finds no memory within
+/// its share, reports that as its error. Fewer are checked at once where a share would be too small for any scene.
 std::vector<SceneReport> check_scenes(const std::vector<std::filesystem::path>& scenes, const CheckJob&,
                                       const std::function<void(int done)>& progress);
 

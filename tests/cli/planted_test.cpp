@@ -280,6 +280,23 @@ TEST_F(Planted, APictureIsHeldToTheCeilingOfMemory) {
   EXPECT_EQ(run(folder, {"simulate", "bomb.toml", "-o", "out", "--max-memory", "1 GB"}).code, 0);
 }
 
+TEST_F(Planted, ScenesCheckedAtOnceShareOneCeilingOfMemory) {
+  // while the picture is read it needs 600 MB; a scene may take half of what there is, and its importer the other half
+  fs::create_directories(folder / "scenes");
+  folder.write("scenes/bomb.toml", ground("ground.png"));
+  folder.write("scenes/ball.toml", contents(folder / "ball.toml"));
+  write_black(folder / "scenes/ground.png", 8000);
+  const auto check = [this](const std::string& memory) {
+    return run(folder, {"snapshot", "scenes", "-j", "2", "--max-memory", memory, "--json"});
+  };
+  const Result small = check("999 MB");
+  EXPECT_THAT(small.err, HasSubstr("1 scene at once in place of 2, to stay below 999 MB of memory"));
+  EXPECT_THAT(small.out, HasSubstr("not enough memory; with fewer --jobs, or more for --max-memory, each scene may take more"));
+  const Result large = check("3 GB");
+  EXPECT_THAT(large.err, Not(HasSubstr("at once in place of")));
+  EXPECT_THAT(large.out, Not(HasSubstr("not enough memory")));
+}
+
 TEST_F(Planted, AFilmIsReadAsTheContainerItsNameSays) {
   // opened, the pipe would hold the run for ever
   folder.write("a.mp4", "#EXTM3U\n#EXT-X-VERSION:3\n#EXT-X-TARGETDURATION:10\n#EXTINF:9.9,\nsecret.ts\n#EXT-X-ENDLIST\n");
