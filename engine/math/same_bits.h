@@ -1,18 +1,27 @@
 // Equal to the last bit, also in the sign of a zero: what was computed from one is what would be from the other.
 #pragma once
 
-#include <cstring>
+#include <bit>
+#include <cstdint>
 
 #include "engine/math/types.h"
 
 namespace engine {
 
+/// Of `n` doubles. A few words at once: memcmp would be a call.
+template <int n>
+inline bool same_bits(const double* a, const double* b) {
+  std::uint64_t differ = 0;
+  for (int i = 0; i < n; ++i) differ |= std::bit_cast<std::uint64_t>(a[i]) ^ std::bit_cast<std::uint64_t>(b[i]);
+  return differ == 0;
+}
+
 inline bool same_bits(const Quat& a, const Quat& b) {
-  return std::memcmp(a.coeffs().data(), b.coeffs().data(), 4 * sizeof(double)) == 0;
+  return same_bits<4>(a.coeffs().data(), b.coeffs().data());
 }
 
 inline bool same_bits(const Pose& a, const Pose& b) {
-  return same_bits(a.q, b.q) && std::memcmp(a.p.data(), b.p.data(), 3 * sizeof(double)) == 0;
+  return same_bits(a.q, b.q) && same_bits<3>(a.p.data(), b.p.data());
 }
 
 }  // namespace engine

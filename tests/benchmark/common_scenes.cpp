@@ -175,6 +175,7 @@ Model empty(double duration, double step) {
   model.settings.step = step;
   model.settings.record_interval = 20 * step;
   model.settings.stop_at_rest = false;
+  model.settings.effects["air_drag"] = engine::Force::off;  // as in the other engines
   return model;
 }
 
