@@ -283,8 +283,9 @@ TEST_F(Planted, APictureIsHeldToTheCeilingOfMemory) {
 TEST_F(Planted, ScenesCheckedAtOnceShareOneCeilingOfMemory) {
   // while the picture is read it needs 600 MB; a scene may take half of what there is, and its importer the other half
   fs::create_directories(folder / "scenes");
-  folder.write("scenes/bomb.toml", ground("ground.png"));
-  folder.write("scenes/ball.toml", contents(folder / "ball.toml"));
+  const std::string still = "\n[output]\nsize = [64, 64]\n\n[[output.still]]\ntime = '0 s'\n";
+  folder.write("scenes/bomb.toml", ground("ground.png") + still);
+  folder.write("scenes/ball.toml", contents(folder / "ball.toml") + still);
   write_black(folder / "scenes/ground.png", 8000);
   const auto check = [this](const std::string& memory) {
     return run(folder, {"snapshot", "scenes", "-j", "2", "--max-memory", memory, "--json"});
