@@ -10,8 +10,8 @@
 namespace cli {
 
 /// Sentences without a place, most weighty first: overlaps and divergence in the first three steps, speeds no accident has, objects
-/// that can touch nothing, cameras that see nothing, a film larger than the disk has room for. The film goes to `output`; empty:
-/// where `render` puts it by itself.
+/// that can touch nothing, accidents in which nothing touches, cameras that see nothing, a film larger than the disk has room for.
+/// The film goes to `output`; empty: where `render` puts it by itself.
 std::vector<std::string> foresee(const scenes::Scene&, const std::string& output);
 
 /// Who stands inside a vehicle's shell touches nothing there, and a run of it begins without a word.

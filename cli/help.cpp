@@ -176,20 +176,24 @@ std::string bash(const std::vector<CommandHelp>& all) {
 }
 
 std::string zsh(const std::vector<CommandHelp>& all) {
-  const auto plain = [](std::string text) {
-    for (char& c : text)
-      if (c == '[' || c == ']' || c == ':' || c == '\'') c = ' ';
-    return text;
+  // within single quotes, where brackets and colons part what stands in them
+  const auto escaped = [](const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+      if (c == '[' || c == ']' || c == ':') out += '\\';
+      out += c == '\'' ? "'\\''" : std::string(1, c);
+    }
+    return out;
   };
   std::string out = "#compdef crashreel\n_crashreel() {\n  if (( CURRENT == 2 )); then\n    local -a commands=(\n";
-  for (const CommandHelp& help : all) out += fmt::format("      '{}:{}'\n", help.command->name, plain(help.command->summary));
+  for (const CommandHelp& help : all) out += fmt::format("      '{}:{}'\n", help.command->name, escaped(help.command->summary));
   out += "    )\n    _describe command commands\n    return\n  fi\n  case $words[2] in\n";
   for (const CommandHelp& help : all) {
     out += fmt::format("    {}) _arguments", help.command->name);
     for (const ArgumentHelp& a : help.arguments) {
       if (a.positional) continue;
       const std::string value = a.value.empty() ? "" : choices_of(a).empty() ? ": :_files" : fmt::format(": :({})", choices_of(a));
-      for (const std::string& name : names_of(a)) out += fmt::format(" \\\n        '*{}[{}]{}'", name, plain(a.text), value);
+      for (const std::string& name : names_of(a)) out += fmt::format(" \\\n        '*{}[{}]{}'", name, escaped(a.text), value);
     }
     const std::string words = words_after(help.command->name, all);
     out += fmt::format(" \\\n        '*: :{}' ;;\n", words.empty() ? "_files" : "(" + words + ")");

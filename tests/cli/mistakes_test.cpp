@@ -278,29 +278,35 @@ TEST(Mistakes, CheckGivesScriptsFieldsInPlaceOfSentences) {
 
 TEST(Check, ForeseesWhatARunWouldTellTooLate) {
   const Folder folder;
-  const std::string car = "[simulation]\nduration = \"1 s\"\n[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\n";
+  const auto car_at = [](const std::string& speed) {
+    return "[simulation]\nduration = \"1 s\"\n[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\nspeed = \"" + speed + "\"\n";
+  };
+  const std::string car = car_at("40 km/h");
   const auto told = [&folder](const std::string& scene) {
     folder.write("a.toml", scene);
     const Result result = run(folder, {"check", "a.toml"});
     EXPECT_EQ(result.code, 0);
     return result.err;
   };
-  EXPECT_EQ(told(car + kPerson + "position = \"4 3 m\"\n"), "");
+  EXPECT_EQ(told(car + kPerson + "position = \"6 0 m\"\n"), "");
   EXPECT_EQ(told(car + kPerson), "a.toml: p stands inside car at the start\n");
-  EXPECT_THAT(told(car + "speed = \"400 km/h\"\n" + kPerson + "position = \"4 3 m\"\n"),
+  EXPECT_THAT(told(car_at("400 km/h") + kPerson + "position = \"6 0 m\"\n"),
               HasSubstr("car starts at 400 km/h, faster than 250 km/h; is the unit right?"));
+  EXPECT_EQ(told(car_at("10 km/h") + kPerson + "position = \"6 0.5 m\"\nvelocity = \"0 3 0 m/s\"\n"),
+            "a.toml: nothing touches: p/right_forearm and car come no nearer than 2.65 m, at 0.70 s\n");
+  EXPECT_EQ(told(car_at("0 km/h") + kPerson + "position = \"6 0 m\"\n"), "") << "nobody goes anywhere";
   EXPECT_THAT(told(car + kPerson + "position = \"200 0 m\"\n"), HasSubstr("p can touch nothing: at the start it is 19"));
-  EXPECT_EQ(told(car + kPerson + "height = \"1.7 m\"\nposition = \"4 3 m\"\n"),
-            "a.toml: p starts 1.7 m above the ground; the length of the body is `stature`\n");
-  const std::string hovering = kPerson + "height = \"0.4 m\"\nposition = \"4 3 m\"\n";
+  EXPECT_THAT(told(car + kPerson + "height = \"1.7 m\"\nposition = \"6 0 m\"\n"),
+              StartsWith("a.toml: p starts 1.7 m above the ground; the length of the body is `stature`\n"));
+  const std::string hovering = kPerson + "height = \"0.4 m\"\nposition = \"6 0 m\"\n";
   EXPECT_EQ(told(car + hovering),
             "a.toml: p hovers 0.4 m above the ground until something touches it; zero_condition = false lets it fall\n");
   EXPECT_EQ(told(car + hovering + "zero_condition = false\n"), "");
   EXPECT_EQ(told(car + hovering +
                  "[[body]]\nname = \"platform\"\nfixed = true\nmass = \"1 kg\"\naxes = \"0.5 0.5 0.2 m\"\nexponent = 30\nposition "
-                 "= \"4 3 0.2 m\"\n"),
+                 "= \"6 0 0.2 m\"\n"),
             "");
-  EXPECT_EQ(told(car + kPerson + "position = \"4 3 m\"\n[ground]\nfriction = 5\n"),
+  EXPECT_EQ(told(car + kPerson + "position = \"6 0 m\"\n[ground]\nfriction = 5\n"),
             "a.toml: ground.friction is 5; dry asphalt has 0.7 to 0.8\n");
   EXPECT_THAT(told(car + "[[camera]]\nname = \"back\"\nposition = \"-9 0 2 m\"\ntarget = \"-20 0 2 m\"\n"),
               HasSubstr("camera back looks away: no vehicle, person or body comes into its picture"));
@@ -425,6 +431,7 @@ TEST(Help, CompletionsAreShellScripts) {
   EXPECT_EQ(completed("crashreel explain --js", "2"), "--json\n");
   EXPECT_EQ(completed("crashreel completion f", "2"), "fish\n");
   EXPECT_THAT(contents(folder / "zsh"), HasSubstr("'*: :(bash zsh fish)'"));
+  EXPECT_THAT(contents(folder / "zsh"), HasSubstr("'render:simulate a scene, then draw it\\: an MP4"));
   EXPECT_THAT(contents(folder / "fish"), HasSubstr("'__fish_seen_subcommand_from completion' -f -a 'bash zsh fish'"));
   EXPECT_EQ(run(folder, {"completion", "csh"}).code, 2);
 }
