@@ -8,12 +8,14 @@
 
 namespace engine {
 
-/// Of `n` doubles. A few words at once: memcmp would be a call.
+/// Of `n` doubles. Most that differ do so in the first; memcmp would be a call.
 template <int n>
 inline bool same_bits(const double* a, const double* b) {
-  std::uint64_t differ = 0;
-  for (int i = 0; i < n; ++i) differ |= std::bit_cast<std::uint64_t>(a[i]) ^ std::bit_cast<std::uint64_t>(b[i]);
-  return differ == 0;
+  const auto differ = [&](int i) { return std::bit_cast<std::uint64_t>(a[i]) ^ std::bit_cast<std::uint64_t>(b[i]); };
+  if (differ(0) != 0) return false;
+  std::uint64_t any = 0;
+  for (int i = 1; i < n; ++i) any |= differ(i);
+  return any == 0;
 }
 
 inline bool same_bits(const Quat& a, const Quat& b) {

@@ -74,7 +74,11 @@ Vec6 particular(const JointRows& rows, bool body_is_joint_child, const Vec3& r) 
 
 Mat3 inertia_W(const Body& body, const Quat& q_WB) {
   const Mat3 R = q_WB.toRotationMatrix();
-  return R * body.inertia_B * R.transpose();
+  const Mat3& I = body.inertia_B;
+  // axes of a body are as a rule its principal ones: without the products with zeros, which change no bit
+  const bool principal = I(1, 0) == 0 && I(2, 0) == 0 && I(2, 1) == 0;
+  const Mat3 RI = principal ? Mat3(R * I.diagonal().asDiagonal()) : Mat3(R * I);
+  return RI * R.transpose();
 }
 
 Articulation::Articulation(const Model& model, Keeps keeps) : model_(model), keeps_(keeps) {}

@@ -11,7 +11,7 @@ namespace engine {
 namespace {
 
 /// 1/2 (0, w) q as coefficients (x, y, z, w) of Eigen's quaternion.
-Eigen::Vector4d quaternion_rate(const Eigen::Vector4d& q, const Vec3& w) {
+[[gnu::always_inline]] inline Eigen::Vector4d quaternion_rate(const Eigen::Vector4d& q, const Vec3& w) {
   Eigen::Vector4d rate;
   rate.head<3>() = 0.5 * (q[3] * w + w.cross(q.head<3>()));
   rate[3] = -0.5 * w.dot(q.head<3>());
