@@ -289,17 +289,19 @@ std::function<int()> read_command_line(int argc, const char* const* argv) {
       std::make_shared<CLI::App>("Reconstructs traffic accidents: a scene file becomes a simulation, and the simulation a film.");
   app->name("crashreel");
   app->allow_extras();
+  const std::vector<std::string> words = as_commands(argc, argv);
   std::map<const CLI::App*, std::function<int()>> actions;
   for (const Command& command : kCommands) {
     CLI::App* sub = app->add_subcommand(command.name, command.summary);
     sub->allow_extras();
+    // all of them have hundreds of options
+    if (std::find(words.begin(), words.end(), command.name) == words.end()) continue;
     Arguments arguments(*sub);
     actions[sub] = command.declare(arguments);
   }
 
   // what was typed wrong is told by us: in our words, with our exit code
   std::string who = "crashreel";
-  const std::vector<std::string> words = as_commands(argc, argv);
   try {
     app->parse(std::vector<std::string>(words.rbegin(), words.rend()));  // as the library takes them
     const auto chosen = app->get_subcommands();
