@@ -115,7 +115,7 @@ Bytes with_sum(std::string_view text) {
   return bytes;
 }
 
-/// Neither a line nor a trial has a number but what JSON can say: what is not finite is nothing there.
+/// Does what was read give this line again? As text: what is not finite is nothing in JSON, and equals nothing.
 bool same(const std::optional<std::pair<std::string, cli::inference::Answer>>& a, const std::string& line) {
   return a && cli::inference::as_line(a->first, a->second) == line;
 }

@@ -204,7 +204,7 @@ namespace {
 
 const fuzz::Target* chosen = nullptr;
 
-/// What the programs themselves write, as files in FOLDER/<target>.
+/// What the program itself writes, as files in FOLDER/<target>.
 void write_inputs(const std::filesystem::path& folder) {
   for (const fuzz::Target& target : fuzz::targets()) {
     int number = 0;
