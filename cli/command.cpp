@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <memory>
 
 #include "cli/exit.h"
 #include "cli/help.h"
@@ -282,37 +283,43 @@ std::vector<CommandHelp> help_of_commands() {
   return out;
 }
 
-int run_command_line(int argc, const char* const* argv) {
-  CLI::App app{"Reconstructs traffic accidents: a scene file becomes a simulation, and the simulation a film."};
-  app.name("crashreel");
-  app.allow_extras();
+std::function<int()> read_command_line(int argc, const char* const* argv) {
+  // a job asks for the options it was given while it runs: it keeps them
+  const auto app =
+      std::make_shared<CLI::App>("Reconstructs traffic accidents: a scene file becomes a simulation, and the simulation a film.");
+  app->name("crashreel");
+  app->allow_extras();
+  const std::vector<std::string> words = as_commands(argc, argv);
   std::map<const CLI::App*, std::function<int()>> actions;
   for (const Command& command : kCommands) {
-    CLI::App* sub = app.add_subcommand(command.name, command.summary);
+    CLI::App* sub = app->add_subcommand(command.name, command.summary);
     sub->allow_extras();
+    // all of them have hundreds of options
+    if (std::find(words.begin(), words.end(), command.name) == words.end()) continue;
     Arguments arguments(*sub);
     actions[sub] = command.declare(arguments);
   }
 
   // what was typed wrong is told by us: in our words, with our exit code
   std::string who = "crashreel";
-  const std::vector<std::string> words = as_commands(argc, argv);
   try {
-    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // as the library takes them
-    const auto chosen = app.get_subcommands();
-    if (chosen.empty()) refuse_command(app.remaining().empty() ? "" : app.remaining().front());
+    app->parse(std::vector<std::string>(words.rbegin(), words.rend()));  // as the library takes them
+    const auto chosen = app->get_subcommands();
+    if (chosen.empty()) refuse_command(app->remaining().empty() ? "" : app->remaining().front());
     const CLI::App& sub = *chosen.front();
     who += " " + sub.get_name();
     if (!sub.remaining().empty()) refuse_leftovers(sub, who, words);
-    if (!app.remaining().empty()) refuse_leftovers(app, who, words);
-    return actions.at(&sub)();
+    if (!app->remaining().empty()) refuse_leftovers(*app, who, words);
+    return [app, job = actions.at(&sub)] { return job(); };
   } catch (const CLI::CallForHelp&) {
-    const auto asked = app.get_subcommands();
-    if (asked.empty() && !app.remaining().empty()) refuse_command(app.remaining().front());
-    fmt::print("{}", help_text(asked.empty() ? "" : asked.front()->get_name()));
-    return kDone;
+    const auto asked = app->get_subcommands();
+    if (asked.empty() && !app->remaining().empty()) refuse_command(app->remaining().front());
+    return [of = asked.empty() ? "" : asked.front()->get_name()] {
+      fmt::print("{}", help_text(of));
+      return static_cast<int>(kDone);
+    };
   } catch (const CLI::ParseError& error) {
-    const auto chosen = app.get_subcommands();
+    const auto chosen = app->get_subcommands();
     if (!chosen.empty()) {
       who = "crashreel " + chosen.front()->get_name();
       // a missing scene is often a mistyped option that swallowed it
@@ -321,6 +328,10 @@ int run_command_line(int argc, const char* const* argv) {
     const std::string what = chosen.empty() ? error.what() : as_typed(*chosen.front(), error.what());
     throw UsageError(fmt::format("{}: {}; see {} --help", who, what, who));
   }
+}
+
+int run_command_line(int argc, const char* const* argv) {
+  return read_command_line(argc, argv)();
 }
 
 }  // namespace cli

@@ -45,7 +45,12 @@ std::span<const Command> commands();
 /// Throws UsageError: no such command, with the one that may be meant.
 [[noreturn]] void refuse_command(const std::string& word);
 
-/// Reads the command line, runs the command it names and returns the exit code. --help goes to standard output. Throws UsageError.
+/// What the command line asks for, which may be done once: a command, or its help on standard output. The job gives the exit code.
+/// Nothing but the names of files is looked up before it runs. Throws UsageError.
+std::function<int()> read_command_line(int argc, const char* const* argv);
+
+/// Reads the command line, runs the command it names and returns the exit code. Throws UsageError, and what the
+/// command throws.
 int run_command_line(int argc, const char* const* argv);
 
 }  // namespace cli

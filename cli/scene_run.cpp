@@ -37,16 +37,23 @@ std::optional<SceneArguments> scene_of_run(const SceneArguments& wish) {
   std::ifstream file(fs::path(wish.scene) / "summary.json");
   const auto summary = file ? nlohmann::json::parse(file, nullptr, false) : nlohmann::json();
   if (!summary.is_object() || !summary.contains("scene") || !summary["scene"].is_object()) return std::nullopt;
+  const auto& of = summary["scene"];
   SceneArguments out = wish;
-  const std::vector<std::string> run_with = summary["scene"].value("overrides", std::vector<std::string>());
-  out.scene = summary["scene"].value("path", "");
+  std::vector<std::string> run_with;
+  std::string sha256;
+  try {
+    run_with = of.value("overrides", run_with);
+    out.scene = of.value("path", "");
+    sha256 = of.value("sha256", "");
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;  // of another kind than `simulate` writes them
+  }
   out.set = run_with;
   const auto refuse = [&](const std::string& why) {
     throw UsageError(fmt::format("{} holds a run of {}, {}; name a scene file", wish.scene, out.scene, why));
   };
   if (!fs::is_regular_file(out.scene, problem)) refuse("which is not there (paths are as in the folder where it was run)");
-  if (summary["scene"].value("sha256", "") !=
-      scenes::load(scenes::read_scene_file(out.scene, {wish.allow.begin(), wish.allow.end()}), run_with).sha256)
+  if (sha256 != scenes::load(scenes::read_scene_file(out.scene, {wish.allow.begin(), wish.allow.end()}), run_with).sha256)
     refuse("which has been changed since");
   out.set.insert(out.set.end(), wish.set.begin(), wish.set.end());
   return out;

@@ -63,7 +63,7 @@ class ByteWriter {
   Bytes bytes;
 };
 
-/// Reads what ByteWriter wrote. Past the end every value is left as it was and `good` turns false.
+/// Reads what ByteWriter wrote. Past the end, and from what is damaged, every value is left as it was and `good` turns false.
 class ByteReader {
  public:
   explicit ByteReader(const Bytes& bytes) : bytes_(bytes) {}
@@ -74,6 +74,13 @@ class ByteReader {
     if (!good) return;
     std::memcpy(&value, bytes_.data() + at_, sizeof value);
     at_ += sizeof value;
+  }
+  /// 0 or 1: any other byte is damage and no value at all.
+  void get(bool& value) {
+    std::uint8_t byte = 0;
+    get(byte);
+    good = good && byte <= 1;
+    if (good) value = byte == 1;
   }
   template <FixedMatrix T>
   void get(T& value) {

@@ -8,6 +8,7 @@
 #include "cli/exit.h"
 #include "cli/findings.h"
 #include "cli/foresight.h"
+#include "cli/output/json.h"
 #include "cli/scene_run.h"
 #include "scenes/scene.h"
 
@@ -63,7 +64,7 @@ int check(const CheckWish& wish) {
     }
     if (good && !wish.quiet) fmt::print("{}: OK{}\n", file, verdict.warnings.empty() ? "" : ", with warnings");
   }
-  if (wish.json) fmt::print("{}\n", verdicts.dump(2));
+  if (wish.json) fmt::print("{}\n", json_text(verdicts));
   return all_good ? kDone : kAuthorErred;
 }
 

@@ -1,5 +1,6 @@
 // crashreel compare A.png B.png: are they the same picture? Says no with exit code 1.
 #include "render/image/compare.h"
+#include "cli/output/json.h"
 
 #include <fmt/format.h>
 
@@ -71,7 +72,7 @@ int compare(const CompareWish& wish) {
     const std::string why = fmt::format("{} is {}x{}, {} is {}x{}: pictures of different size are different", wish.a, a.width,
                                         a.height, wish.b, b.width, b.height);
     fmt::print(stderr, "crashreel: {}{}\n", why, wish.diff.empty() ? "" : "; no difference picture is written");
-    if (wish.json) fmt::print("{}\n", nlohmann::ordered_json{{"same", false}, {"reason", why}}.dump(2));
+    if (wish.json) fmt::print("{}\n", json_text(Json{{"same", false}, {"reason", why}}));
     return kComparisonSaysNo;
   }
   const std::vector<std::string> notes = notes_on(wish);
@@ -83,7 +84,7 @@ int compare(const CompareWish& wish) {
     out.update(difference_json(found));
     out["limits"] = limits_json(limits);
     out["notes"] = notes;
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", json_text(out));
   } else {
     for (const std::string& note : notes) fmt::print(stderr, "crashreel: {}\n", note);
     fmt::print("{}: {}{}\n", same ? "same" : "different", difference_text(found, limits),

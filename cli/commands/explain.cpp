@@ -7,6 +7,7 @@
 
 #include "cli/command.h"
 #include "cli/exit.h"
+#include "cli/output/json.h"
 #include "engine/effects/effect.h"
 #include "engine/measure/definitions.h"
 #include "scenes/loader/value.h"
@@ -36,7 +37,7 @@ int explain(const std::string& name, bool json) {
     if (!json) return print_table(), kDone;
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
     for (const engine::Definition& d : engine::definitions()) all.push_back(as_json(d));
-    fmt::print("{}\n", all.dump(2));
+    fmt::print("{}\n", json_text(all));
     return kDone;
   }
   std::vector<std::string> names;
@@ -44,7 +45,7 @@ int explain(const std::string& name, bool json) {
     names.emplace_back(d.key);
     // as in a scene's [expect]: with or without its unit
     if (d.key != name && !(*d.unit && std::string(d.key).starts_with(name + "_"))) continue;
-    fmt::print("{}", json ? as_json(d).dump(2) + "\n" : as_text(d));
+    fmt::print("{}", json ? json_text(as_json(d)) + "\n" : as_text(d));
     return kDone;
   }
   const std::string near = scenes::nearest(name, names);

@@ -10,6 +10,7 @@
 #include "cli/apart.h"
 #include "cli/command.h"
 #include "cli/exit.h"
+#include "cli/output/json.h"
 #include "cli/output/lock.h"
 #include "cli/output/whole_file.h"
 #include "cli/parse.h"
@@ -126,7 +127,7 @@ int draw_figures(const FigureWish& wish) {
       if (!wish.scene.json) fmt::print("{}\n", file);
     }
   }
-  if (wish.scene.json) fmt::print("{}\n", nlohmann::ordered_json{{"files", files}}.dump(2));
+  if (wish.scene.json) fmt::print("{}\n", json_text(Json{{"files", files}}));
   return exit_code_of(recording);
 }
 

@@ -9,6 +9,7 @@
 #include "cli/inference/best_scene.h"
 #include "cli/inference/fit.h"
 #include "cli/inference/search.h"
+#include "cli/output/json.h"
 #include "cli/output/whole_file.h"
 #include "cli/parse.h"
 #include "cli/scene_run.h"
@@ -106,10 +107,10 @@ int run(const FitWish& wish) {
   write_whole(folder / "posterior.csv", inference::posterior_csv(prior, scene.inference.evidence, fit));
   write_whole(folder / "best.toml", best_scene(scene, prior, fit));
   const auto json = inference::fit_json(scene, prior, fit, others, calibrations);
-  write_whole(folder / "fit.json", json.dump(2) + "\n");
+  write_whole(folder / "fit.json", json_text(json) + "\n");
   render::charts::write_page(inference::fit_page(scene, prior, fit, others), folder / "fit");
   if (wish.scene.json) {
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json));
     return kDone;
   }
   for (const std::string& line : inference::sentences(scene, prior, fit, others)) fmt::print("{}\n", line);

@@ -9,6 +9,7 @@
 
 #include "cli/command.h"
 #include "cli/exit.h"
+#include "cli/output/json.h"
 #include "scenes/loader/builder.h"
 #include "scenes/loader/value.h"
 
@@ -45,7 +46,7 @@ int library(bool json) {
   const fs::path folder = scenes::home_folder() / "scenes" / "library";
   const Names names = library_entries(folder);
   if (json) {
-    fmt::print("{}\n", nlohmann::json(names).dump(2));
+    fmt::print("{}\n", json_text(Json(names)));
     return kDone;
   }
   for (const auto& [kind, entries] : names) {

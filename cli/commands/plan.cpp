@@ -166,7 +166,7 @@ int plan(const PlanWish& wish) {
   if (wish.measure) {
     const engine::Recording run = run_scene(scene, plan, wish.scene, Costs::timed);
     if (wish.scene.json) {
-      fmt::print("{}\n", measured_json(run).dump(2));
+      fmt::print("{}\n", json_text(measured_json(run)));
     } else {
       print_plan(run.plan, &run);
       for (const std::string& warning : run.diagnostics.warnings) fmt::print("warning: {}\n", warning);
@@ -174,7 +174,7 @@ int plan(const PlanWish& wish) {
     return exit_code_of(run);
   }
   if (wish.scene.json) {
-    fmt::print("{}\n", plan_json(plan.lines).dump(2));
+    fmt::print("{}\n", json_text(plan_json(plan.lines)));
     return kDone;
   }
   print_plan(plan.lines, nullptr);

@@ -13,6 +13,7 @@
 #include "cli/exit.h"
 #include "cli/film_plan.h"
 #include "cli/output/fingerprint.h"
+#include "cli/output/json.h"
 #include "cli/output/lock.h"
 #include "cli/output/whole_file.h"
 #include "cli/process.h"
@@ -52,7 +53,7 @@ void list_cameras(const scenes::Scene& scene, bool json) {
                  camera.follow.empty() ? "" : " " + camera.follow);
   }
   if (json)
-    fmt::print("{}\n", cameras.dump(2));
+    fmt::print("{}\n", json_text(cameras));
   else
     fmt::print(stderr, "besides these every scene has {}\n", fmt::join(preset_names(), ", "));
 }
@@ -79,7 +80,7 @@ int tell_estimates(const scenes::Scene& scene, const std::vector<View>& views, b
       fmt::print("{}: {} frames of {}x{}, {}\n", job.output.string(), estimate.frames, job.width, job.height,
                  estimate_text(estimate, scene.model.settings.step));
   }
-  if (json) fmt::print("{}\n", (all.size() == 1 ? all.front() : all).dump(2));
+  if (json) fmt::print("{}\n", json_text(all.size() == 1 ? all.front() : all));
   return kDone;
 }
 
@@ -228,7 +229,7 @@ void tell_drawn(const RenderWish& wish, const render::FilmJob& job, const Drawn&
                                   {"simulate_wall_s", recording.wall_s},
                                   {"wall_s", seconds}};
     if (wish.timings) out["timings"] = timings_json(drawn.cost);
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", json_text(out));
     return;
   }
   if (wish.timings) fmt::print("{}", timings_text(drawn.cost));

@@ -8,6 +8,7 @@
 #include "cli/exit.h"
 #include "cli/inference/rest.h"
 #include "cli/inference/sample.h"
+#include "cli/output/json.h"
 #include "cli/output/whole_file.h"
 #include "cli/parse.h"
 #include "cli/scene_run.h"
@@ -111,12 +112,12 @@ int run(const SampleWish& wish) {
   write_whole(folder / "runs.csv", inference::runs_csv(prior, scene.inference.evidence, table));
   const inference::Sample sample = inference::summarise(scene, prior, std::move(table), static_cast<std::uint64_t>(seed));
   const auto json = inference::sample_json(scene, prior, sample);
-  write_whole(folder / "sample.json", json.dump(2) + "\n");
+  write_whole(folder / "sample.json", json_text(json) + "\n");
   render::charts::write_page(inference::sample_page(scene, prior, sample), folder / "sample");
   std::string rests;
   for (const std::string& file : inference::draw_rests(scene, prior, sample, folder)) rests += ", " + file;
   if (wish.scene.json)
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json));
   else
     fmt::print("{}{}: runs.csv, sample.json, sample.pdf, sample.svg, sample.png{}; finished runs in {}\n",
                inference::sample_text(scene, prior, sample), wish.folder, rests, (folder / "runs").string());

@@ -13,6 +13,7 @@
 #include "cli/exit.h"
 #include "cli/output/csv.h"
 #include "cli/output/fingerprint.h"
+#include "cli/output/json.h"
 #include "cli/output/lock.h"
 #include "cli/output/recording_file.h"
 #include "cli/output/summary.h"
@@ -54,7 +55,7 @@ std::optional<nlohmann::ordered_json> finished(const std::filesystem::path& fold
 int tell_estimate(const scenes::Scene& scene, const SimulateWish& wish) {
   const Estimate estimate = estimate_results(scene, plan_of(scene));
   if (wish.scene.json)
-    fmt::print("{}\n", estimate_json(estimate).dump(2));
+    fmt::print("{}\n", json_text(estimate_json(estimate)));
   else
     fmt::print("{}: {}\n", wish.folder, estimate_text(estimate, scene.model.settings.step));
   return kDone;
@@ -76,7 +77,7 @@ int simulate(const SimulateWish& wish, const Arguments& arguments) {
   if (wish.resume) {
     if (const auto summary = finished(folder, mark)) {
       if (wish.scene.json)
-        fmt::print("{}\n", summary->dump(2));
+        fmt::print("{}\n", json_text(*summary));
       else
         fmt::print("{}: finished before\n", folder.string());
       return kDone;
@@ -100,7 +101,7 @@ int simulate(const SimulateWish& wish, const Arguments& arguments) {
   write_contacts(recording, contacts);
   write_impacts(engine::impacts_of(scene.model, recording), impacts);
   recording_file.write(recording_bytes(scene, recording));
-  summary_file.write(summary.dump(2) + "\n");
+  summary_file.write(json_text(summary) + "\n");
   for (WholeFile* file : {&trajectory, &contacts, &impacts, &recording_file, &summary_file}) file->close();
   // an old summary must not stand beside a new trajectory, whenever the power fails
   std::error_code none;
@@ -108,7 +109,7 @@ int simulate(const SimulateWish& wish, const Arguments& arguments) {
   for (WholeFile* file : {&trajectory, &contacts, &impacts, &recording_file, &summary_file}) file->publish();
 
   if (wish.scene.json) {
-    fmt::print("{}\n", summary.dump(2));
+    fmt::print("{}\n", json_text(summary));
   } else {
     fmt::print("{}", summary_text(scene, recording, metrics));
     fmt::print("{}: trajectory.csv, contacts.csv, impacts.csv, recording.bin, summary.json\n", folder.string());

@@ -133,9 +133,9 @@ int snapshot(const SnapshotWish& wish) {
 
   write_whole(fs::path(wish.report) / "report.html", report_html(report, wish.report));
   write_whole(fs::path(wish.report) / "junit.xml", junit_xml(report));
-  write_whole(fs::path(wish.report) / kReport, report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_whole(fs::path(wish.report) / kReport, json_text(report) + "\n");
   if (wish.json) {
-    fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(report));
   } else {
     tell(report, wish.report);
   }

@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/exit.h"
+#include "cli/output/json.h"
 #include "cli/output/lock.h"
 #include "cli/output/whole_file.h"
 #include "cli/parse.h"
@@ -51,10 +52,10 @@ void refuse_existing_report(const StudyWish& wish, const std::string& name) {
 void write_report(const StudyWish& wish, const Report& report) {
   const std::filesystem::path folder = wish.folder;
   write_whole(folder / (report.name + ".csv"), report.csv);
-  write_whole(folder / (report.name + ".json"), report.json.dump(2) + "\n");
+  write_whole(folder / (report.name + ".json"), json_text(report.json) + "\n");
   render::charts::write_page(report.page, folder / report.name);
   if (wish.scene.json)
-    fmt::print("{}\n", report.json.dump(2));
+    fmt::print("{}\n", json_text(report.json));
   else
     fmt::print("{0}{1}: {2}.csv, {2}.json, {2}.pdf, {2}.svg, {2}.png\n", report.text, wish.folder, report.name);
 }

@@ -61,27 +61,31 @@ std::string as_line(const std::string& name, const Answer& a) {
   for (const auto& [key, value] : a.outputs) json["out"][key] = number_json(value);
   if (!a.rests.empty()) json["rests"] = a.rests;
   for (const auto& p : a.predicted) json["predicted"].push_back(p ? numbers_json(*p) : Json(nullptr));
-  return json.dump() + "\n";
+  return json_text(json, -1) + "\n";
 }
 
 std::optional<std::pair<std::string, Answer>> from_line(const std::string& line) {
   const Json json = Json::parse(line, nullptr, false);
-  if (json.is_discarded() || !json.contains("predicted")) return std::nullopt;
-  Answer out;
-  out.status = json["status"].get<std::string>();
-  out.touched = json["touched"].get<bool>();
-  for (const auto& [key, value] : json["out"].items()) out.outputs[key] = number_of(value);
-  if (const auto rests = json.find("rests"); rests != json.end()) out.rests = rests->get<decltype(out.rests)>();
-  for (const Json& p : json["predicted"]) {
-    if (p.is_null()) {
-      out.predicted.emplace_back();
-      continue;
+  if (!json.is_object()) return std::nullopt;
+  try {
+    Answer out;
+    out.status = json.at("status").get<std::string>();
+    out.touched = json.at("touched").get<bool>();
+    for (const auto& [key, value] : json.at("out").get_ref<const Json::object_t&>()) out.outputs[key] = number_of(value);
+    if (const auto rests = json.find("rests"); rests != json.end()) out.rests = rests->get<decltype(out.rests)>();
+    for (const Json& p : json.at("predicted").get_ref<const Json::array_t&>()) {
+      if (p.is_null()) {
+        out.predicted.emplace_back();
+        continue;
+      }
+      std::vector<double> numbers;
+      for (const Json& x : p.get_ref<const Json::array_t&>()) numbers.push_back(number_of(x));
+      out.predicted.emplace_back(std::move(numbers));
     }
-    std::vector<double> numbers;
-    for (const Json& x : p) numbers.push_back(number_of(x));
-    out.predicted.emplace_back(std::move(numbers));
+    return std::pair(json.at("run").get<std::string>(), std::move(out));
+  } catch (const Json::exception&) {
+    return std::nullopt;  // a value is missing or of another kind: no line of ours
   }
-  return std::pair(json["run"].get<std::string>(), std::move(out));
 }
 
 }  // namespace cli::inference

@@ -101,6 +101,9 @@ std::string reason_of(const Request& request, const Answer& a) {
 }  // namespace
 
 Request read_request(const scenes::Scene& scene, const std::string& text) {
+  // a message that names something of the file would end there
+  if (text.find('\0') != std::string::npos)
+    throw UsageError("the parameters file holds bytes of zero; write it as plain text, in UTF-8");
   std::vector<std::string> lines;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);)

@@ -70,7 +70,7 @@ class FolderLock {
 /// One run on this process' core. What is wrong with the inputs stands in the status.
 Answer answer(const scenes::Scene& scene, const std::vector<std::string>& overrides, scenes::MeshShelf&);
 
-/// A line of text that holds an answer, and back.
+/// A line of text that holds an answer, and back; nothing when the line is damaged or none of these.
 std::string as_line(const std::string& name, const Answer&);
 std::optional<std::pair<std::string, Answer>> from_line(const std::string& line);
 

@@ -92,12 +92,6 @@ struct Writer {
 struct Reader {
   engine::ByteReader in;
 
-  void operator()(bool& value) {
-    std::uint8_t byte = 0;
-    in.get(byte);
-    value = byte != 0;
-  }
-
   template <class T>
   void operator()(T& value) {
     in.get(value);
@@ -161,31 +155,38 @@ class Fits {
 
 }  // namespace
 
-std::string recording_bytes(const scenes::Scene& scene, const Recording& recording) {
+engine::Bytes payload_of(const Recording& recording) {
   Writer write;
   write(recording);
   write(recording.failure.has_value());
   write(recording.failure.value_or(engine::Failure{}));
-  const engine::Bytes& bytes = write.out.bytes;
-  return key_of(scene, bytes) + std::string(bytes.begin(), bytes.end());
+  return std::move(write.out.bytes);
 }
 
-std::optional<Recording> read_recording(const std::filesystem::path& path, const scenes::Scene& scene) {
-  std::ifstream file(path, std::ios::binary);
-  std::string key(scenes::sha256("").size(), ' ');
-  if (!file.read(key.data(), static_cast<std::streamsize>(key.size()))) return std::nullopt;
-  const engine::Bytes bytes{std::istreambuf_iterator<char>(file), {}};
-  if (key != key_of(scene, bytes)) return std::nullopt;
-  Reader read{.in = engine::ByteReader(bytes)};
+std::optional<Recording> recording_of(const engine::Bytes& payload, const engine::Model& model) {
+  Reader read{.in = engine::ByteReader(payload)};
   Recording out;
   bool failed = false;
   engine::Failure failure;
   read(out);
   read(failed);
   read(failure);
-  if (!read.in.at_end() || !Fits(scene.model)(out)) return std::nullopt;
+  if (!read.in.at_end() || !Fits(model)(out)) return std::nullopt;
   if (failed) out.failure = failure;
   return out;
+}
+
+std::string recording_bytes(const scenes::Scene& scene, const Recording& recording) {
+  const engine::Bytes payload = payload_of(recording);
+  return key_of(scene, payload) + std::string(payload.begin(), payload.end());
+}
+
+std::optional<Recording> read_recording(const std::filesystem::path& path, const scenes::Scene& scene) {
+  std::ifstream file(path, std::ios::binary);
+  std::string key(scenes::sha256("").size(), ' ');
+  if (!file.read(key.data(), static_cast<std::streamsize>(key.size()))) return std::nullopt;
+  const engine::Bytes payload{std::istreambuf_iterator<char>(file), {}};
+  return key == key_of(scene, payload) ? recording_of(payload, scene.model) : std::nullopt;
 }
 
 }  // namespace cli

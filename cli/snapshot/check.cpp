@@ -103,7 +103,7 @@ Json check_scene(const fs::path& file, const CheckJob& job) {
 }
 
 std::string text_of(const fs::path& scene, const CheckJob& job) {
-  return check_scene(scene, job).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(check_scene(scene, job), -1);
 }
 
 /// Libraries that promise not to throw end the process where they find no memory (cli/process.h).

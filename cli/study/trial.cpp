@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/exit.h"
+#include "cli/output/json.h"
 #include "cli/output/whole_file.h"
 #include "cli/progress.h"
 #include "cli/study/instructions.h"
@@ -77,7 +78,7 @@ void store(const Outcome& outcome, const std::filesystem::path& file) {
   json["failure"] = outcome.failure;
   json["recording"] = outcome.recording;
   WholeFile whole(file);
-  whole.write(json.dump() + "\n");
+  whole.write(json_text(json, -1) + "\n");
   whole.close();
   whole.publish();
 }
@@ -85,20 +86,25 @@ void store(const Outcome& outcome, const std::filesystem::path& file) {
 bool recall(const std::filesystem::path& file, Outcome& outcome) {
   std::ifstream in(file);
   const auto json = nlohmann::json::parse(in, nullptr, false);
-  if (json.is_discarded() || !json.contains("end_s") || !json.contains("quantities") || !json.contains("recording")) return false;
-  Outcome read;
-  for (const auto& q : json["quantities"])
-    read.quantities.push_back(
-        {q.at(0).get<std::string>(), q.at(1).is_number() ? q.at(1).get<double>() : std::numeric_limits<double>::quiet_NaN()});
-  read.contacts = json["contacts"].get<std::vector<std::string>>();
-  read.wall_s = json["wall_s"].get<std::vector<double>>();
-  read.instructions = json["instructions"].get<double>();
-  read.steps = json["steps"].get<long>();
-  read.end_s = json["end_s"].get<double>();
-  read.failure = json["failure"].get<std::string>();
-  read.recording = json["recording"].get<std::string>();
-  outcome = std::move(read);
-  return true;
+  if (!json.is_object()) return false;
+  try {
+    Outcome read;
+    for (const auto& q : json.at("quantities"))
+      read.quantities.push_back(
+          {q.at(0).get<std::string>(), q.at(1).is_number() ? q.at(1).get<double>() : std::numeric_limits<double>::quiet_NaN()});
+    read.contacts = json.at("contacts").get<std::vector<std::string>>();
+    read.wall_s = json.at("wall_s").get<std::vector<double>>();
+    read.instructions = json.at("instructions").get<double>();
+    if (!json.at("steps").is_number_integer()) return false;
+    read.steps = json.at("steps").get<long>();
+    read.end_s = json.at("end_s").get<double>();
+    read.failure = json.at("failure").get<std::string>();
+    read.recording = json.at("recording").get<std::string>();
+    outcome = std::move(read);
+    return true;
+  } catch (const nlohmann::json::exception&) {
+    return false;  // a value is missing or of another kind: no trial of ours
+  }
 }
 
 }  // namespace cli::study

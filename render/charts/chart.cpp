@@ -4,44 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+
+#include "render/charts/axes.h"
 
 namespace render::charts {
 namespace {
 
 constexpr double kTitleSize = 9, kTextSize = 7.2;  // [pt] readable on paper
 constexpr double kMarkerSize = 5.5;
-
-/// The span of one axis, and where on the paper it lies.
-struct Axis {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  bool log = false;
-  double from = 0, to = 0;  // paper
-
-  void take(double v) {
-    if (!std::isfinite(v) || (log && v <= 0)) return;
-    low = std::min(low, v);
-    high = std::max(high, v);
-  }
-  bool empty() const { return !(high >= low); }
-  void widen() {
-    if (log) {
-      const double room = std::max(1.12, std::pow(high / low, 0.06));
-      low /= room;
-      high *= room;
-    } else {
-      const double room = high > low ? 0.08 * (high - low) : std::max(1e-9, 0.01 * std::abs(high));
-      low -= room;
-      high += room;
-    }
-  }
-  double at(double v) const {
-    const double share = log ? std::log(std::max(v, low * 1e-9) / low) / std::log(high / low) : (v - low) / (high - low);
-    return from + share * (to - from);
-  }
-};
 
 void span(const Chart& chart, Axis& x, Axis& y) {
   x.log = chart.log_x;
@@ -106,7 +77,7 @@ void draw_top_scale(const Pen& pen, const Chart& chart, const Box& plot, const A
   double right = plot.x;
   pen.black();
   for (const Mark& tick : chart.top) {
-    if (tick.x < x.low || tick.x > x.high) continue;
+    if (!(tick.x >= x.low && tick.x <= x.high)) continue;
     pen.line(x.at(tick.x), plot.y, x.at(tick.x), plot.y - 3, 0.7);
     const double half = pen.measure(tick.text, kTextSize).width / 2;
     if (x.at(tick.x) - half < right) continue;  // no room beside the one before
@@ -116,12 +87,22 @@ void draw_top_scale(const Pen& pen, const Chart& chart, const Box& plot, const A
   pen.text(chart.top_label, plot.right(), plot.y - 22, kTextSize, Align::right);
 }
 
+bool shown(const Point& p) {
+  return Axis::shows(p.x) && Axis::shows(p.y);
+}
+
+bool has_ends(const Point& p) {
+  return Axis::shows(p.x) && Axis::shows(p.low) && Axis::shows(p.high);
+}
+
 void draw_band(const Pen& pen, const Band& band, const Axis& x, const Axis& y) {
   cairo_t* c = pen.cairo();
   if (band.points.empty()) return;
   cairo_new_path(c);
-  for (const Point& p : band.points) cairo_line_to(c, x.at(p.x), y.at(p.high));
-  for (auto p = band.points.rbegin(); p != band.points.rend(); ++p) cairo_line_to(c, x.at(p->x), y.at(p->low));
+  for (const Point& p : band.points)
+    if (has_ends(p)) cairo_line_to(c, x.at(p.x), y.at(p.high));
+  for (auto p = band.points.rbegin(); p != band.points.rend(); ++p)
+    if (has_ends(*p)) cairo_line_to(c, x.at(p->x), y.at(p->low));
   cairo_close_path(c);
   pen.black(0.14);
   cairo_fill(c);
@@ -134,16 +115,22 @@ void draw_line(const Pen& pen, const Line& line, int style, const Axis& x, const
     pen.dash(style);
     cairo_set_line_width(c, line.emphasised ? 1.6 : 0.9);
     cairo_new_path(c);
-    for (const Point& p : line.points) cairo_line_to(c, x.at(p.x), y.at(p.y));
+    for (const Point& p : line.points) {
+      if (shown(p))
+        cairo_line_to(c, x.at(p.x), y.at(p.y));
+      else
+        cairo_new_sub_path(c);  // a gap: nothing is known there
+    }
     cairo_stroke(c);
     cairo_set_dash(c, nullptr, 0, 0);
   }
   for (const Point& p : line.points) {
-    if (p.low != p.high) {
+    if (p.low != p.high && has_ends(p)) {
       pen.line(x.at(p.x), y.at(p.low), x.at(p.x), y.at(p.high), 0.8);
       for (const double end : {p.low, p.high}) pen.line(x.at(p.x) - 2.5, y.at(end), x.at(p.x) + 2.5, y.at(end), 0.8);
     }
-    if (line.marker > 0) pen.marker(style, x.at(p.x), y.at(p.y), line.marker * (line.emphasised ? 1.2 * kMarkerSize : kMarkerSize));
+    if (line.marker > 0 && shown(p))
+      pen.marker(style, x.at(p.x), y.at(p.y), line.marker * (line.emphasised ? 1.2 * kMarkerSize : kMarkerSize));
   }
 }
 
@@ -222,6 +209,7 @@ void draw_chart(const Pen& pen, const Chart& chart, const Box& box) {
   cairo_clip(pen.cairo());
   for (const Band& band : chart.bands) draw_band(pen, band, x, y);
   for (const Mark& level : chart.levels) {
+    if (!Axis::shows(level.y)) continue;
     pen.black(0.8);
     pen.dash(2);
     pen.line(plot.x, y.at(level.y), plot.right(), y.at(level.y), 0.8);
@@ -230,6 +218,7 @@ void draw_chart(const Pen& pen, const Chart& chart, const Box& box) {
   }
   for (std::size_t i = chart.lines.size(); i-- > 0;) draw_line(pen, chart.lines[i], static_cast<int>(i), x, y);
   for (const Mark& mark : chart.marks) {
+    if (!Axis::shows(mark.x) || !Axis::shows(mark.y)) continue;
     pen.black();
     cairo_set_line_width(pen.cairo(), 1.2);
     cairo_arc(pen.cairo(), x.at(mark.x), y.at(mark.y), 7, 0, 2 * M_PI);

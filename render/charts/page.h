@@ -80,9 +80,4 @@ struct Page {
 /// Writes BASE.pdf, BASE.svg and BASE.png, each whole or not at all. Returns their names. Throws RenderError.
 std::vector<std::string> write_page(const Page&, const std::filesystem::path& base);
 
-/// Round values from `low` to `high`, about `count` of them; powers of ten (with 2 and 5 if there are few) when `logarithmic`.
-std::vector<double> ticks(double low, double high, int count, bool logarithmic);
-/// A tick as it is written: "0.5", "20", "10⁻⁵"; with the digits that tell it from one `spacing` away.
-std::string tick_text(double value, double spacing = 0);
-
 }  // namespace render::charts

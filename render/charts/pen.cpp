@@ -33,7 +33,7 @@ Layout layout_of(cairo_t* c, const std::string& text, double size, bool bold, do
     pango_layout_set_width(layout.get(), static_cast<int>(wrap * PANGO_SCALE));
     pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);
   }
-  pango_layout_set_text(layout.get(), text.c_str(), -1);
+  pango_layout_set_text(layout.get(), drawable(text).c_str(), -1);
   return layout;
 }
 

@@ -44,4 +44,11 @@ void require_font() {
   if (!drawn) throw RenderError(std::string("drawing letters: the system has no font; install ") + kFont + " (fonts-dejavu-core)");
 }
 
+std::string drawable(const std::string& text) {
+  char* valid = g_utf8_make_valid(text.data(), static_cast<gssize>(text.size()));
+  const std::string out = valid;
+  g_free(valid);
+  return out;
+}
+
 }  // namespace render

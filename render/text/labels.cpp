@@ -33,7 +33,7 @@ class Line {
     pango_font_description_set_absolute_size(font, pixels * PANGO_SCALE);
     pango_layout_set_font_description(layout_, font);
     pango_font_description_free(font);
-    pango_layout_set_text(layout_, text.c_str(), -1);
+    pango_layout_set_text(layout_, drawable(text).c_str(), -1);
     pango_layout_get_pixel_size(layout_, &width_, &height_);
   }
   ~Line() { g_object_unref(layout_); }

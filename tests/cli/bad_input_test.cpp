@@ -255,3 +255,16 @@ TEST(BadInput, ExistingResultsAreLeftAloneWithoutOverwrite) {
   EXPECT_EQ(run(folder, {"simulate", "ball.toml", "-o", "out", "--overwrite"}).code, 0);
   EXPECT_THAT(contents(folder / "out/contacts.csv"), StartsWith("time_s,kind,"));
 }
+
+TEST(BadInput, AFileNameThatIsNoUtf8HasItsResults) {
+  const Folder folder;
+  const std::string name = "b\xffll.toml", told = "b\xef\xbf\xbdll.toml";
+  folder.write(name, kBall);
+  const Result done = run(folder, {"simulate", name, "-o", "out", "--json", "-q"});
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("\"path\": \"" + told + "\""));
+  EXPECT_EQ(contents(folder / "out/summary.json"), done.out);
+  const Result checked = run(folder, {"check", name, "--json"});
+  EXPECT_EQ(checked.code, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr(told));
+}

@@ -376,6 +376,18 @@ TEST(Render, ARunsFolderStandsForItsScene) {
   const Result changed = render({"out"}, "later.png");
   EXPECT_EQ(changed.code, 2);
   EXPECT_EQ(changed.err, "crashreel: out holds a run of ball.toml, which has been changed since; name a scene file\n");
+  // a summary that `simulate` never wrote stands for no scene
+  const Result no_scene = [&] {
+    folder.write("out/summary.json", "{}");
+    return render({"out"}, "of_nothing.png");
+  }();
+  for (const char* of :
+       {"{\"path\":5}", "{\"path\":\"ball.toml\",\"overrides\":\"a\"}", "{\"path\":\"ball.toml\",\"sha256\":[]}"}) {
+    folder.write("out/summary.json", std::string("{\"scene\":") + of + "}");
+    const Result odd = render({"out"}, "of_nothing.png");
+    EXPECT_EQ(odd.code, 2) << of;
+    EXPECT_EQ(odd.err, no_scene.err) << of;
+  }
 }
 
 TEST(Render, TheTitleTellsWhatWasChanged) {

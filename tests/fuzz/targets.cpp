@@ -10,8 +10,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
+#include "cli/command.h"
 #include "cli/exit.h"
 #include "cli/parse.h"
 #include "engine/geometry/triangle_mesh.h"
@@ -24,29 +26,6 @@
 
 namespace fuzz {
 namespace {
-
-void demand(bool holds, const char* promise) {
-  if (holds) return;
-  std::fprintf(stderr, "broken promise: %s\n", promise);
-  std::abort();
-}
-
-/// The bytes as a file, where a reader takes files only. The same file in memory again and again: a new one each time would cost
-/// more than reading it.
-const std::string& file_of(std::string_view bytes) {
-  static std::string name;
-  static int file = -1;
-  if (file < 0) {
-    const char* folder = std::filesystem::is_directory("/dev/shm") ? "/dev/shm" : "/tmp";
-    name = std::string(folder) + "/crashreel_fuzz_" + std::to_string(getpid());
-    file = open(name.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-    demand(file >= 0, "a temporary file can be made");
-    std::atexit([] { unlink(name.c_str()); });
-  }
-  demand(ftruncate(file, 0) == 0 && pwrite(file, bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(bytes.size()),
-         "a temporary file can be written");
-  return name;
-}
 
 /// The same PNG with checksums that fit: chance does not hit a CRC, and what lies behind it would never be read.
 std::string with_checksums(std::string_view bytes) {
@@ -66,13 +45,45 @@ std::string with_checksums(std::string_view bytes) {
   return out;
 }
 
-constexpr Target kTargets[] = {{"scene", scene}, {"quantity", quantity}, {"frames", frames},
-                               {"png", png},     {"mesh", mesh},         {"cage", cage}};
+constexpr Target kTargets[] = {{"scene", scene},
+                               {"quantity", quantity},
+                               {"frames", frames},
+                               {"png", png},
+                               {"mesh", mesh},
+                               {"cage", cage},
+                               {"arguments", arguments, nullptr, 500},
+                               {"request", request},
+                               {"journal", journal, written_journal},
+                               {"state", state, written_state},
+                               {"recording", recording, written_recording},
+                               {"chart", chart, nullptr, 1000}};
 
 }  // namespace
 
 std::span<const Target> targets() {
   return kTargets;
+}
+
+void demand(bool holds, const char* promise) {
+  if (holds) return;
+  std::fprintf(stderr, "broken promise: %s\n", promise);
+  std::abort();
+}
+
+const std::string& file_of(std::string_view bytes) {
+  // the same file in memory again and again: a new one each time would cost more than reading it
+  static std::string name;
+  static int file = -1;
+  if (file < 0) {
+    const char* folder = std::filesystem::is_directory("/dev/shm") ? "/dev/shm" : "/tmp";
+    name = std::string(folder) + "/crashreel_fuzz_" + std::to_string(getpid());
+    file = open(name.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    demand(file >= 0, "a temporary file can be made");
+    std::atexit([] { unlink(name.c_str()); });
+  }
+  demand(ftruncate(file, 0) == 0 && pwrite(file, bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(bytes.size()),
+         "a temporary file can be written");
+  return name;
 }
 
 void scene(std::string_view bytes) {
@@ -169,11 +180,58 @@ void mesh(std::string_view bytes) {
   demand(solid.triangles().empty() || (solid.bounds().lower.allFinite() && solid.bounds().upper.allFinite()), "a mesh has bounds");
 }
 
+void arguments(std::string_view bytes) {
+  // words as a shell hands them over, parted by line feeds; a word ends at its first zero
+  std::vector<std::string> words{"crashreel"};
+  for (std::size_t at = 0; at <= bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    words.emplace_back(bytes.substr(at, end - at));
+    at = end + 1;
+  }
+  std::vector<const char*> argv;
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  try {
+    demand(static_cast<bool>(cli::read_command_line(static_cast<int>(argv.size()), argv.data())), "a command line asks for a job");
+  } catch (const cli::UsageError& error) {
+    demand(error.what()[0] != '\0', "a refused command line says why");
+  }
+}
+
 }  // namespace fuzz
 
-#ifdef CRASHREEL_FUZZ_TARGET
+#ifdef CRASHREEL_FUZZ
+namespace {
+
+const fuzz::Target* chosen = nullptr;
+
+/// What the program itself writes, as files in FOLDER/<target>.
+void write_inputs(const std::filesystem::path& folder) {
+  for (const fuzz::Target& target : fuzz::targets()) {
+    int number = 0;
+    std::filesystem::create_directories(folder / target.name);
+    for (const std::string& input : target.written ? target.written() : std::vector<std::string>())
+      std::ofstream(folder / target.name / ("written_" + std::to_string(number++)), std::ios::binary) << input;
+  }
+}
+
+}  // namespace
+
+// The target is the one that CRASHREEL_FUZZ_TARGET names, as in all processes that libFuzzer starts. Without it: names of all, and
+// into the folder that is named what the program writes for them.
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
+  const char* name = std::getenv("CRASHREEL_FUZZ_TARGET");
+  for (const fuzz::Target& target : fuzz::targets()) {
+    if (!name) std::puts(target.name);
+    if (name && std::string_view(name) == target.name) chosen = &target;
+  }
+  if (!name && *argc > 1) write_inputs((*argv)[1]);
+  if (!name) std::exit(0);
+  fuzz::demand(chosen != nullptr, "CRASHREEL_FUZZ_TARGET names a target");
+  return 0;
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzz::CRASHREEL_FUZZ_TARGET({reinterpret_cast<const char*>(data), size});
+  chosen->run({reinterpret_cast<const char*>(data), size});
   return 0;
 }
 #endif

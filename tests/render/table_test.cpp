@@ -1,9 +1,12 @@
-// A page's table stays within its place, whatever stands in it.
+// A page's table stays within its place, whatever stands in it; ticks are few, whatever numbers they stand between.
 #include <cairo/cairo.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <string>
 
+#include "render/charts/axes.h"
 #include "render/charts/chart.h"
 
 namespace render::charts {
@@ -69,6 +72,29 @@ TEST(Chart, TheKeyOfNamedTicksStaysInItsPlace) {
     EXPECT_LE(ink.right(), place.right() + 1) << i;
     EXPECT_LE(ink.bottom(), place.bottom() + 1) << i;
   }
+}
+
+TEST(Ticks, AreFewAndFiniteBetweenWhateverNumbers) {
+  using Limits = std::numeric_limits<double>;
+  EXPECT_EQ(ticks(0, 10, 5, false), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+  EXPECT_EQ(ticks(1e300, std::nextafter(1e300, Limits::infinity()), 6, false), std::vector<double>{1e300}) << "none lies between";
+  EXPECT_EQ(ticks(-Limits::max(), Limits::max(), 1, false).size(), 1U);
+  EXPECT_EQ(ticks(0, Limits::denorm_min(), 6, false).size(), 1U);
+  EXPECT_TRUE(ticks(0, Limits::infinity(), 6, false).empty());
+  EXPECT_TRUE(ticks(Limits::quiet_NaN(), 1, 6, true).empty());
+  const std::vector<double> all = ticks(Limits::denorm_min(), Limits::max(), 6, true);
+  EXPECT_LE(all.size(), 8U);
+  for (const double tick : all) EXPECT_TRUE(std::isfinite(tick));
+}
+
+TEST(Ticks, AreWrittenWithTheirPowerOfTen) {
+  EXPECT_EQ(tick_text(2e-6), "2\u00b710\u207b\u2076");
+  EXPECT_EQ(tick_text(-1e5), "-10\u2075");
+  EXPECT_EQ(tick_text(9.9999e5), "10\u2076") << "not ten times ten to the fifth";
+  EXPECT_EQ(tick_text(5e-324), "4.94\u00b710\u207b\u00b3\u00b2\u2074");
+  EXPECT_EQ(tick_text(0.5, 0.1), "0.5");
+  EXPECT_EQ(tick_text(1, 5e-324), "1");
+  EXPECT_EQ(tick_text(std::numeric_limits<double>::infinity()), "inf");
 }
 
 TEST(Page, ChartsHaveTheRoomThatLittleBelowLeaves) {
