@@ -29,7 +29,7 @@ constexpr double kRoughestGround = 1.5;        // [-] beyond it no tyre or cloth
 constexpr double kHovers = 0.05;               // [m] of one that waits: poses stand within millimetres
 constexpr double kHighestStart = 1;            // [m] of a person's lowest point
 constexpr int kFirstSteps = 3;
-constexpr int kLookAhead = 5000;  // steps, a quarter of a second of computing
+constexpr int kLookAhead = 5000;  // steps; a check is no run
 constexpr int kPieces = 20;       // of them, after each of which it is asked whether something has touched
 
 /// What moves as one: a vehicle, a person, a free body.
