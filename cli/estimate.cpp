@@ -195,6 +195,11 @@ LoadingLimit::~LoadingLimit() {
   if (held_) setrlimit(RLIMIT_DATA, &before_);
 }
 
+void limit_memory(double bytes) {
+  const rlimit limit{static_cast<rlim_t>(bytes), static_cast<rlim_t>(bytes)};
+  if (setrlimit(RLIMIT_DATA, &limit) != 0) throw MachineError("the system sets no limit for --max-memory");
+}
+
 void hold_to_memory(const Estimate& estimate, double ceiling, int& workers, bool quiet) {
   const double one = estimate.worker + estimate.shared;
   const int fitting = one > 0 ? static_cast<int>(std::clamp((ceiling - estimate.recording) / one, 0.0, 1e6)) : 1;
@@ -210,8 +215,7 @@ void hold_to_memory(const Estimate& estimate, double ceiling, int& workers, bool
                  fitting == 1 ? "" : "es", estimate.workers, bytes_text(ceiling));
     workers = fitting;
   }
-  const rlimit limit{static_cast<rlim_t>(ceiling), static_cast<rlim_t>(ceiling)};
-  if (setrlimit(RLIMIT_DATA, &limit) != 0) throw MachineError("the system sets no limit for --max-memory");
+  limit_memory(ceiling);
 }
 
 }  // namespace cli

@@ -57,6 +57,9 @@ class LoadingLimit {
   bool held_ = false;
 };
 
+/// Holds this process, and each it starts, to so many bytes of memory for good. Throws MachineError.
+void limit_memory(double bytes);
+
 /// Holds this process and those it starts to the ceiling; what then does not fit ends with "not enough memory". Before it, throws
 /// UsageError when the estimate says that the job does not fit, and lowers `workers` where fewer drawing processes do.
 void hold_to_memory(const Estimate&, double ceiling, int& workers, bool quiet);

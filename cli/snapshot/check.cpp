@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fnmatch.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -49,14 +48,6 @@ Shares shares_of(const CheckJob& job, std::size_t scenes) {
     fmt::print(stderr, "crashreel: {} scene{} at once in place of {}, to stay below {} of memory\n", fitting,
                fitting == 1 ? "" : "s", wanted, bytes_text(all));
   return {fitting, all / fitting};
-}
-
-/// While a mesh is imported there are two processes for a scene, to which the same limit applies.
-void hold_to_share(double share) {
-  if (engine::kAddressSanitizer) return;  // its own addresses would count
-  const auto bytes = static_cast<rlim_t>(share / 2);
-  const rlimit limit{bytes, bytes};
-  if (setrlimit(RLIMIT_DATA, &limit) != 0) throw MachineError("the system sets no limit of memory");
 }
 
 /// Everything about one scene. What it cannot do stands in its errors.
@@ -142,7 +133,8 @@ std::vector<SceneReport> check_scenes(const std::vector<fs::path>& scenes, const
   workers.run(
       static_cast<int>(scenes.size()),
       [&](int i, int) {
-        hold_to_share(shares.memory);
+        // while a mesh is imported there are two processes; a sanitizer's own addresses would count
+        if (!engine::kAddressSanitizer) limit_memory(shares.memory / 2);
         return text_of(scenes[static_cast<std::size_t>(i)], job);
       },
       [&](const render::TaskResult& result) {
