@@ -114,11 +114,12 @@ double rod_distance(const Vec3& x, const Vec3& from, const Vec3& to, double radi
   return (x - from - s * along).norm() - radius;
 }
 
-}  // namespace
-
+/// [m] from the box around it, zero inside.
 double box_distance(const engine::HyperEllipsoid& e, const Vec3& x) {
   return (x.cwiseAbs() - e.semi_axes).cwiseMax(0).norm();
 }
+
+}  // namespace
 
 double radial_distance(const engine::HyperEllipsoid& e, const Vec3& x) {
   if (const double away = box_distance(e, x); away > kFar) return away;

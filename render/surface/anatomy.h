@@ -19,9 +19,6 @@ const Anatomy* anatomy_of(std::string_view segment);
 /// `mirrored` for the right side.
 double anatomical_distance(const Anatomy&, const engine::HyperEllipsoid&, bool mirrored, const Vec3& x);
 
-/// [m] from the box around it, zero inside. x in the segment's axes.
-double box_distance(const engine::HyperEllipsoid&, const Vec3& x);
-
 /// Along the ray from the centre; exact on the surface and for balls.
 double radial_distance(const engine::HyperEllipsoid&, const Vec3& x);
 

@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
 #include "render/parallel.h"
 #include "render/surface/skin_field.h"
@@ -23,48 +27,84 @@ struct Net {
   std::vector<Triangle> triangles;
 };
 
+/// The field at the nodes of the cells that the surface passes through, found by following it from cell to cell: a twelfth of all
+/// nodes. A hollow inside a body, which nobody sees, is left out.
 class Grid {
  public:
-  explicit Grid(const SkinField& field) {
+  using Node = std::array<int, 3>;
+
+  explicit Grid(const SkinField& field) : field_(field) {
     Vec3 upper;
     field.bounds(origin_, upper);
     cell_ = (upper.z() - origin_.z()) / kCells;
     for (int i = 0; i < 3; ++i) n_[i] = static_cast<int>(std::ceil((upper[i] - origin_[i]) / cell_)) + 2;
-    values_.resize(static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]));
-    const auto blocks = [](int nodes) { return static_cast<std::size_t>((nodes + kBlock - 1) / kBlock); };
-    in_parallel(blocks(n_[2]) * blocks(n_[1]), [&](std::size_t b) {
-      const int k = kBlock * static_cast<int>(b / blocks(n_[1])), j = kBlock * static_cast<int>(b % blocks(n_[1]));
-      for (int i = 0; i < n_[0]; i += kBlock) fill(field, {i, j, k});
-    });
+    values_.assign(static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]), kUnknown);
+    for (const Pose& X_MS : field.poses()) follow_surface(from_inside(X_MS.p));
   }
-  using Node = std::array<int, 3>;
   std::size_t index(const Node& a) const {
     return (static_cast<std::size_t>(a[2]) * static_cast<std::size_t>(n_[1]) + static_cast<std::size_t>(a[1])) *
                static_cast<std::size_t>(n_[0]) +
            static_cast<std::size_t>(a[0]);
   }
   Vec3 place(const Node& a) const { return origin_ + cell_ * Vec3(a[0], a[1], a[2]); }
+  bool known(const Node& a) const { return !std::isnan(value(a)); }
+  bool inside(const Node& a) const { return value(a) < 0; }
   double value(const Node& a) const { return values_[index(a)]; }
+  bool cut(const Node& a, const Node& b) const { return known(a) && known(b) && inside(a) != inside(b); }
   int size(int axis) const { return n_[static_cast<std::size_t>(axis)]; }
 
  private:
-  static constexpr int kBlock = 3;
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-  /// The nodes of a block; where it is clear of the surface, all as far outside.
-  void fill(const SkinField& field, const Node& from) {
-    const double half = 0.5 * (kBlock - 1);
-    const bool clear = field.clearance(place(from) + half * cell_ * Vec3::Ones()) > half * std::sqrt(3.0) * cell_;
-    std::vector<double> distances;
-    for (int k = from[2]; k < std::min(from[2] + kBlock, n_[2]); ++k)
-      for (int j = from[1]; j < std::min(from[1] + kBlock, n_[1]); ++j)
-        for (int i = from[0]; i < std::min(from[0] + kBlock, n_[0]); ++i)
-          values_[index({i, j, k})] = clear ? 1.0 : field.at(place({i, j, k}), distances);
+  double find(const Node& a) {
+    double& out = values_[index(a)];
+    if (std::isnan(out)) out = field_.at(place(a), distances_);
+    return out;
   }
 
+  /// The first cell along x from a point that the surface passes through; none where the point's node is outside.
+  std::optional<Node> from_inside(const Vec3& x) {
+    Node a;
+    for (int i = 0; i < 3; ++i) a[static_cast<std::size_t>(i)] = static_cast<int>((x[i] - origin_[i]) / cell_);
+    if (find(a) >= 0) return {};
+    for (; a[0] + 1 < n_[0]; ++a[0])
+      if (find({a[0] + 1, a[1], a[2]}) >= 0) return a;
+    return {};
+  }
+
+  void follow_surface(std::optional<Node> first) {
+    std::vector<Node> cells;
+    const auto reach = [&](const Node& cell) {
+      if (reached_.insert(index(cell)).second) cells.push_back(cell);
+    };
+    if (first) reach(*first);
+    while (!cells.empty()) {
+      const Node cell = cells.back();
+      cells.pop_back();
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        for (const int side : {0, 1}) {
+          int within = 0;
+          for (const auto& [u, v] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
+            Node corner = cell;
+            corner[axis] += side;
+            corner[(axis + 1) % 3] += u;
+            corner[(axis + 2) % 3] += v;
+            within += find(corner) < 0;
+          }
+          Node next = cell;
+          next[axis] += 2 * side - 1;
+          if (within > 0 && within < 4 && next[axis] >= 0 && next[axis] + 1 < n_[axis]) reach(next);
+        }
+    }
+  }
+
+  const SkinField& field_;
   Vec3 origin_;
   double cell_ = 0;  // [m]
   std::array<int, 3> n_{};
   std::vector<double> values_;
+  std::unordered_set<std::size_t> reached_;  // cells, by their lowest node
+  std::vector<double> distances_;            // scratch
 };
 
 /// The sheets of the surface that pass through one cell: two where a hand nearly touches itself. A vertex stands for each, or the
@@ -95,7 +135,7 @@ void join_across_face(const Grid& grid, const Grid::Node& a, int normal, int at,
     p[static_cast<std::size_t>(normal)] += at;
     p[static_cast<std::size_t>(u)] += on_u;
     p[static_cast<std::size_t>(v)] += on_v;
-    return grid.value(p) < 0;
+    return grid.inside(p);
   };
   const std::array<std::size_t, 4> edges{along_u(0), along_u(1), along_v(0), along_v(1)};
   const auto cut = std::count_if(edges.begin(), edges.end(), [&](std::size_t e) { return leader[e] >= 0; });
@@ -125,7 +165,7 @@ Sheets sheets_of(const Grid& grid, const Grid::Node& a) {
       ++q[static_cast<std::size_t>(axis)];
       const double u = grid.value(p), v = grid.value(q);
       const std::size_t e = edge_of_cell(axis, side & 1, side >> 1);
-      const bool cut = (u < 0) != (v < 0);
+      const bool cut = grid.cut(p, q);
       leader[e] = cut ? static_cast<int>(e) : -1;
       if (cut) place[e] = grid.place(p) + u / (u - v) * (grid.place(q) - grid.place(p));
     }
@@ -161,7 +201,7 @@ void in_slices(std::size_t count, Each each) {
 Net surface_net(const SkinField& field) {
   const Grid grid(field);
   Net net;
-  std::map<std::size_t, Sheets> known;
+  std::unordered_map<std::size_t, Sheets> known;
   auto vertex = [&](const Grid::Node& cell, std::size_t edge) {
     const auto [at, fresh] = known.try_emplace(grid.index(cell));
     Sheets& sheets = at->second;
@@ -176,13 +216,13 @@ Net surface_net(const SkinField& field) {
   };
   for (int k = 1; k + 1 < grid.size(2); ++k)
     for (int j = 1; j + 1 < grid.size(1); ++j)
-      for (int i = 1; i + 1 < grid.size(0); ++i)
+      for (int i = 1; i + 1 < grid.size(0); ++i) {
+        const Grid::Node p{i, j, k};
+        if (!grid.known(p)) continue;
         for (int axis = 0; axis < 3; ++axis) {
-          const Grid::Node p{i, j, k};
           Grid::Node q = p;
           ++q[static_cast<std::size_t>(axis)];
-          const bool from_inside = grid.value(p) < 0;
-          if (from_inside == (grid.value(q) < 0)) continue;
+          if (!grid.cut(p, q)) continue;
           std::array<std::uint32_t, 4> corner{};
           constexpr std::array<std::array<int, 2>, 4> kAround{{{0, 0}, {-1, 0}, {-1, -1}, {0, -1}}};
           for (std::size_t c = 0; c < 4; ++c) {
@@ -191,10 +231,11 @@ Net surface_net(const SkinField& field) {
             cell[static_cast<std::size_t>((axis + 2) % 3)] += kAround[c][1];
             corner[c] = vertex(cell, edge_of_cell(axis, -kAround[c][0], -kAround[c][1]));
           }
-          if (!from_inside) std::swap(corner[1], corner[3]);
+          if (!grid.inside(p)) std::swap(corner[1], corner[3]);
           net.triangles.push_back({corner[0], corner[1], corner[2]});
           net.triangles.push_back({corner[0], corner[2], corner[3]});
         }
+      }
   in_slices(net.vertices.size(), [&](std::size_t v) { net.vertices[v] = field.onto_surface(net.vertices[v]); });
   return net;
 }

@@ -68,14 +68,6 @@ double SkinField::at(const Vec3& x, std::vector<double>& distances) const {
   return least;
 }
 
-double SkinField::clearance(const Vec3& x) const {
-  constexpr double kBeyond = 0.09;  // [m] beyond the box of a part: what anatomy and fillets put on
-  double least = 1e9;
-  for (std::size_t i = 0; i < looks_.size(); ++i)
-    least = std::min(least, box_distance(person_.segments[i].shape, looks_[i].R_SM * x + looks_[i].p_SM));
-  return least - kBeyond;
-}
-
 Vec3 SkinField::normal(const Vec3& x) const {
   constexpr double kStep = 1e-4;  // [m]
   std::vector<double> unused;

@@ -14,8 +14,6 @@ class SkinField {
 
   /// [m], zero on the surface, grows along rays from the segments' centres; `distances` gets that to each segment alone.
   double at(const Vec3&, std::vector<double>& distances) const;
-  /// [m] within which of x there is certainly no surface; negative: nothing is known.
-  double clearance(const Vec3&) const;
   Vec3 normal(const Vec3&) const;
   /// The point of the surface near x.
   Vec3 onto_surface(Vec3 x) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 namespace scenes {
@@ -35,16 +36,21 @@ std::vector<Drawn> drawn_of(const render::Mesh& look) {
 
 /// Of what is drawn nearest and faces the same way; `drawn` in order of x.
 bool is_glass(const std::vector<Drawn>& drawn, const Vec3& p, const Vec3& n) {
-  constexpr double kReach = 0.15;  // [m]
-  double least = kReach;
+  double least = 0.15;  // [m] farther off it says nothing
   bool glass = false;
-  auto at = std::lower_bound(drawn.begin(), drawn.end(), p.x() - kReach, [](const Drawn& d, double x) { return d.centre.x() < x; });
-  for (; at != drawn.end() && at->centre.x() < p.x() + kReach; ++at) {
-    const Vec3 away = at->centre - p;
-    if (std::abs(away.y()) >= least || std::abs(away.z()) >= least) continue;  // nearly all: before the root
-    const double d = away.norm();
-    if (d < least && at->normal.dot(n) > 0.5) least = d, glass = at->glass;
-  }
+  // false where all beyond are farther along x than the nearest so far
+  const auto look_at = [&](const Drawn& d) {
+    const Vec3 away = d.centre - p;
+    if (std::abs(away.x()) >= least) return false;
+    if (std::abs(away.y()) >= least || std::abs(away.z()) >= least) return true;  // nearly all: before the root
+    const double distance = away.norm();
+    if (distance < least && d.normal.dot(n) > 0.5) least = distance, glass = d.glass;
+    return true;
+  };
+  const auto middle =
+      std::lower_bound(drawn.begin(), drawn.end(), p.x(), [](const Drawn& d, double x) { return d.centre.x() < x; });
+  for (auto at = middle; at != drawn.end() && look_at(*at);) ++at;
+  for (auto at = middle; at != drawn.begin() && look_at(*std::prev(at));) --at;
   return glass;
 }
 
