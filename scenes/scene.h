@@ -60,6 +60,17 @@ struct SceneFile {
 /// Throws SceneErrors where it cannot be read.
 SceneFile read_scene_file(const std::filesystem::path&, std::vector<std::filesystem::path> allowed = {});
 
+struct ImportedMesh;
+/// Mesh files as they were brought in, and what was made of them for contact: read once for a scene and all its variants. What is
+/// written to a mesh file after that is not seen.
+struct MeshShelf {
+  using Solid = std::shared_ptr<const engine::TriangleMesh>;
+  using Look = std::shared_ptr<const render::Mesh>;
+  std::map<std::string, std::shared_ptr<const ImportedMesh>> files;                // by path
+  std::map<std::pair<Solid, double>, Solid> coarse;                                // by surface and tolerance [m]
+  std::map<std::pair<Solid, Look>, std::shared_ptr<const engine::Panels>> panels;  // of a surface, by how its mesh looks
+};
+
 struct Scene {
   std::string title;
   SceneFile file;
@@ -74,22 +85,14 @@ struct Scene {
   Inference inference;
   std::vector<std::string> warnings;          // file:line:column: what looked odd but loads
   std::map<std::string, double> closed_form;  // expected measures the scene carries, SI, by metric key
-};
-
-struct ImportedMesh;
-/// Mesh files as they were brought in, and what was made of them for contact. Whoever loads variants of a scene keeps one, and
-/// every file is read once; what is written to a mesh file after that is not seen.
-struct MeshShelf {
-  using Solid = std::shared_ptr<const engine::TriangleMesh>;
-  using Look = std::shared_ptr<const render::Mesh>;
-  std::map<std::string, std::shared_ptr<const ImportedMesh>> files;                // by path
-  std::map<std::pair<Solid, double>, Solid> coarse;                                // by surface and tolerance [m]
-  std::map<std::pair<Solid, Look>, std::shared_ptr<const engine::Panels>> panels;  // of a surface, by how its mesh looks
+  std::shared_ptr<MeshShelf> meshes;
 };
 
 /// Reads, checks and completes a scene. Overrides are applied before checking. Throws SceneErrors with everything found.
-Scene load(const SceneFile&, const std::vector<std::string>& overrides = {}, MeshShelf* shelf = nullptr);
-Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides = {}, MeshShelf* shelf = nullptr);
+Scene load(const SceneFile&, const std::vector<std::string>& overrides = {}, std::shared_ptr<MeshShelf> = nullptr);
+Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+/// The same scene with overrides on top of its own. Throws SceneErrors.
+Scene variant(const Scene&, const std::vector<std::string>& overrides);
 
 /// JSON Schema (draft 2020-12) of the scene format, from the table the loader reads.
 std::string json_schema();

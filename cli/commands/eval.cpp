@@ -37,11 +37,9 @@ int evaluate(const EvalWish& wish) {
   plan_of(scene);  // refuses effects that do not exist
   inference::Request request = inference::read_request(scene, text_of(wish.parameters));
   if (!wish.measures.empty()) request.measures = wish.measures;
-  scenes::MeshShelf meshes;
-  scenes::load(scene.file, scene.overrides, &meshes);  // once, before the processes part
   std::vector<inference::Answer> answers(request.values.size());
   const auto work = [&](std::size_t k) {
-    return inference::as_line("", inference::answer(scene, inference::overrides_of(request, k), meshes));
+    return inference::as_line("", inference::answer(scene, inference::overrides_of(request, k)));
   };
   const auto take = [&](std::size_t k, const std::string& line, const std::string& death) {
     auto found = inference::from_line(line);

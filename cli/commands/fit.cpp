@@ -80,11 +80,7 @@ int run(const FitWish& wish) {
   const int jobs = wish.jobs.empty() ? study::available_cores() : parse_integer("--jobs", wish.jobs, 1, 1024);
   const int cases = wish.calibrate.empty() ? 0 : parse_integer("--calibrate", wish.calibrate, 10, 100'000);
   // refused before the work, not after it
-  for (const std::string& change : wish.but_for) {
-    std::vector<std::string> all = scene.overrides;
-    all.push_back(change);
-    scenes::load(scene.file, all);
-  }
+  for (const std::string& change : wish.but_for) scenes::variant(scene, {change});
   const std::filesystem::path folder = wish.folder;
   make_writable_folder(folder);
   for (const char* name : {"posterior.csv", "fit.json", "best.toml", "fit.pdf", "fit.svg", "fit.png"})

@@ -63,10 +63,8 @@ void refuse_slips(const scenes::Scene& scene, const std::vector<inference::GridA
   for (const inference::GridAxis& axis : grid) {
     std::string problem;
     for (const std::string& value : axis.values) {
-      std::vector<std::string> overrides = scene.overrides;
-      overrides.push_back(axis.key + "=" + value);
       try {
-        scenes::load(scene.file, overrides);
+        scenes::variant(scene, {axis.key + "=" + value});
         problem.clear();
         break;
       } catch (const scenes::SceneErrors& errors) {

@@ -33,12 +33,10 @@ std::string first_line(const std::string& text) {
 
 }  // namespace
 
-Answer answer(const scenes::Scene& scene, const std::vector<std::string>& overrides, scenes::MeshShelf& meshes) {
+Answer answer(const scenes::Scene& scene, const std::vector<std::string>& overrides) {
   Answer out;
   try {
-    std::vector<std::string> all = scene.overrides;
-    all.insert(all.end(), overrides.begin(), overrides.end());
-    const scenes::Scene variant = scenes::load(scene.file, all, &meshes);
+    const scenes::Scene variant = scenes::variant(scene, overrides);
     const engine::Recording recording = engine::simulate(variant.model, engine::compile(variant.model));
     if (const auto& failure = recording.failure) {
       out.status = fmt::format("diverged at {:.4f} s, body {}: {}", failure->time, failure->body, failure->message);

@@ -42,8 +42,6 @@ Ensemble::Ensemble(const scenes::Scene& scene, EnsembleWish wish) : scene_(scene
   make_writable_folder(wish_.folder / "runs");
   const std::string head = head_of(scene_);
   journal_ = wish_.folder / "runs" / (head.substr(15, 32) + (wish_.part.empty() ? "" : "." + wish_.part) + ".jsonl");
-  // meshes are brought in once, before the processes part
-  scenes::load(scene_.file, scene_.overrides, meshes_.get());
   recall();
 }
 
@@ -82,7 +80,7 @@ std::vector<Answer> Ensemble::run(const std::vector<std::vector<std::string>>& r
     if (const std::string name = name_of(runs[i]); !known_.contains(name) && asked.insert(name).second) waiting.push_back(i);
   Progress progress(stage.empty() ? wish_.verb : wish_.verb + " " + stage, "runs", static_cast<double>(waiting.size()), wish_.show);
   std::size_t done = 0;
-  const auto work = [&](std::size_t k) { return as_line(name_of(runs[waiting[k]]), answer(scene_, runs[waiting[k]], *meshes_)); };
+  const auto work = [&](std::size_t k) { return as_line(name_of(runs[waiting[k]]), answer(scene_, runs[waiting[k]])); };
   const auto take = [&](std::size_t k, const std::string& line, const std::string& death) {
     auto found = line.empty() ? std::nullopt : from_line(line);
     Answer a = found ? std::move(found->second) : Answer{};

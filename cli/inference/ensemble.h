@@ -53,7 +53,6 @@ class Ensemble {
   scenes::Scene scene_;
   EnsembleWish wish_;
   std::filesystem::path journal_;
-  std::shared_ptr<scenes::MeshShelf> meshes_ = std::make_shared<scenes::MeshShelf>();
   std::map<std::string, Answer> known_;  // by overrides
 };
 
@@ -68,7 +67,7 @@ class FolderLock {
 };
 
 /// One run on this process' core. What is wrong with the inputs stands in the status.
-Answer answer(const scenes::Scene& scene, const std::vector<std::string>& overrides, scenes::MeshShelf&);
+Answer answer(const scenes::Scene& scene, const std::vector<std::string>& overrides);
 
 /// A line of text that holds an answer, and back; nothing when the line is damaged or none of these.
 std::string as_line(const std::string& name, const Answer&);

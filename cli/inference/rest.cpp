@@ -108,9 +108,7 @@ struct Repeated {
 Repeated repeat(const scenes::Scene& scene, const Prior& prior, const Sample& sample, const Percentile& p) {
   const std::vector<double> values = column(sample.table, sample.main);
   const std::size_t run = nearest_run(values, p.value);
-  std::vector<std::string> overrides = scene.overrides;
-  for (std::string& text : overrides_of(prior, sample.table, sample.table.rows[run])) overrides.push_back(std::move(text));
-  Repeated out{scenes::load(scene.file, overrides), {}, {}};
+  Repeated out{scenes::variant(scene, overrides_of(prior, sample.table, sample.table.rows[run])), {}, {}};
   out.recording = engine::simulate(out.scene.model, engine::compile(out.scene.model));
   out.label = fmt::format("run {} at {:g} % of the {}, {:.3g} {}", run + 1, 100 * p.share, study::words_of(sample.main),
                           values[run], study::unit_of(sample.main));

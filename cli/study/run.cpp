@@ -18,15 +18,12 @@ struct Batch {
   std::vector<Trial> trials;
   bool timed = true;
   std::string program = build_id();
-  std::shared_ptr<scenes::MeshShelf> meshes = std::make_shared<scenes::MeshShelf>();
 
   void add(const scenes::Scene& scene, const Setting& setting, double cost) {
-    std::vector<std::string> overrides = scene.overrides;
-    overrides.insert(overrides.end(), setting.overrides.begin(), setting.overrides.end());
-    const scenes::Scene loaded = scenes::load(scene.file, overrides, meshes.get());
+    const scenes::Scene loaded = scenes::variant(scene, setting.overrides);
     for (int member = 0; member <= setting.members; ++member) {
-      Trial trial{scene.file,           overrides, setting.start > 0 ? -setting.start : member, cost, timed, "",
-                  loaded.assets_sha256, meshes};
+      Trial trial{scene.file,           loaded.overrides, setting.start > 0 ? -setting.start : member, cost, timed, "",
+                  loaded.assets_sha256, scene.meshes};
       trial.fingerprint = fingerprint_of(trial, loaded, program);
       trials.push_back(std::move(trial));
     }
@@ -68,10 +65,8 @@ InputRange parse_input(const std::string& text) {
 }
 
 bool accepted(const scenes::Scene& scene, const std::vector<std::string>& overrides) {
-  std::vector<std::string> all = scene.overrides;
-  all.insert(all.end(), overrides.begin(), overrides.end());
   try {
-    scenes::load(scene.file, all);
+    scenes::variant(scene, overrides);
     return true;
   } catch (const scenes::SceneErrors&) {
     return false;
@@ -110,10 +105,8 @@ void check_inputs(const scenes::Scene& scene, const std::vector<std::string>& in
   for (const std::string& text : inputs) {
     const InputRange range = parse_input(text);
     for (const std::string& end : {range.low, range.high}) {
-      std::vector<std::string> overrides = scene.overrides;
-      overrides.push_back(range.key + "=" + end);
       try {
-        scenes::load(scene.file, overrides);
+        scenes::variant(scene, {range.key + "=" + end});
       } catch (const scenes::SceneErrors& errors) {
         throw UsageError(fmt::format("--input {}: {}", text, complaint(errors)));
       }

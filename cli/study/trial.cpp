@@ -32,7 +32,7 @@ std::string fingerprint_of(const Trial& trial, const scenes::Scene& scene, const
 }
 
 Outcome run(const Trial& trial) {
-  scenes::Scene scene = scenes::load(trial.scene, trial.overrides, trial.meshes.get());
+  scenes::Scene scene = scenes::load(trial.scene, trial.overrides, trial.meshes);
   if (trial.assets != scene.assets_sha256)
     throw MachineError(fmt::format("a file that {} names was changed while the study ran", trial.scene.path.string()));
   if (trial.member < 0)

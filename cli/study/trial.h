@@ -20,7 +20,7 @@ struct Trial {
   bool timed = true;                                    // repeated until its time is known
   std::string fingerprint;                              // of scene, overrides, member and program
   std::string assets;                                   // hash of the files the scene read when that was made
-  std::shared_ptr<scenes::MeshShelf> meshes = nullptr;  // of all trials of a study
+  std::shared_ptr<scenes::MeshShelf> meshes = nullptr;  // the scene's
 };
 
 struct Outcome {

@@ -15,8 +15,7 @@ namespace scenes {
 struct Builder {
   Scene scene;
   Errors errors;
-  std::filesystem::path folder;  // of the scene file
-  MeshShelf* shelf = nullptr;    // ten cars load and coarsen one mesh, here or in a load before
+  std::filesystem::path folder;                                       // of the scene file
   std::map<std::string, std::shared_ptr<const ImportedMesh>> meshes;  // by path: those of this scene, each told of once
 
   std::string assets;  // hashes of the library files and meshes read, in order

@@ -187,11 +187,17 @@ SceneFile read_scene_file(const std::filesystem::path& file, std::vector<std::fi
   return {file, read_text(file), std::move(allowed)};
 }
 
-Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides, MeshShelf* shelf) {
-  return load(read_scene_file(file), overrides, shelf);
+Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return load(read_scene_file(file), overrides);
 }
 
-Scene load(const SceneFile& file, const std::vector<std::string>& overrides, MeshShelf* shelf) {
+Scene variant(const Scene& scene, const std::vector<std::string>& overrides) {
+  std::vector<std::string> all = scene.overrides;
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return load(scene.file, all, scene.meshes);
+}
+
+Scene load(const SceneFile& file, const std::vector<std::string>& overrides, std::shared_ptr<MeshShelf> meshes) {
   Value root = parse_text(file.text, file.path.string());
   for (const std::string& text : overrides) apply_override(root, text);
   refuse_crowds(root, "");
@@ -201,8 +207,7 @@ Scene load(const SceneFile& file, const std::vector<std::string>& overrides, Mes
   resolve_variables(root, builder.errors);
   builder.folder = file.path.parent_path();
   builder.scene.file = file;
-  MeshShelf own;
-  builder.shelf = shelf ? shelf : &own;
+  builder.scene.meshes = meshes ? std::move(meshes) : std::make_shared<MeshShelf>();
   Reader r(root, scene_section(), "", builder.errors);
   Heading heading;
   r.fill(heading);

@@ -264,7 +264,7 @@ std::shared_ptr<const ImportedMesh> import_mesh(Builder& builder, Reader& r, std
   if (file.empty()) return nullptr;
   auto& cached = builder.meshes[file.string()];
   if (cached) return cached;
-  auto& imported = builder.shelf->files[file.string()];
+  auto& imported = builder.scene.meshes->files[file.string()];
   std::string problem;
   if (!imported) imported = bring_in(std::filesystem::canonical(file), extension, problem);
   if (!imported) {

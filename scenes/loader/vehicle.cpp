@@ -163,9 +163,9 @@ void add_actors(Builder& builder, const VehicleGiven& given, const engine::Vehic
 
 /// The mesh for contact, thinned out, with its panels.
 engine::MeshShape collision_shape(Builder& builder, const Meshes& meshes, const engine::Pose& X_BM, double tolerance) {
-  auto& coarse = builder.shelf->coarse[{meshes.collision->solid->mesh(), tolerance}];
+  auto& coarse = builder.scene.meshes->coarse[{meshes.collision->solid->mesh(), tolerance}];
   if (!coarse) coarse = decimate(meshes.collision->solid->mesh(), tolerance);
-  auto& panels = builder.shelf->panels[{coarse, meshes.bodywork->look}];
+  auto& panels = builder.scene.meshes->panels[{coarse, meshes.bodywork->look}];
   if (!panels) panels = panels_of(*coarse, *meshes.bodywork->look);
   return {coarse, X_BM, tolerance, panels};
 }

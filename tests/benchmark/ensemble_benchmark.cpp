@@ -48,14 +48,12 @@ std::vector<std::vector<std::string>> variants(const scenes::Scene& scene, int c
 }
 
 void overhead(const scenes::Scene& scene, int count) {
-  scenes::MeshShelf shelf;
-  scenes::load(scene.file, {}, &shelf);
   double bare = 0, loading = 0, whole = 0;
   for (const auto& overrides : variants(scene, count, 1)) {
     std::optional<scenes::Scene> variant;
-    loading += processor_time([&] { variant = scenes::load(scene.file, overrides, &shelf); });
+    loading += processor_time([&] { variant = scenes::variant(scene, overrides); });
     bare += processor_time([&] { engine::simulate(variant->model, engine::compile(variant->model)); });
-    whole += processor_time([&] { as_line("", answer(scene, overrides, shelf)); });
+    whole += processor_time([&] { as_line("", answer(scene, overrides)); });
   }
   fmt::print(
       "{} runs one after the other: bare {:.1f} ms, whole {:.1f} ms a run, of which loading {:.2f} ms: {:+.1f} % over bare\n",

@@ -211,7 +211,7 @@ OddScene Generator::make(std::uint64_t seed, double duration) const {
     std::vector<std::string> all = out.overrides;
     all.push_back(lasts);
     try {
-      out.scene = scenes::load(base.file, all, &meshes_);
+      out.scene = scenes::load(scenes::read_scene_file(base.file), all, meshes_);
       out.overrides = std::move(all);
       return out;
     } catch (const scenes::SceneErrors& errors) {

@@ -48,7 +48,7 @@ class Generator {
   void collect(const scenes::Section&, const scenes::Value&, const std::string& path, std::vector<Place>&) const;
 
   std::vector<Loaded> bases_;
-  mutable scenes::MeshShelf meshes_;
+  std::shared_ptr<scenes::MeshShelf> meshes_ = std::make_shared<scenes::MeshShelf>();
   std::vector<double> weights_;
 };
 
