@@ -57,9 +57,14 @@ struct Lowest {
   double way;
 };
 
-/// Newton's method, damped. True when it is done: at the minimum, below `least`, or steeper than `steepest`. The way is convex:
-/// what is steeper than that gets no better.
-bool descend(const Way& way, Lowest& at, double least, double steepest) {
+/// Where looking on changes nothing: the way is convex, and what is steeper gets no better. It may fall for ever towards there.
+struct Bounds {
+  double least, steepest;
+  bool passed_by(const Lowest& at) const { return at.way < least || at.s.norm() > steepest; }
+};
+
+/// Newton's method, damped. True when it is done: at the minimum, or past the bounds.
+bool descend(const Way& way, Lowest& at, const Bounds& bounds) {
   constexpr int kIterations = 60;
   constexpr double kStationary = 1e-10;  // [m] of the slope; the way errs by its square over the radius
   double damping = 1e-6 * way.tyre.radius;
@@ -77,7 +82,7 @@ bool descend(const Way& way, Lowest& at, double least, double steepest) {
       damping *= better ? 0.1 : 10;
       if (better) at = {at.s + step, next};
     }
-    if (at.way < least || at.s.norm() > steepest) return true;
+    if (bounds.passed_by(at)) return true;
     if (!better) return false;
   }
   return false;
@@ -85,10 +90,12 @@ bool descend(const Way& way, Lowest& at, double least, double steepest) {
 
 /// On a part with flat sides Newton stalls at its edges: there the way all but has kinks, where the normal is across a body axis.
 /// Steps along and across those, ever shorter.
-void creep_down(const Way& way, Lowest& at) {
+void creep_down(const Way& way, Lowest& at, const Bounds& bounds) {
   constexpr double kFirst = 0.3, kLast = 1e-8;  // [-] of the slope s
-  for (double reach = kFirst; reach > kLast; reach *= 0.5)
-    for (bool better = true; better;) {
+  constexpr int kMostSteps = 1000;              // of one reach; some ten are usual
+  for (double reach = kFirst; reach > kLast; reach *= 0.5) {
+    bool better = true;
+    for (int k = 0; better && k < kMostSteps; ++k) {
       better = false;
       for (int i = 0; i < 12; ++i) {
         const Eigen::Vector2d across = way.E.transpose() * way.R_WA.col(i % 3);
@@ -96,8 +103,10 @@ void creep_down(const Way& way, Lowest& at) {
         const Eigen::Vector2d kink = across.normalized(), to = i % 2 ? kink : kink.unitOrthogonal();
         const Eigen::Vector2d s = at.s + (i < 6 ? reach : -reach) * to;
         if (const double next = way.value(way.normal(s)); next < at.way) at = {s, next}, better = true;
+        if (bounds.passed_by(at)) return;
       }
     }
+  }
 }
 
 }  // namespace
@@ -109,7 +118,8 @@ std::optional<TyreTouch> move_clear(const Tyre& tyre, const HyperEllipsoid& shap
   way.E.col(1) = along.cross(way.E.col(0));
   const double steepest = std::sqrt(1 / (facing * facing) - 1);
   Lowest at{Eigen::Vector2d::Zero(), way.value(along)};
-  if (!descend(way, at, least, 2 * steepest)) creep_down(way, at);
+  const Bounds bounds{least, 2 * steepest};
+  if (!descend(way, at, bounds)) creep_down(way, at, bounds);
   if (at.s.norm() > steepest || at.way < least) return std::nullopt;
   const Vec3 m = way.normal(at.s);
   TyreTouch touch;

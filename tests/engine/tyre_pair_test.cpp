@@ -59,6 +59,19 @@ TEST(TyrePair, LeavesPartsOfAllFormsAsASweepOverNormalsSays) {
   }
 }
 
+/// Over the edge of a wall ahead the way falls for ever, the steeper the farther: the search ends where that says no.
+TEST(TyrePair, AWallTheWheelDoesNotStandOnIsNoneAtOnce) {
+  const Tyre tyre{Vec3(0, 0, 0.31), Vec3::UnitY(), 0.31, 0.1};
+  const HyperEllipsoid wall{Vec3(0.3, 4, 1.2), 30};
+  const Vec3 up(-2.2e-7, 0, 1);  // of a car that nods
+  for (int k = 0; k <= 250; ++k)
+    for (const double least : {-1.0, -5e-6}) {
+      const double ahead = 0.25 + 0.01 * k;  // [m] of the wall's face, from the axle
+      const auto touch = move_clear(tyre, wall, {Vec3(0.3 + ahead, 0.77, 1.2)}, up, 0.2, least);
+      EXPECT_TRUE(!touch || (ahead < tyre.radius && touch->way > 2)) << ahead;  // else clear of it
+    }
+}
+
 // ---- a car that meets something on the road ----
 
 constexpr double kFriction = 0.8;
