@@ -331,12 +331,33 @@ bool is_person(const scenes::Scene& scene, const std::string& name) {
   return std::any_of(persons.begin(), persons.end(), [&](const engine::Person& p) { return p.name == name; });
 }
 
-/// Beside a way to rest of who does not rest yet: a longer run gives another number.
-const char* unfinished(const engine::Metric& metric, const std::vector<engine::AbsentMetric>& absent) {
-  const bool to_rest = metric.key == "throw_distance_m" || metric.key == "slide_m";
-  const bool moves =
-      std::any_of(absent.begin(), absent.end(), [&](const auto& a) { return a.key == "rest_s" && a.object == metric.object; });
-  return to_rest && moves ? " so far, still moving at the end" : "";
+using Absent = std::vector<engine::AbsentMetric>;
+
+bool lacks(const Absent& absent, const char* key, const std::string& object) {
+  return std::any_of(absent.begin(), absent.end(), [&](const auto& a) { return a.key == key && a.object == object; });
+}
+
+/// Beside a way to rest of who does not rest yet: a longer run gives another number. A roll that ends on the wheels is over.
+const char* unfinished(const engine::Metric& metric, const std::vector<engine::Metric>& all, const Absent& absent) {
+  const auto on_wheels = [&](const engine::Metric& m) {
+    return m.key == "quarter_turns" && m.object == metric.object && std::remainder(m.value, 4) == 0;
+  };
+  const bool rolls = metric.key == "roll_distance_m" && std::none_of(all.begin(), all.end(), on_wheels);
+  const bool to_rest = metric.key == "throw_distance_m" || metric.key == "slide_m" || rolls;
+  return to_rest && lacks(absent, "rest_s", metric.object) ? " so far, still moving at the end" : "";
+}
+
+/// Beside the way of a phase that leads back: the ways are parts of the line from first touch to rest.
+const char* backwards(const engine::Metric& metric) {
+  constexpr double kSeen = 0.005;  // [m] less is printed as none
+  const bool phase = metric.key == "airborne_m" || metric.key == "fall_m" || metric.key == "slide_m";
+  return phase && metric.value < -kSeen ? ", against the throw" : "";
+}
+
+/// What a screen has room for: the main ones, and the ways of who never came down. The rest stands in summary.json.
+bool is_shown(const engine::Metric& metric, const engine::Definition* known, const Absent& absent) {
+  if (!known || known->main) return true;
+  return (metric.key == "contact_m" || metric.key == "carried_m") && lacks(absent, "landing_s", metric.object);
 }
 
 /// Names at the left, values in one column.
@@ -358,14 +379,13 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
   const double initial = first.kinetic + first.potential;
   std::vector<std::pair<std::string, std::string>> lines;
   const auto line = [&lines](const std::string& name, const std::string& value) { lines.emplace_back(name, value); };
-  const std::vector<engine::AbsentMetric> absent = engine::absent_metrics(scene.model, recording, metrics);
-  // what a screen has room for; the rest stands in summary.json
+  const Absent absent = engine::absent_metrics(scene.model, recording, metrics);
   for (const engine::Metric& metric : metrics) {
     const engine::Definition* known = engine::definition_of(metric.key);
-    if (known && !known->main) continue;
+    if (!is_shown(metric, known, absent)) continue;
     line(metric.object.empty() ? metric.key : metric.key + " " + metric.object,
          metric.text.empty() ? digits_of(metric, known, is_person(scene, metric.object)) + scattered(metric, metrics) +
-                                   unfinished(metric, absent) + dragged(metric, scene, recording)
+                                   unfinished(metric, metrics, absent) + backwards(metric) + dragged(metric, scene, recording)
                              : metric.text);
   }
   // whose it is, where another has it

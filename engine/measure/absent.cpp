@@ -38,7 +38,7 @@ void absent_throw(const Model& model, const Recording& recording, int p, Absence
   absent.note("first_ground_contact_s", name, up);
   absent.note("carried_m", name, "never as fast as the vehicle while it pushed");
   const char* no_landing = t->lay ? "it lay on the ground when it was struck" : "it did not land";
-  absent.note("airborne_m", name, t->landed ? "never off vehicle and ground for 50 ms before it landed" : no_landing);
+  absent.note("airborne_m", name, t->landed ? "something touched or held it at least every 50 ms before it landed" : no_landing);
   const char* flew = t->flew ? "it flew for 50 ms or more" : "a vehicle pushed it until it landed";
   absent.note("fall_m", name, t->landed ? flew : no_landing);
   absent.note("landing_m", name, no_landing);

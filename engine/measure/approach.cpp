@@ -11,6 +11,13 @@ namespace {
 
 using Point2 = Eigen::Vector2d;
 
+constexpr double kSame = 1e-6;  // [m] two that stand hum by less: of as near instants the first tells
+
+bool nearer(double distance, double time, const std::optional<Approach>& best) {
+  if (!best || distance < best->distance - kSame) return true;
+  return distance < best->distance + kSame && time < best->time;
+}
+
 /// Of a vehicle with a person or a vehicle; a kerb or a wall is neither.
 bool any_touch(const Model& model, const Recording& recording) {
   const auto counts = [&](int b) { return b >= 0 && (model.bodies[b].vehicle >= 0 || model.bodies[b].person >= 0); };
@@ -59,15 +66,15 @@ std::optional<Approach> of_persons(const Model& model, const Recording& recordin
   ContactPoints touches;
   std::optional<Approach> best;
   for (const Candidate& c : candidates(model, recording)) {
-    if (best && c.least >= best->distance) break;
+    if (best && c.least >= best->distance + kSame) break;
     const auto& mesh = std::get<MeshShape>(model.bodies[c.vehicle].shape);
     const Snapshot& s = recording.snapshots[c.at];
     reserve(scratch, *mesh.mesh);
-    for (double margin = best ? best->distance : std::max(c.least, 0.0) + kStride;; margin += kStride) {
+    for (double margin = best ? best->distance + kSame : std::max(c.least, 0.0) + kStride;; margin += kStride) {
       contacts_with_mesh(std::get<HyperEllipsoid>(model.bodies[c.part].shape), s.bodies[c.part].X_WB, *mesh.mesh,
                          s.bodies[c.vehicle].X_WB * mesh.X_BM, margin, 0, scratch, touches);
       for (const SurfaceContact& touch : touches)
-        if (!best || touch.gap < best->distance) best = Approach{std::max(touch.gap, 0.0), s.time, c.part, c.vehicle};
+        if (const double gap = std::max(touch.gap, 0.0); nearer(gap, s.time, best)) best = Approach{gap, s.time, c.part, c.vehicle};
       if (best || margin > c.least + 20) break;
     }
   }
@@ -131,7 +138,7 @@ std::optional<Approach> of_vehicles(const Model& model, const Recording& recordi
       for (const Snapshot& s : recording.snapshots) {
         const auto at_a = placed(outlines[i].second, s.bodies[a].X_WB), at_b = placed(outlines[k].second, s.bodies[b].X_WB);
         const double d = std::min(apart(at_a, at_b), apart(at_b, at_a));
-        if (!best || d < best->distance) best = Approach{d, s.time, a, b};
+        if (nearer(d, s.time, best)) best = Approach{d, s.time, a, b};
       }
     }
   }

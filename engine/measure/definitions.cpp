@@ -42,11 +42,12 @@ constexpr Definition kDefinitions[] = {
      "Distance of the phase carried: from the end of the phase contact until the vehicle last pushes the person before it lands.",
      "the person never goes as fast as the vehicle while that pushes", kPhase},
     {"airborne_m", "m", "airborne",
-     "Distance of the phase flight: from the last push of a vehicle to landing, if for 50 ms or more neither touched.",
-     "the person did not land, or was never off vehicle and ground for 50 ms before", kPhase, true},
+     "Distance of the phase flight: from the last push of a vehicle to landing, if nothing touched the person for 50 ms or more "
+     "meanwhile. A rider is also held by each joint to what it rides until that breaks.",
+     "the person did not land, or something touched or held it at least every 50 ms before", kPhase, true},
     {"fall_m", "m", "fall",
      "Distance of the phase fall, in place of a flight: from the last push of a vehicle to landing, if a hand, a foot or the "
-     "vehicle touched again within 50 ms.",
+     "vehicle touched something at least every 50 ms.",
      "the person flew for 50 ms or more, was pushed until it landed, or did not land", kPhase, true},
     {"landing_m", "m", "landing",
      "Distance of the phase landing: from the trunk's touch of the ground until the bounces are over, that is until some part "
@@ -168,7 +169,9 @@ constexpr Definition kDefinitions[] = {
      "Time at which it last stood on wheels of both sides before it leant by 45 degrees; of one that never did, the start.",
      kNotRolled, "to the recorded interval", true},
     {"roll_distance_m", "m", "roll distance",
-     "Length of the level path of its centre of mass from the trip to rest, or to the end of the run.", kNotRolled, kRolls, true},
+     "Length of the level path of its centre of mass from the trip to rest, or until it stands on wheels of both sides for good, "
+     "or to the end of the run.",
+     kNotRolled, kRolls, true},
     {"ground_strikes", "", "ground strikes",
      "How often the bodywork of a vehicle that rolled over came down on the ground from the trip to rest: the ground pushed it by "
      "more than 0.8 km/h times its mass within 20 ms, as collision phases are counted. The table of impacts has no rows of the "
@@ -184,8 +187,10 @@ constexpr Definition kDefinitions[] = {
      true},
     {"roll_drag_factor", "", "roll drag factor",
      "Mean deceleration over the roll distance as a share of gravity: v^2 / 2 g d, v the level speed of the centre of mass at the "
-     "trip (Orlowski, Moffatt, Bundorf and Holcomb, SAE 890857, 1989).",
-     "as roll_distance_m, or it is still moving when the run ends; or it struck a vehicle or an object on the way, such as the "
+     "trip; of one that ends on its wheels less the square of what it has then (Orlowski, Moffatt, Bundorf and Holcomb, SAE "
+     "890857, "
+     "1989).",
+     "as roll_distance_m, or it is still rolling when the run ends; or it struck a vehicle or an object on the way, such as the "
      "kerb "
      "that tripped it: what that took is no drag",
      kRolls, true},

@@ -37,11 +37,27 @@ std::optional<Touch> first_touch(const Model& model, const Recording& recording,
 }
 
 /// By a vehicle, or by what the party ran into first. A wall that it flies against later ends no throw.
-bool pushed_by_vehicle(const Model& model, const Party& party, const Snapshot& s, int struck_by) {
+bool pushed_by_vehicle(const Model& model, const Party& party, const Snapshot& s, int struck_by, bool moving = false) {
+  constexpr double kStands = 0.05;  // [m/s] slower, as at rest, it pushes nobody along
   return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
     return c.shapes.on_vehicle() && c.normal_impulse > 0 && !push_on(party, c).isZero(0) &&
-           (c.body_b == struck_by || !is_fixture(model, c.body_b));
+           (c.body_b == struck_by || !is_fixture(model, c.body_b)) && (!moving || s.bodies[c.body_b].V_WB.v.norm() > kStands);
   });
+}
+
+/// When a rider was off what it rode: the last of the joints between them broke. Nothing where there were none; the end of the run
+/// where one holds.
+std::optional<double> off_mount(const Model& model, const Recording& recording, int p) {
+  const int mount = model.persons[p].mount;
+  const auto between = [&](int a, int b) { return a >= 0 && a == mount && b >= 0 && model.bodies[b].person == p; };
+  const auto joints = std::count_if(model.joints.begin(), model.joints.end(),
+                                    [&](const Joint& j) { return between(j.parent, j.child) || between(j.child, j.parent); });
+  if (joints == 0) return std::nullopt;
+  long broken = 0;
+  double last = 0;
+  for (const Event& e : recording.events)
+    if (e.kind == "joint_broken" && (between(e.body_a, e.body_b) || between(e.body_b, e.body_a))) ++broken, last = e.time;
+  return broken < joints ? recording.end_time() : last;
 }
 
 /// On the ground, or on what stands on it for good.
@@ -60,9 +76,8 @@ bool lies_after(const Model& model, const Recording& recording, const Party& tru
 
 /// By anything but itself.
 bool touched(const Party& party, const Snapshot& s) {
-  return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
-    return (c.shapes.on_ground() || c.shapes.on_vehicle()) && c.normal_impulse > 0 && !push_on(party, c).isZero(0);
-  });
+  return std::any_of(s.contacts.begin(), s.contacts.end(),
+                     [&](const ContactRecord& c) { return c.normal_impulse > 0 && !push_on(party, c).isZero(0); });
 }
 
 /// Level direction in which the faster of the vehicle that touched first and of what the person rides goes at the touch, which a
@@ -177,12 +192,16 @@ std::optional<Throw> throw_of_person(const Model& model, const Recording& record
     if (s.time < t.hit) continue;
     const bool pushed = pushed_by_vehicle(model, party, s, t.vehicle), down = s.time >= t.landed.value_or(t.end);
     // the push of the interval in which it landed may be older than that
-    if (s.time - recording.interval >= t.landed.value_or(t.end) && s.time <= t.end && pushed) t.dragged = true;
+    if (s.time - recording.interval >= t.landed.value_or(t.end) && s.time <= t.end &&
+        pushed_by_vehicle(model, party, s, t.vehicle, true))
+      t.dragged = true;
     if (pushed && !came_down) t.separated = std::min(s.time, t.landed.value_or(t.end));
     came_down = down;
   }
-  // a rider that nothing but its mount was struck with leaves with that blow
+  // a rider that nothing but its mount was struck with leaves when that lets go of it
   if (!t.separated && t.landed) t.separated = t.hit;
+  if (const auto off = off_mount(model, recording, p); off && t.separated)
+    t.separated = std::min(std::max(*t.separated, *off), t.landed.value_or(t.end));
   t.lay = !t.landed && lies_after(model, recording, {p, -1, trunk_of(model, p)}, t.hit, t.end);
   t.flew = t.landed && flew_between(recording, party, *t.separated, *t.landed);
   add_phases(model, recording, party, t);

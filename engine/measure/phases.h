@@ -25,9 +25,9 @@ struct Throw {
   std::optional<double> landed;     // [s] the trunk came down on the ground
   std::optional<double> rest;       // [s]
   double end = 0;                   // [s] rest, or the end of the run
-  bool flew = false;                // nothing touched it for 50 ms or more between the last push and landing
+  bool flew = false;                // nothing touched or held it for 50 ms or more between the last push and landing
   bool lay = false;                 // struck as it lay on the ground, and not thrown off it: it does not land
-  bool dragged = false;             // a vehicle pushed it again after it had come down
+  bool dragged = false;             // a vehicle that moved pushed it again after it had come down
   Vec3 along = Vec3::UnitX();       // unit, level: the way of the faster vehicle at the first touch
   Vec3 thrown = Vec3::Zero();       // [m] of the centre of mass from hit to end, level
   std::vector<ThrowPhase> phases;   // in order; one that did not happen is not there
@@ -37,9 +37,10 @@ struct Throw {
 ///
 /// contact: from the first touch until its centre moves along the throw as fast as the vehicle. carried: from there to the last
 /// push of a vehicle before it lands (to the end, if it never lands); a person who never reaches the vehicle's speed has contact
-/// alone. flight: from there to landing, if neither vehicle nor ground touched it for 50 ms or more; else fall, as of who comes
-/// down over a hand or a foot. landing: from the trunk's touch of the ground until something of the person touches the ground
-/// without a break of 50 ms. slide: from there to rest, or the end of the run. A phase that takes no time is not there.
+/// alone; a rider is off when the last joint with what it rode has broken. flight: from there to landing, if nothing touched it for
+/// 50 ms or more; else fall, as of who comes down over a hand or a foot. landing: from the trunk's touch of the ground until
+/// something of the person touches the ground without a break of 50 ms. slide: from there to rest, or the end of the run. A phase
+/// that takes no time is not there.
 std::optional<Throw> throw_of_person(const Model&, const Recording&, int person);
 
 /// The same of what somebody rides, which has no trunk: one phase from its first touch to its rest.

@@ -129,7 +129,8 @@ void measure_rollover(const Model& model, const Recording& recording, const std:
   const double end = rest.value_or(recording.end_time());
   Roll roll;
   const Snapshot* trip = &recording.snapshots.front();
-  double turned = 0, way = 0;  // [rad], [m] from the trip
+  const Snapshot* upright = nullptr;            // from which on it stands on its wheels
+  double turned = 0, way = 0, way_upright = 0;  // [rad], [m] from the trip
   bool tripped = false;
   Vec3 last = centre_of_mass(model, party, *trip);
   for (const Snapshot& s : recording.snapshots) {
@@ -139,17 +140,22 @@ void measure_rollover(const Model& model, const Recording& recording, const std:
     const Vec3 now = centre_of_mass(model, party, s);
     way += (now - last).head<2>().norm();
     last = now;
-    if (!tripped && stands(s, vehicle, v)) trip = &s, way = 0;
+    const bool standing = stands(s, vehicle, v);
+    if (!tripped && standing) trip = &s, way = 0;
+    if (!standing) upright = nullptr;
+    if (tripped && standing && !upright) upright = &s, way_upright = way;
   }
   const double quarters = std::round(std::abs(turned) / kQuarter);
   if (quarters < 1) return;
   out.push_back({"quarter_turns", vehicle.name, quarters});
   out.push_back({"trip_s", vehicle.name, trip->time});
+  if (upright) way = way_upright;
   out.push_back({"roll_distance_m", vehicle.name, way});
   measure_strikes(model, vehicle, ground_strikes(model, recording, party, trip->time, end), out);
-  const double speed = velocity_of(model, party, *trip).head<2>().norm(), g = model.settings.gravity.norm();
-  if (rest && way > 0 && g > 0 && !struck_something(impacts, v, trip->time, end))
-    out.push_back({"roll_drag_factor", vehicle.name, speed * speed / (2 * g * way)});
+  const auto square = [&](const Snapshot& s) { return velocity_of(model, party, s).head<2>().squaredNorm(); };
+  const double lost = square(*trip) - (upright ? square(*upright) : 0), g = model.settings.gravity.norm();
+  const bool struck = struck_something(impacts, v, trip->time, upright ? upright->time : end);
+  if ((rest || upright) && way > 0 && g > 0 && !struck) out.push_back({"roll_drag_factor", vehicle.name, lost / (2 * g * way)});
 }
 
 }  // namespace engine

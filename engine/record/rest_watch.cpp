@@ -53,7 +53,7 @@ Twist travel_of(const Model& model, int b, const Pose& X, const Twist& V) {
   double height = 0;  // of the road, from the centre
   for (const Wheel& wheel : model.vehicles[v].wheels) height += wheel.hub_B.z() - wheel.radius;
   const Vec3 at_road = V.v + height / static_cast<double>(model.vehicles[v].wheels.size()) * V.w.cross(up);
-  return {yaw * up, at_road - up.dot(at_road) * up};
+  return {.v = at_road - up.dot(at_road) * up, .w = yaw * up};
 }
 
 RestWatch::RestWatch(const World& world)

@@ -225,7 +225,7 @@ TEST(ThrowMetrics, WhoSlidesOffAStandingCarFallsLandsAndIsTouchedAgain) {
       s.bodies.own()[b].X_WB.p = {way, 0, 1};
       s.bodies.own()[b].V_WB.v = {speed, 0, 0};
     }
-    s.bodies.own()[kCar].V_WB.v = {s.time < 0.59 ? 3.0 : 0.0, 0, 0};
+    s.bodies.own()[kCar].V_WB.v = {s.time < 0.59 ? 3.0 : s.time > 1.99 ? 0.1 : 0.0, 0, 0};
     run.snapshots.push_back(s);
   }
   const auto push_at = [&](std::size_t i, int other, const ShapePair& shapes) {
@@ -241,6 +241,10 @@ TEST(ThrowMetrics, WhoSlidesOffAStandingCarFallsLandsAndIsTouchedAgain) {
   ASSERT_TRUE(thrown);
   EXPECT_NEAR(thrown->separated.value(), 0.9, kAlmost) << "not the push at 2 s, when it lay";
   EXPECT_TRUE(thrown->dragged);
+  Recording stands = run;  // against a foot that slips along it
+  for (Snapshot& s : stands.snapshots)
+    if (s.time > 1.99) s.bodies.own()[kCar].V_WB.v.setZero();
+  EXPECT_FALSE(throw_of_person(model, stands, 0)->dragged);
   std::vector<Metric> out;
   measure_throw(model, run, 0, out);
   // from 0.2 to 0.6 s it is slower than the car, then rides on it as it stops
@@ -258,12 +262,16 @@ TEST(ThrowMetrics, WhoSlidesOffAStandingCarFallsLandsAndIsTouchedAgain) {
   measure_throw(model, run, 0, out);
   EXPECT_FALSE(value_of(out, "fall_m"));
   EXPECT_NEAR(value_of(out, "airborne_m").value(), 2 * 0.1 + 2 * 0.3 - 0.045, 1e-9);
+  // and did not where somebody else touched it meanwhile
+  for (std::size_t i = 46; i <= 64; i += 2)
+    run.snapshots[i].contacts = {push(kHips, 3, {ShapeKind::round, ShapeKind::round}, {0, 0, 5})};
+  EXPECT_FALSE(throw_of_person(model, run, 0)->flew);
 }
 
 /// A rider whose mount is pushed over and whom nobody touches himself comes down with it: all of the way to the ground is flight,
-/// from the blow to the mount on.
+/// from where the mount lets go of it.
 TEST(ThrowMetrics, WhoFallsOffAStruckMountHasNoContactOfItsOwn) {
-  const Model model = rider_and_car();
+  Model model = rider_and_car();
   Recording run;
   run.interval = 0.02;
   for (int i = 0; i <= 100; ++i) {  // at 1 m/s from 0.5 s to 1.5 s
@@ -291,6 +299,19 @@ TEST(ThrowMetrics, WhoFallsOffAStruckMountHasNoContactOfItsOwn) {
   EXPECT_NEAR(of_rider("slide_m"), 0.4, 1e-9);
   EXPECT_NEAR(of_rider("throw_distance_m"), 1.0, 1e-9);
   EXPECT_TRUE(std::isnan(of_rider("contact_m")) && std::isnan(of_rider("carried_m")));
+  for (const int part : {kHead, kHips}) {  // hands and seat
+    Joint joint;
+    joint.parent = kMount;
+    joint.child = part;
+    model.joints.push_back(joint);
+  }
+  run.events.insert(run.events.begin(),
+                    {{0.6, "joint_broken", kHips, kMount, Vec3::Zero(), 0}, {0.9, "joint_broken", kHead, kMount, Vec3::Zero(), 0}});
+  EXPECT_EQ(throw_of_person(model, run, 0)->separated, 0.9) << "the last that lets go";
+  EXPECT_TRUE(throw_of_person(model, run, 0)->flew);
+  run.events.erase(run.events.begin());
+  EXPECT_EQ(throw_of_person(model, run, 0)->separated, 1.1) << "one holds until it is down";
+  EXPECT_FALSE(throw_of_person(model, run, 0)->flew);
 }
 
 /// Lies on the road, is pushed by a car from 0.2 to 0.6 s, and slides on to rest at 1.4 s without having been off the ground: the
@@ -418,6 +439,9 @@ TEST(NearestApproach, ARunWithoutATouchSaysHowNearItWas) {
   ASSERT_TRUE(near);
   EXPECT_NEAR(near->distance, 1.4 - 0.8 - 0.1, 1e-9);
   EXPECT_EQ(near->body_a, kHead);
+  Recording stands = run;  // and hums
+  for (Snapshot& s : stands.snapshots) s.bodies.own()[kCar].X_WB.p = {5 + 1e-10 * s.time, 0, 0.5};
+  EXPECT_EQ(nearest_approach(model, stands)->time, 0) << "the first of many instants";
   model.bodies.emplace_back();  // a wall that the car runs into is none of those it passes
   model.bodies[3].fixed = true;
   for (Snapshot& s : run.snapshots) s.bodies.own().emplace_back();

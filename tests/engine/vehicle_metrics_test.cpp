@@ -343,6 +343,25 @@ TEST(Rollover, OfACylinderHasItsQuarterTurnsAndTheDragThatStopsIt) {
   EXPECT_EQ(value_of(rollover_of(model, rolled_like_a_cylinder(2.3)), "quarter_turns"), 2.0);
 }
 
+/// Back on its wheels at 2 m/s it has rolled over, however far it coasts.
+TEST(Rollover, EndsWhereItStandsOnItsWheelsForGood) {
+  const Model model = car_with_a_track();
+  Recording run = rolled_like_a_cylinder(4);
+  run.events.clear();
+  const double down = 1 + kRollTime - 1.0 / 3;  // [s] when it has 2 of its 12 m/s left
+  for (Snapshot& s : run.snapshots) {
+    BodyState& car = s.bodies.own()[kCar];
+    if (s.time < down) continue;
+    for (WheelRecord& wheel : s.wheels) wheel.load = 2000;
+    car.X_WB.p.y() = run.at(down).bodies[kCar].X_WB.p.y() - 2 * (s.time - down);
+    car.V_WB.v = {0, -2, 0};
+  }
+  const std::vector<Metric> out = rollover_of(model, run);
+  const double slowing = kTripSpeed / kRollTime, way = (kTripSpeed * kTripSpeed - 4) / (2 * slowing);
+  EXPECT_NEAR(value_of(out, "roll_distance_m").value(), way, 0.03) << "to the recorded interval";
+  EXPECT_NEAR(value_of(out, "roll_drag_factor").value(), slowing / model.settings.gravity.norm(), 1e-3);
+}
+
 TEST(Rollover, TellsHowOftenAndHowHardTheBodyworkCameDown) {
   Model model = car_with_a_track();
   MeshShape& shape = std::get<MeshShape>(model.bodies[kCar].shape);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "engine/record/rest_watch.h"
 #include "engine/simulate.h"
 #include "scenes/scene.h"
 #include "tests/scenes/scene_file.h"
@@ -53,6 +54,19 @@ TEST_P(LibraryVehicle, StandsOnItsSpringsAsItsCentreOfMassSays) {
   EXPECT_NEAR(sum, body.mass * kGravity, 1e-4 * body.mass * kGravity);
   EXPECT_NEAR(moment / sum, 0, 1e-3);  // the loads' resultant stands under the centre of mass
   EXPECT_LT((s.bodies[0].X_WB.p - run.snapshots.front().bodies[0].X_WB.p).norm(), 1e-4);
+}
+
+TEST_P(LibraryVehicle, IsNotAtRestWhileItRolls) {
+  for (const double speed : {0.06, 0.1, 0.29}) {
+    const scenes::Scene scene = scene_of(GetParam(), "speed = \"" + std::to_string(speed) + " m/s\"\n");
+    const engine::Recording run = engine::simulate(scene.model);
+    const engine::BodyState& last = run.snapshots.back().bodies[0];
+    ASSERT_NEAR(last.X_WB.p.x() - run.snapshots.front().bodies[0].X_WB.p.x(), 3 * speed, 0.02 * speed) << "nothing brakes it";
+    const engine::Twist travel = engine::travel_of(scene.model, 0, last.X_WB, last.V_WB);
+    EXPECT_NEAR(travel.v.x(), speed, 0.01 * speed);
+    EXPECT_LT(travel.w.norm(), 1e-3);
+    EXPECT_TRUE(std::none_of(run.events.begin(), run.events.end(), [](const auto& e) { return e.kind == "rest"; })) << speed;
+  }
 }
 
 TEST_P(LibraryVehicle, BrakesStraightAtHalfAGravity) {
