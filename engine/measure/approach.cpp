@@ -15,7 +15,8 @@ constexpr double kSame = 1e-6;  // [m] two that stand hum by less: of as near in
 
 bool nearer(double distance, double time, const std::optional<Approach>& best) {
   if (!best || distance < best->distance - kSame) return true;
-  return distance < best->distance + kSame && time < best->time;
+  if (distance >= best->distance + kSame) return false;
+  return time == best->time ? distance < best->distance : time < best->time;
 }
 
 /// Of a vehicle with a person or a vehicle; a kerb or a wall is neither.
