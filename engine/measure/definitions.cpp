@@ -188,11 +188,9 @@ constexpr Definition kDefinitions[] = {
     {"roll_drag_factor", "", "roll drag factor",
      "Mean deceleration over the roll distance as a share of gravity: v^2 / 2 g d, v the level speed of the centre of mass at the "
      "trip; of one that ends on its wheels less the square of what it has then (Orlowski, Moffatt, Bundorf and Holcomb, SAE "
-     "890857, "
-     "1989).",
+     "890857, 1989).",
      "as roll_distance_m, or it is still rolling when the run ends; or it struck a vehicle or an object on the way, such as the "
-     "kerb "
-     "that tripped it: what that took is no drag",
+     "kerb that tripped it: what that took is no drag",
      kRolls, true},
     {"nearest_approach_m", "m", "nearest approach",
      "In a run in which no vehicle touches anybody: least distance of a part of a person and a vehicle's surface; without "
