@@ -92,6 +92,11 @@ std::vector<Thing> things_of(const engine::Model& model) {
 Sentences first_steps(const scenes::Scene& scene) {
   engine::Model model = scene.model;
   model.settings.duration = std::min(model.settings.duration, kFirstSteps * model.settings.step);
+  // an exchange that is settled for a pair comes later
+  std::erase_if(model.impacts, [&](const engine::ImpactSettings& s) {
+    const auto collision = [&](int b) { return model.bodies[static_cast<std::size_t>(b)].collision_model; };
+    return engine::model_between(collision(s.body_a), collision(s.body_b)) == engine::CollisionModel::kudlich_slibar;
+  });
   const engine::Recording recording = engine::simulate(model);
   Sentences out = recording.diagnostics.warnings;
   if (const auto& failure = recording.failure)

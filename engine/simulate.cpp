@@ -42,7 +42,9 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
   State state = options.from ? *options.from : start(world);
 
   const double h = model.settings.step;
-  const long first = std::lround(state.time / h), steps = std::lround(std::ceil(model.settings.duration / h - 1e-9));
+  // a step told to nine digits divides the duration all the same
+  const double parts = model.settings.duration / h;
+  const long first = std::lround(state.time / h), steps = std::lround(std::ceil(parts - 1e-9 * std::max(parts, 1.0)));
   const long per_snapshot = std::max(1L, std::lround(model.settings.record_interval / h));
   recording.interval = static_cast<double>(per_snapshot) * h;
   Recorder recorder(world, state);

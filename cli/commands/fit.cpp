@@ -112,7 +112,7 @@ int run(const FitWish& wish) {
   for (const std::string& line : inference::sentences(scene, prior, fit, others)) fmt::print("{}\n", line);
   for (const inference::Calibration& c : calibrations)
     fmt::print(
-        "{}: of {} cases with known truth the 90 % interval holds it in {}; ranks chi-squared {:.1f} (below 21.7); {:.0f} "
+        "{}: of {} cases with known truth the 90 % interval holds it in {}; ranks chi-squared {:.1f} (limit 21.7); {:.0f} "
         "effective runs "
         "in the middle\n",
         c.key, c.cases, c.inside_90, c.chi_squared, c.median_effective);

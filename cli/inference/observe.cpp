@@ -1,7 +1,10 @@
 #include "cli/inference/observe.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace cli::inference {
 namespace {
@@ -111,15 +114,20 @@ Prediction speed(const Evidence& e, const Model& model, const Recording& recordi
   return std::vector<double>{momentum.norm() / mass};
 }
 
-/// Where the run marks the ground.
-std::vector<Vec3> trace_of(const Evidence& e, const Model& model, const Recording& recording) {
+/// Where the run marks the ground: all of it, and what the wheels of the left and those of the right mark by themselves.
+std::array<std::vector<Vec3>, 3> traces_of(const Evidence& e, const Model& model, const Recording& recording) {
   const std::vector<int> bodies = bodies_of(model, e.of);
-  std::vector<Vec3> out;
+  std::array<std::vector<Vec3>, 3> out;
+  auto& [all, left, right] = out;
   for (const Snapshot& s : recording.snapshots) {
-    for (const engine::WheelRecord& w : s.wheels)
-      if (holds(bodies, model.vehicles[static_cast<std::size_t>(w.vehicle)].body) && w.slip > kWheelSlips) out.push_back(w.contact);
+    for (const engine::WheelRecord& w : s.wheels) {
+      const engine::Vehicle& vehicle = model.vehicles[static_cast<std::size_t>(w.vehicle)];
+      if (!holds(bodies, vehicle.body) || w.slip <= kWheelSlips) continue;
+      all.push_back(w.contact);
+      (vehicle.wheels[static_cast<std::size_t>(w.wheel)].hub_B.y() > 0 ? left : right).push_back(w.contact);
+    }
     for (const engine::ContactRecord& c : s.contacts)
-      if (c.body_b < 0 && holds(bodies, c.body_a) && c.normal_impulse > 0 && c.slip > kScuffs) out.push_back(c.point);
+      if (c.body_b < 0 && holds(bodies, c.body_a) && c.normal_impulse > 0 && c.slip > kScuffs) all.push_back(c.point);
   }
   return out;
 }
@@ -136,17 +144,21 @@ double mean_square(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
   return sum / static_cast<double>(from.size());
 }
 
-/// Both ways: what the run marks and was not seen counts as what was seen and the run does not mark.
+/// Both ways: what the run marks and was not seen counts as what was seen and the run does not mark. A line is one track: it is
+/// held against that of one side too, and the nearest counts.
 Prediction mark(const Evidence& e, const Model& model, const Recording& recording) {
-  const std::vector<Vec3> trace = trace_of(e, model, recording);
-  if (trace.empty()) return std::nullopt;
+  const auto traces = traces_of(e, model, recording);
+  if (traces.front().empty()) return std::nullopt;
   std::vector<Vec3> seen;
   for (std::size_t i = 0; i + 1 < e.mark.size(); ++i) {
     const int pieces = std::max(1, static_cast<int>(std::ceil((e.mark[i + 1] - e.mark[i]).norm() / kSpacing)));
     for (int k = 0; k < pieces; ++k) seen.push_back(e.mark[i] + (e.mark[i + 1] - e.mark[i]) * k / pieces);
   }
   seen.push_back(e.mark.back());
-  return std::vector<double>{std::sqrt(0.5 * (mean_square(seen, trace) + mean_square(trace, seen)))};
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::vector<Vec3>& trace : traces)
+    if (!trace.empty()) least = std::min(least, 0.5 * (mean_square(seen, trace) + mean_square(trace, seen)));
+  return std::vector<double>{std::sqrt(least)};
 }
 
 }  // namespace

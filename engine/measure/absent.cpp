@@ -64,11 +64,7 @@ void absent_head(const Model& model, const Recording& recording, int p, Absences
 
 /// What the hardest impact of a vehicle does not tell of it.
 void absent_at_worst(const Model& model, const Vehicle& v, const std::vector<Impact>& impacts, Absences& absent) {
-  const Impact* worst = nullptr;
-  double most = -1;
-  for (const Impact& i : impacts)
-    for (const ImpactSide* side : {&i.a, &i.b})
-      if (side->party.bodies.front() == v.body && side->delta_v.norm() > most) most = side->delta_v.norm(), worst = &i;
+  const Impact* worst = hardest_impact(impacts, model.bodies[v.body].vehicle);
   if (!worst) return;
   const bool person = worst->a.party.person >= 0 || worst->b.party.person >= 0;
   const bool fixed = model.bodies[worst->a.party.bodies.front()].fixed || model.bodies[worst->b.party.bodies.front()].fixed;
@@ -82,7 +78,7 @@ void absent_at_worst(const Model& model, const Vehicle& v, const std::vector<Imp
   else if (fixed)
     reason = "its hardest impact was that of its wheels with something low, such as a kerb: no bodywork is crushed";
   absent.note("ees_mps", v.name, reason);
-  absent.note("pdof_deg", v.name, most > 0 ? "it lay on its side or roof" : "its velocity did not change");
+  absent.note("pdof_deg", v.name, worst->impulse.norm() > 0 ? "it lay on its side or roof" : "its velocity did not change");
 }
 
 }  // namespace

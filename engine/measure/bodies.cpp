@@ -75,11 +75,9 @@ void measure_vehicle(const Model& model, const Recording& recording, const std::
     out.push_back({"rest_y_m", vehicle.name, X.p.y()});
     out.push_back({"rest_heading_deg", vehicle.name, math::atan2(ahead.y(), ahead.x()) * 180 / std::numbers::pi});
   }
-  const ImpactSide* worst = nullptr;
-  for (const Impact& impact : impacts)
-    for (const ImpactSide* side : {&impact.a, &impact.b})
-      if (side->party.vehicle == v && (!worst || side->delta_v.norm() > worst->delta_v.norm())) worst = side;
-  if (!worst || model.bodies[vehicle.body].fixed) return;
+  const Impact* hardest = hardest_impact(impacts, v);
+  if (!hardest || model.bodies[vehicle.body].fixed) return;
+  const ImpactSide* worst = hardest->a.party.vehicle == v ? &hardest->a : &hardest->b;
   out.push_back({"delta_v_mps", vehicle.name, worst->delta_v.norm()});
   if (std::isfinite(worst->ees)) out.push_back({"ees_mps", vehicle.name, worst->ees});
   if (std::isfinite(worst->pdof)) out.push_back({"pdof_deg", vehicle.name, worst->pdof});

@@ -310,6 +310,14 @@ std::vector<Impact> impacts_of(const Model& model, const Recording& recording) {
   return out;
 }
 
+const Impact* hardest_impact(const std::vector<Impact>& impacts, int vehicle) {
+  const Impact* out = nullptr;
+  for (const Impact& i : impacts)
+    if ((i.a.party.vehicle == vehicle || i.b.party.vehicle == vehicle) && (!out || i.impulse.norm() > out->impulse.norm()))
+      out = &i;
+  return out;
+}
+
 std::vector<Event> told_events(const Model& model, const Recording& recording) {
   std::vector<Event> out = recording.events;
   for (const Impact& i : impacts_of(model, recording)) {

@@ -55,6 +55,10 @@ std::vector<Stretch> stretches(const Recording&, const std::vector<Vec3>& push, 
 /// In order of time.
 std::vector<Impact> impacts_of(const Model&, const Recording&);
 
+/// The phase in which the other one gave a vehicle most. Its delta-v holds what a third one did meanwhile, which may be more; null
+/// where there is none.
+const Impact* hardest_impact(const std::vector<Impact>&, int vehicle);
+
 /// The recorded events, and a "collision" where two vehicles, or a vehicle and an object, have their first phase: what is rigid
 /// has no event of its own. `value` is the closing speed. In order of time.
 std::vector<Event> told_events(const Model&, const Recording&);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "render/figures/figures.h"
@@ -201,12 +202,13 @@ void draw_body_paths(cairo_t* c, const Site& site) {
 }  // namespace
 
 double dashed_at(const engine::Recording& recording, const FigureJob& job) {
-  double time = 0;
-  for (const PersonFacts& p : job.persons) time = p.hit.value_or(time);
-  if (time > 0) return time;
+  std::optional<double> first;
+  for (const PersonFacts& p : job.persons)
+    if (p.hit && (!first || *p.hit < *first)) first = p.hit;
+  if (first) return *first;
   const auto met = std::find_if(recording.events.begin(), recording.events.end(),
                                 [](const engine::Event& e) { return e.kind == "collision" || e.kind == "impact"; });
-  return met == recording.events.end() ? time : met->time;
+  return met == recording.events.end() ? 0 : met->time;
 }
 
 Vec3 centre_of_mass(const PersonFacts& person, const engine::Recording& recording, double time) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "render/figures/figures.h"
 #include "render/figures/rest_cloud.h"
@@ -76,12 +77,24 @@ Camera beside_person(const PersonFacts& p, const engine::Recording& recording) {
 
 }  // namespace
 
-std::vector<std::string> stroboscopic_still(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
-  double from = 0, to = recording.end_time();
+/// From the first touch of anybody to the last landing and the last rest.
+struct Span {
+  std::optional<double> hit, landed, rest;
+};
+
+Span span_of(const FigureJob& job) {
+  Span out;
   for (const PersonFacts& p : job.persons) {
-    from = p.hit.value_or(from);
-    to = p.rest.value_or(to);
+    if (p.hit && (!out.hit || *p.hit < *out.hit)) out.hit = p.hit;
+    if (p.landed && (!out.landed || *p.landed > *out.landed)) out.landed = p.landed;
+    if (p.rest && (!out.rest || *p.rest > *out.rest)) out.rest = p.rest;
   }
+  return out;
+}
+
+std::vector<std::string> stroboscopic_still(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
+  const auto [hit, landed, rest] = span_of(job);
+  const double from = hit.value_or(0), to = rest.value_or(recording.end_time());
   const std::vector<Vec3> points = places(stage, recording, job, from);
   if (points.empty()) return {};
   Stage scene = stage;
@@ -130,11 +143,7 @@ std::vector<std::string> rest_ghosts(const Stage& stage, const engine::Recording
 }
 
 std::vector<double> times_of_sheet(const engine::Recording& recording, const FigureJob& job) {
-  std::optional<double> hit, landed;
-  for (const PersonFacts& p : job.persons) {
-    hit = p.hit ? p.hit : hit;
-    landed = p.landed ? p.landed : landed;
-  }
+  const auto [hit, landed, rest] = span_of(job);
   std::vector<double> times;
   const double end = recording.end_time();
   if (!landed || !hit || !(*hit < *landed)) {

@@ -182,6 +182,13 @@ std::vector<PanelBox> place_labels(const DrawList& list, int width, int height) 
   std::vector<PanelBox> boxes;
   for (const LabelItem& label : list.labels) {
     PanelBox box = measure(cairo.get(), label, scale);
+    // a page of writing is written smaller where it would leave the picture
+    constexpr double kWidest = 0.94, kHighest = 0.88;  // [-] of the picture
+    const double room = std::min(kWidest * width / box.width, kHighest * height / box.height);
+    if (!label.plate && !label.leader && room < 1) {
+      box = measure(cairo.get(), label, scale * room);
+      box.shrink = room;
+    }
     double x = 0, y = 0;
     box.shown = anchor_of(list, label, width, height, x, y) && box.width <= width && box.height <= height;
     box.x = x - label.pivot[0] * box.width;
@@ -210,7 +217,7 @@ void draw_labels(const DrawList& list, Image& image) {
         draw_leader(cairo.get(), boxes[i], x, y, scale);
     }
     for (std::size_t i = 0; i < boxes.size(); ++i)
-      if (boxes[i].shown) draw_one(cairo.get(), list.labels[i], boxes[i], scale);
+      if (boxes[i].shown) draw_one(cairo.get(), list.labels[i], boxes[i], scale * boxes[i].shrink);
     cairo_surface_flush(surface.get());
   }
 }

@@ -12,6 +12,7 @@ namespace render {
 struct PanelBox {
   double x = 0, y = 0, width = 0, height = 0;
   bool shown = true;
+  double shrink = 1;  // [-] of the writing: what would be larger than the picture
 };
 
 /// Where every label goes: kept inside the frame, moved aside from those before it, left out if there is no room; one with a leader

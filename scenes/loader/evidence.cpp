@@ -20,7 +20,8 @@ const Key kEvidenceKeys[] = {
          "recorder has it), `contact` or `no_contact` (of `of` and `with`)."}),
     {"mark", Type::any, Dimension::none, "",
      "In place of a metric: a skid or scuff mark on the ground as a list of world points, `[\"3.1 -1.2 m\", \"9.8 -1.4 m\"]`. Of a "
-     "vehicle it is held against the way its wheels slip, of a person or body against the way it slides."},
+     "vehicle it is held against the way its wheels slip, of all or of one side, whichever is nearer; of a person or body against "
+     "the way it slides."},
     bound<&Evidence::of>(
         {"of", Type::text, Dimension::none, "''",
          "The person, vehicle or body meant, or a part of a person (`pedestrian/head`). Left out where there is only one."}),

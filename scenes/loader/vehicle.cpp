@@ -91,11 +91,19 @@ const Key kVehicleKeys[] = {
     {"wheel", Type::tables, Dimension::none, "", "Wheels.", kAny, {}, &kWheelSection},
 };
 
+/// The scene's table over the library's: a coefficient for both kinds takes the place of those of each.
+Value laid_over(Value model, const Value& scene) {
+  for (const std::string key : {"friction", "restitution"})
+    if (scene.find(key))
+      std::erase_if(model.entries, [&](const Entry& e) { return e.key == key + "_body" || e.key == key + "_ground"; });
+  return overlaid(model, scene);
+}
+
 /// The scene's table laid over the library's.
 std::optional<Value> with_model(Builder& builder, Reader& r) {
   const std::string name = r.text("model");
   if (name.empty()) return r.value();
-  if (const auto model = library_entry(builder, "vehicles", name)) return overlaid(*model, r.value());
+  if (const auto model = library_entry(builder, "vehicles", name)) return laid_over(*model, r.value());
   r.fail("model", not_in_library(builder, "vehicles", "model", name));
   return std::nullopt;
 }
