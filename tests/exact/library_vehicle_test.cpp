@@ -56,6 +56,15 @@ TEST_P(LibraryVehicle, StandsOnItsSpringsAsItsCentreOfMassSays) {
   EXPECT_LT((s.bodies[0].X_WB.p - run.snapshots.front().bodies[0].X_WB.p).norm(), 1e-4);
 }
 
+TEST_P(LibraryVehicle, TakesTheFrictionOfTheScene) {
+  const auto surface = [](const std::string& more) { return scene_of(GetParam(), more).model.bodies[0].surface; };
+  const engine::SurfaceProperties both = surface("friction = 0.05\n"), one = surface("friction_body = 0.07\n");
+  EXPECT_EQ(both.friction_body.at(0), 0.05);
+  EXPECT_EQ(both.friction_ground.at(0), 0.05);
+  EXPECT_EQ(one.friction_body.at(0), 0.07);
+  EXPECT_EQ(one.friction_ground.at(0), surface("").friction_ground.at(0));
+}
+
 TEST_P(LibraryVehicle, IsNotAtRestWhileItRolls) {
   for (const double speed : {0.06, 0.1, 0.29}) {
     const scenes::Scene scene = scene_of(GetParam(), "speed = \"" + std::to_string(speed) + " m/s\"\n");

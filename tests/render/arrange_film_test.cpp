@@ -303,6 +303,22 @@ TEST(Labels, NeverCoverEachOtherNorLeaveTheFrame) {
   }
 }
 
+TEST(Labels, APageLargerThanThePictureIsWrittenSmaller) {
+  DrawList list;
+  LabelItem page;
+  page.plate = false;
+  page.anchor = {0.10f, 0.44f};
+  page.pivot = {0, 0.5f};
+  page.lines = {"Assumptions", std::string(300, 'm')};
+  page.sizes = {58, 30};
+  page.colours.resize(2);
+  list.labels.push_back(page);
+  const PanelBox box = place_labels(list, 1280, 720)[0];
+  EXPECT_TRUE(box.shown);
+  EXPECT_LT(box.shrink, 0.5);
+  EXPECT_LE(box.x + box.width, 1280);
+}
+
 TEST(Labels, ThatHaveALeaderKeepOffPersonsWhereThereIsRoom) {
   constexpr int kWidth = 1280, kHeight = 720;
   DrawList list;
