@@ -16,6 +16,15 @@ namespace {
 
 using test::ball;
 
+/// A share of the duration as `study` writes its steps, to twelve digits.
+TEST(Simulate, AStepToldToTwelveDigitsIsNotTakenOnceMore) {
+  for (const long parts : {7L, 91L, 7280L, 14560L}) {
+    Model model = test::on_ground(1.3, std::round(1.3 / static_cast<double>(parts) * 1e15) * 1e-15);
+    model.bodies = {ball(0.1, 1, {0, 0, 5})};
+    EXPECT_EQ(simulate(model).steps, parts);
+  }
+}
+
 TEST(RecordingAt, ATimeARoundingBesideASnapshotShowsThatOne) {
   Recording run;
   run.interval = 0.1;
