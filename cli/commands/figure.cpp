@@ -35,18 +35,31 @@ struct FigureWish {
 struct Figure {
   const char* name;
   std::vector<std::string> (*draw)(const render::Stage&, const engine::Recording&, const render::FigureJob&);
+  bool of_one_person = false;  // one a person who was struck
 };
-constexpr Figure kFigures[] = {{"site_diagram", render::site_diagram},       {"contact_map", render::contact_map},
+constexpr Figure kFigures[] = {{"site_diagram", render::site_diagram},       {"contact_map", render::contact_map, true},
                                {"time_histories", render::time_histories},   {"vehicle_histories", render::vehicle_histories},
-                               {"stroboscopic", render::stroboscopic_still}, {"contact_sheet", render::contact_sheet}};
+                               {"stroboscopic", render::stroboscopic_still}, {"contact_sheet", render::contact_sheet, true}};
 
 constexpr const char* kExtensions[] = {".pdf", ".svg", ".png"};
 
 bool is_a_figure(const std::string& name) {
   for (const Figure& figure : kFigures)
-    for (const char* extension : kExtensions)
-      if (name == std::string(figure.name) + extension) return true;
+    for (const std::string extension : kExtensions)
+      if (name == figure.name + extension ||
+          (figure.of_one_person && name.starts_with(figure.name + std::string("_")) && name.ends_with(extension)))
+        return true;
   return false;
+}
+
+/// The persons whom figures of one person show, and what their files' names end with: of the first nothing. Those who were struck;
+/// where nobody was, the first.
+std::vector<std::pair<std::size_t, std::string>> shown_alone(const std::vector<render::PersonFacts>& persons) {
+  std::vector<std::pair<std::size_t, std::string>> out;
+  for (std::size_t p = 0; p < persons.size(); ++p)
+    if (persons[p].hit) out.emplace_back(p, out.empty() ? "" : "_" + persons[p].name);
+  if (out.empty()) out.emplace_back(0, "");
+  return out;
 }
 
 render::PersonFacts facts_of(const engine::Model& model, const engine::Recording& recording, int index,
@@ -108,7 +121,12 @@ int draw_figures(const FigureWish& wish) {
   make_writable_folder(job.folder);
   const OutputLock lock(job.folder / "figures", is_a_figure);
   for (const Figure& figure : kFigures)
-    for (const char* extension : kExtensions) refuse_existing(job.folder / (std::string(figure.name) + extension), wish.overwrite);
+    for (const char* extension : kExtensions) {
+      refuse_existing(job.folder / (std::string(figure.name) + extension), wish.overwrite);
+      for (const engine::Person& person : scene.model.persons)
+        if (figure.of_one_person)
+          refuse_existing(job.folder / (std::string(figure.name) + "_" + person.name + extension), wish.overwrite);
+    }
 
   engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
   recording.events = engine::told_events(scene.model, recording);
@@ -119,8 +137,15 @@ int draw_figures(const FigureWish& wish) {
     job.persons.push_back(facts_of(scene.model, recording, p, metrics));
 
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  const auto alone = shown_alone(job.persons);
   for (const Figure& figure : kFigures) {
-    const std::vector<std::string> written = apart(figure.name, [&] { return figure.draw(scene.stage, recording, job); });
+    std::vector<std::string> written;
+    for (const auto& [person, name_after] : figure.of_one_person ? alone : std::vector(1, alone.front())) {
+      job.person = person;
+      job.name_after = figure.of_one_person ? name_after : "";
+      for (const std::string& file : apart(figure.name, [&] { return figure.draw(scene.stage, recording, job); }))
+        written.push_back(file);
+    }
     if (written.empty() && !wish.scene.quiet) fmt::print(stderr, "{}: the run has nothing to show there\n", figure.name);
     for (const std::string& file : written) {
       files.push_back(file);

@@ -29,12 +29,17 @@ struct Touches {
   double first_below = 1e300, last_below = -1e300;  // [s]
 };
 
-Touches touches(const engine::Recording& recording, const std::vector<Point2>& tape, int body) {
+Touches touches(const engine::Recording& recording, const std::vector<Point2>& tape, int body, const FigureJob& job) {
+  const auto of_another = [&job](int b) {
+    for (std::size_t p = 0; p < job.persons.size(); ++p)
+      if (p != job.person && std::count(job.persons[p].bodies.begin(), job.persons[p].bodies.end(), b) > 0) return true;
+    return false;
+  };
   Touches all;
   std::vector<Touch>& out = all.marks;
   for (const engine::Snapshot& s : recording.snapshots)
     for (const engine::ContactRecord& c : s.contacts) {
-      if (!c.shapes.on_vehicle() || c.body_b != body || c.impulse.norm() < kLeast) continue;
+      if (!c.shapes.on_vehicle() || c.body_b != body || c.impulse.norm() < kLeast || of_another(c.body_a)) continue;
       const Pose& X = s.bodies[static_cast<std::size_t>(body)].X_WB;
       const Vec3 p = X.q.conjugate() * (c.point - X.p);
       const OnTape place = on_tape(tape, {p.x(), p.z()});
@@ -176,14 +181,13 @@ void draw_key(cairo_t* c, const std::vector<Touch>& marks, double first, double 
 }  // namespace
 
 std::vector<std::string> contact_map(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
-  const auto struck =
-      std::find_if(job.persons.begin(), job.persons.end(), [](const PersonFacts& p) { return p.vehicle_body >= 0; });
-  if (struck == job.persons.end()) return {};
-  const int body = struck->vehicle_body;
+  if (job.persons.empty() || job.persons[job.person].vehicle_body < 0) return {};
+  const PersonFacts& struck = job.persons[job.person];
+  const int body = struck.vehicle_body;
   const double ground = stage.road.height - recording.snapshots.front().bodies[static_cast<std::size_t>(body)].X_WB.p.z();
   const std::vector<Point2> tape = tape_of(stage, body, ground);
   if (tape.size() < 3) return {};
-  const Touches all = touches(recording, tape, body);
+  const Touches all = touches(recording, tape, body, job);
   const std::vector<Touch>& marks = all.marks;
   if (marks.empty()) return {};
   double half_width = 0.5, first = 1e9, last = 0, farthest = 0;
@@ -202,9 +206,9 @@ std::vector<std::string> contact_map(const Stage& stage, const engine::Recording
   scales.length = std::max(scales.length, std::ceil(2 * 2 * shown * (kRight - kLeft) / (kBottom - kTop)) / 2);
   const UnrolledPicture picture = unroll(stage, body, tape, scales.length, scales.half_width);
   const std::vector<Stretch> names = stretches(picture, tape);
-  return write_sheets(job.folder, "contact_map", "Contact map: " + stage.title, [&](cairo_t* c) {
+  return write_sheets(job.folder, "contact_map" + job.name_after, "Contact map: " + stage.title, [&](cairo_t* c) {
     draw_frame_of_sheet(
-        c, stage, "Contact map of " + recording.body_names[static_cast<std::size_t>(body)] + ", unrolled, with " + struck->name);
+        c, stage, "Contact map of " + recording.body_names[static_cast<std::size_t>(body)] + ", unrolled, with " + struck.name);
     draw_vehicle(c, scales, picture);
     draw_grid(c, scales);
     draw_names(c, scales, names);

@@ -40,23 +40,27 @@ struct FigureJob {
   int width = 1920, height = 1080;  // of stills
   Quality quality = Quality::standard;
   std::vector<PersonFacts> persons;
+  std::size_t person = 0;            // whom a figure of one person shows
+  std::string name_after;            // of the name of its files
   std::vector<std::string> impacts;  // a line each, as measured
   std::map<std::string, std::string> metadata;
 };
 
 /// Each returns the files it wrote: none where the run has nothing to show. Throws RenderError.
 std::vector<std::string> site_diagram(const Stage&, const engine::Recording&, const FigureJob&);
+/// Of one person: without what other persons touched.
 std::vector<std::string> contact_map(const Stage&, const engine::Recording&, const FigureJob&);
 std::vector<std::string> vehicle_histories(const Stage&, const engine::Recording&, const FigureJob&);
 std::vector<std::string> time_histories(const Stage&, const engine::Recording&, const FigureJob&);
 std::vector<std::string> stroboscopic_still(const Stage&, const engine::Recording&, const FigureJob&);
+/// Of one person, who is followed.
 std::vector<std::string> contact_sheet(const Stage&, const engine::Recording&, const FigureJob&);
 
-/// The nine instants of a contact sheet, in order: six from first touch to landing, three from there to the end; nine evenly where
-/// nobody lands.
+/// The nine instants of a contact sheet, in order: six from the person's first touch to the landing, three from there to the end;
+/// nine evenly where there is none.
 std::vector<double> times_of_sheet(const engine::Recording&, const FigureJob&);
 
-/// When the vehicles of a site diagram stood where their dashed outlines are: as the last person was first touched, else as two of
+/// When the vehicles of a site diagram stood where their dashed outlines are: as the first person was touched, else as two of
 /// them first met, else at the start.
 double dashed_at(const engine::Recording&, const FigureJob&);
 

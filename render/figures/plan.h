@@ -18,6 +18,10 @@ struct Plan {
   double x(double wx) const { return (kLeft + kRight) / 2 + 1000 * (wx - middle.x()) / denominator; }
   double y(double wy) const { return (top + kBottom) / 2 - 1000 * (wy - middle.y()) / denominator; }
   Point2 at(const Vec3& p) const { return {x(p.x()), y(p.y())}; }
+  /// The place in the world of a point of the paper [mm].
+  Point2 back(const Point2& p) const {
+    return middle + denominator / 1000 * Point2(p.x() - (kLeft + kRight) / 2, (top + kBottom) / 2 - p.y());
+  }
 };
 
 /// The largest usual scale at which the box [m] fits the sheet below `top` [mm].

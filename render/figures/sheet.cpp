@@ -3,6 +3,7 @@
 #include <cairo/cairo-pdf.h>
 #include <cairo/cairo-svg.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -52,13 +53,24 @@ std::vector<std::string> write_sheets(const std::filesystem::path& folder, const
   return {pdf.string(), svg.string()};
 }
 
+namespace {
+
+constexpr double kWritable = kSheetWidth - 2 * kMargin, kTitle = 3.6;  // [mm]
+
+}  // namespace
+
+double width_of_title(cairo_t* c, const Stage& stage) {
+  return std::min(text_width(c, stage.title, kTitle), kWritable);
+}
+
 void draw_frame_of_sheet(cairo_t* c, const Stage& stage, const std::string& title) {
   cairo_set_source_rgb(c, 1, 1, 1);
   cairo_paint(c);
   grey(c, 0);
   draw_text(c, kMargin, kMargin + 3, title, 5);
   grey(c, 0.3);
-  draw_text(c, kMargin, kMargin + 9, stage.title, 3.6);
+  const double width = text_width(c, stage.title, kTitle);
+  draw_text(c, kMargin, kMargin + 9, stage.title, width > kWritable ? kTitle * kWritable / width : kTitle);
   draw_text(c, kMargin, kSheetHeight - 7, "Simulation, not measured at the scene", 2.8);
   draw_text(c, kSheetWidth - kMargin, kSheetHeight - 7, stage.provenance, 2.8, Align::right);
   double y = kSheetHeight - 7;  // between the two, from the foot up

@@ -21,6 +21,8 @@ std::vector<std::string> write_sheets(const std::filesystem::path& folder, const
 
 /// Title above, "simulation, not measured" and provenance at the foot.
 void draw_frame_of_sheet(cairo_t*, const Stage&, const std::string& title);
+/// [mm] of the scene's title beneath it, which is written smaller where the sheet is too narrow.
+double width_of_title(cairo_t*, const Stage&);
 
 enum class Align { left, centre, right };
 /// `size` [mm]; the point is the base line's left, middle or right end.

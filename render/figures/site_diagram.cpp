@@ -72,15 +72,33 @@ void draw_path(cairo_t* c, const Site& site, const PersonFacts& facts) {
   set_dashes(c, 0);
 }
 
-/// A dimension line beside its two points, `offset` [mm] below them on the paper, with the length [m] that was measured.
-void draw_dimension(cairo_t* c, const Site& site, const Vec3& from, const Vec3& to, double length, const std::string& label,
-                    double offset) {
-  const Point2 a = site.plan.at(from), b = site.plan.at(to);
-  if ((b - a).norm() < 0.5) return;
-  const Point2 along = (b - a).normalized();
-  Point2 down(-along.y(), along.x());
-  if (down.y() < 0 || (down.y() == 0 && down.x() < 0)) down = -down;
-  const Point2 p = a + offset * down, q = b + offset * down;
+/// The length [m] that was measured between two points, on a line beside them, `offset` [mm] below on the paper.
+struct LengthShown {
+  Vec3 from, to;
+  std::string text;
+  double offset;
+};
+
+struct DimensionLine {
+  Point2 a, b;         // [mm] the points
+  Point2 along, down;  // directions
+  Point2 p, q;         // [mm] the line's ends
+};
+
+DimensionLine line_of(const Plan& plan, const LengthShown& d) {
+  DimensionLine out;
+  out.a = plan.at(d.from), out.b = plan.at(d.to);
+  out.along = (out.b - out.a).normalized();
+  out.down = {-out.along.y(), out.along.x()};
+  if (out.down.y() < 0 || (out.down.y() == 0 && out.down.x() < 0)) out.down = -out.down;
+  out.p = out.a + d.offset * out.down, out.q = out.b + d.offset * out.down;
+  return out;
+}
+
+constexpr double kNumber = 3.2;  // [mm] letters of a dimension
+
+void draw_dimension(cairo_t* c, const Site& site, const LengthShown& d) {
+  const auto [a, b, along, down, p, q] = line_of(site.plan, d);
   grey(c, 0.45);
   cairo_set_line_width(c, 0.15);
   draw_line(c, a.x(), a.y(), p.x() + 1.5 * down.x(), p.y() + 1.5 * down.y());
@@ -92,19 +110,18 @@ void draw_dimension(cairo_t* c, const Site& site, const Vec3& from, const Vec3& 
     const Point2 stroke = (along - down).normalized();
     draw_line(c, end.x() - 1.4 * stroke.x(), end.y() - 1.4 * stroke.y(), end.x() + 1.4 * stroke.x(), end.y() + 1.4 * stroke.y());
   }
-  const std::string text = fmt::format("{} {:.2f} m", label, length);
   const Point2 middle = 0.5 * (p + q);
   cairo_save(c);
   cairo_translate(c, middle.x(), middle.y());
   const double angle = std::atan2(along.y(), along.x());
   cairo_rotate(c, std::abs(angle) > M_PI / 2 ? angle + M_PI : angle);
   // white behind the number: it may stand on a line of the plan
-  const double width = text_width(c, text, 3.2);
+  const double width = text_width(c, d.text, kNumber);
   cairo_set_source_rgb(c, 1, 1, 1);
   cairo_rectangle(c, -width / 2 - 0.8, -4.6, width + 1.6, 4.0);
   cairo_fill(c);
   grey(c, 0);
-  draw_text(c, 0, -1.4, text, 3.2, Align::centre);
+  draw_text(c, 0, -1.4, d.text, kNumber, Align::centre);
   cairo_restore(c);
 }
 
@@ -114,32 +131,46 @@ std::string name_of_phase(const PersonFacts& facts, const std::string& phase) {
   return phase == "slide" && facts.dragged ? "pushed slide" : phase;
 }
 
-void draw_dimensions(cairo_t* c, const Site& site, const PersonFacts& facts) {
-  if (!facts.hit) return;
-  auto com = [&](double t) { return centre_of_mass(facts, site.recording, t); };
-  const double end = facts.rest.value_or(site.recording.end_time());
+std::vector<LengthShown> dimensions_of(const Site& site, const PersonFacts& facts) {
+  std::vector<LengthShown> out;
+  if (!facts.hit) return out;
+  const auto com = [&](double t) { return centre_of_mass(facts, site.recording, t); };
+  const auto on_paper = [&](const Vec3& from, const Vec3& to) { return (site.plan.at(to) - site.plan.at(from)).norm(); };
+  const auto text = [](const std::string& label, double length) { return fmt::format("{} {:.2f} m", label, length); };
   // the parts above, the whole below them; side by side where each number has room over its own line, else one below the other
   double row = 16;  // [mm] below the path
   bool crowded = false;
   for (const PhaseFacts& phase : facts.phases) {
     if (phase.name != "flight" && phase.name != "fall" && phase.name != "landing" && phase.name != "slide") continue;
-    const double line = (site.plan.at(com(phase.to)) - site.plan.at(com(phase.from))).norm();
+    const Vec3 from = com(phase.from), to = com(phase.to);
+    const double line = on_paper(from, to);
     if (line < 3) continue;
     if (crowded || line < kLeastLine) row += 8;
     crowded = line < kLeastLine;
-    draw_dimension(c, site, com(phase.from), com(phase.to), phase.distance, name_of_phase(facts, phase.name), row);
+    out.push_back({from, to, text(name_of_phase(facts, phase.name), phase.distance), row});
   }
+  const Vec3 from = com(*facts.hit), to = com(facts.rest.value_or(site.recording.end_time()));
   for (const auto& [name, value] : facts.dimensions)
-    if (name == "throw distance") draw_dimension(c, site, com(*facts.hit), com(end), value, facts.rest ? name : "so far", row + 12);
+    if (name == "throw distance" && on_paper(from, to) >= 0.5)
+      out.push_back({from, to, text(facts.rest ? name : "so far", value), row + 12});
+  return out;
+}
+
+constexpr double kDisc = 2.6;  // [mm] radius of a number's circle
+
+std::vector<Point2> numbers_of(const Site& site, const PersonFacts& facts) {
+  std::vector<Point2> out;
+  for (const double t : times_of_interest(facts, site.recording))
+    out.push_back(site.plan.at(centre_of_mass(facts, site.recording, t)) + Point2(0, -11));
+  return out;
 }
 
 /// A number in a circle beside each place of the person, explained in the key.
 void draw_numbers(cairo_t* c, const Site& site, const PersonFacts& facts) {
   int number = 0;
-  for (const double t : times_of_interest(facts, site.recording)) {
-    const Point2 p = site.plan.at(centre_of_mass(facts, site.recording, t)) + Point2(0, -11);
+  for (const Point2& p : numbers_of(site, facts)) {
     cairo_set_source_rgb(c, 1, 1, 1);
-    cairo_arc(c, p.x(), p.y(), 2.6, 0, 2 * M_PI);
+    cairo_arc(c, p.x(), p.y(), kDisc, 0, 2 * M_PI);
     cairo_fill_preserve(c);
     grey(c, 0);
     cairo_set_line_width(c, 0.3);
@@ -148,7 +179,41 @@ void draw_numbers(cairo_t* c, const Site& site, const PersonFacts& facts) {
   }
 }
 
-constexpr double kKeyTop = kMargin + 3, kKeyLine = 4.4;  // [mm]
+/// What is written into the plan and has its size on the paper [mm], not in the world.
+std::vector<Point2> written_into(cairo_t* c, const Site& site) {
+  std::vector<Point2> out;
+  for (const PersonFacts& facts : site.job.persons) {
+    for (const Point2& p : numbers_of(site, facts))
+      for (const double side : {-1.0, 1.0}) out.push_back(p + side * Point2(kDisc + 0.5, kDisc + 0.5));
+    for (const LengthShown& d : dimensions_of(site, facts)) {
+      const DimensionLine line = line_of(site.plan, d);
+      const double half = std::max(text_width(c, d.text, kNumber), (line.q - line.p).norm()) / 2 + 1.5;
+      for (const double side : {-1.0, 1.0}) out.push_back(0.5 * (line.p + line.q) + side * half * line.along + 2 * line.down);
+    }
+  }
+  return out;
+}
+
+/// The largest usual scale at which the box [m] and what is written into the plan fit the sheet below `top` [mm].
+Plan plan_with_writing(cairo_t* c, const Site& site, Point2 lower, Point2 upper, double top) {
+  Site tried = site;
+  // a smaller scale moves what is written further out in the world
+  for (int i = 0; i < 4; ++i) {
+    tried.plan = plan_for(lower, upper, top);
+    bool fits = true;
+    for (const Point2& p : written_into(c, tried)) {
+      const bool inside = p.x() >= kLeft && p.x() <= kRight && p.y() >= top && p.y() <= kBottom;
+      if (inside) continue;
+      fits = false;
+      lower = lower.cwiseMin(tried.plan.back(p));
+      upper = upper.cwiseMax(tried.plan.back(p));
+    }
+    if (fits) break;
+  }
+  return tried.plan;
+}
+
+constexpr double kKeyLine = 4.4, kKeyLetters = 2.9;  // [mm]
 
 /// What stands above the plan: of each person when and how far, then the impacts; in lines that leave the title its place.
 std::vector<std::string> key_of(const engine::Recording& recording, const FigureJob& job) {
@@ -165,7 +230,8 @@ std::vector<std::string> key_of(const engine::Recording& recording, const Figure
     out.push_back(text);
     text.clear();
     for (const auto& [name, value] : facts.dimensions) {
-      const std::string next = fmt::format("{} {:.2f} m", name_of_phase(facts, name), value);
+      const bool under_way = name == "throw distance" && !facts.rest;
+      const std::string next = fmt::format("{} {:.2f} m{}", name_of_phase(facts, name), value, under_way ? " so far" : "");
       if (!text.empty() && text.size() + next.size() > kLongest) out.push_back(std::exchange(text, "") + ",");
       text += (text.empty() ? "" : ", ") + next;
     }
@@ -175,11 +241,17 @@ std::vector<std::string> key_of(const engine::Recording& recording, const Figure
   return out;
 }
 
-void draw_key(cairo_t* c, const std::vector<std::string>& lines) {
-  double y = kKeyTop;
+/// [mm] of the key's first line: beside the title, or below it where both have no room.
+double top_of_key(cairo_t* c, const Stage& stage, const std::vector<std::string>& lines) {
+  double widest = 0;
+  for (const std::string& line : lines) widest = std::max(widest, text_width(c, line, kKeyLetters));
+  return kMargin + (width_of_title(c, stage) + 6 + widest <= kSheetWidth - 2 * kMargin ? 3 : 15);
+}
+
+void draw_key(cairo_t* c, const std::vector<std::string>& lines, double y) {
   grey(c, 0);
   for (const std::string& line : lines) {
-    draw_text(c, kSheetWidth - kMargin, y, line, 2.9, Align::right);
+    draw_text(c, kSheetWidth - kMargin, y, line, kKeyLetters, Align::right);
     y += kKeyLine;
   }
 }
@@ -243,10 +315,11 @@ std::vector<std::string> site_diagram(const Stage& stage, const engine::Recordin
   const Point2 around(kAround, kAround);
   std::vector<std::string> key = key_of(recording, job);
   key.push_back(fmt::format("dashed: {:.3f} s, solid: {:.3f} s", hit, recording.end_time()));
-  const double below = std::max(kTop, kKeyTop + kKeyLine * static_cast<double>(key.size()));
-  const Site site{stage, recording, job, plan_for(lower - around, upper + around, below)};
   return write_sheets(job.folder, "site_diagram", "Site diagram: " + stage.title, [&](cairo_t* c) {
     draw_frame_of_sheet(c, stage, "Site diagram");
+    const double key_top = top_of_key(c, stage, key), below = std::max(kTop, key_top + kKeyLine * static_cast<double>(key.size()));
+    Site site{stage, recording, job, {}};
+    site.plan = plan_with_writing(c, site, lower - around, upper + around, below);
     cairo_save(c);
     cairo_rectangle(c, kLeft, below, kRight - kLeft, kBottom - below);
     cairo_clip(c);
@@ -263,11 +336,11 @@ std::vector<std::string> site_diagram(const Stage& stage, const engine::Recordin
         draw_person(c, stage, site.plan, p.name, recording.at(times[i]),
                     {0.92 - 0.42 * static_cast<double>(i + 1) / static_cast<double>(times.size()), 0});
       draw_path(c, site, p);
-      draw_dimensions(c, site, p);
+      for (const LengthShown& d : dimensions_of(site, p)) draw_dimension(c, site, d);
       draw_numbers(c, site, p);
     }
     cairo_restore(c);
-    draw_key(c, key);
+    draw_key(c, key, key_top);
     draw_scale(c, stage, site.plan);
   });
 }

@@ -75,26 +75,21 @@ Camera beside_person(const PersonFacts& p, const engine::Recording& recording) {
   return camera;
 }
 
-}  // namespace
-
-/// From the first touch of anybody to the last landing and the last rest.
-struct Span {
-  std::optional<double> hit, landed, rest;
-};
-
-Span span_of(const FigureJob& job) {
-  Span out;
+/// From the first touch of anybody to the last rest, or to the end where one who was touched came to none.
+std::pair<double, double> span_of(const engine::Recording& recording, const FigureJob& job) {
+  std::optional<double> hit, rest;
   for (const PersonFacts& p : job.persons) {
-    if (p.hit && (!out.hit || *p.hit < *out.hit)) out.hit = p.hit;
-    if (p.landed && (!out.landed || *p.landed > *out.landed)) out.landed = p.landed;
-    if (p.rest && (!out.rest || *p.rest > *out.rest)) out.rest = p.rest;
+    if (p.hit && (!hit || *p.hit < *hit)) hit = p.hit;
+    const double still = p.rest.value_or(p.hit ? recording.end_time() : 0);
+    if (!rest || still > *rest) rest = still;
   }
-  return out;
+  return {hit.value_or(0), hit ? *rest : recording.end_time()};
 }
 
+}  // namespace
+
 std::vector<std::string> stroboscopic_still(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
-  const auto [hit, landed, rest] = span_of(job);
-  const double from = hit.value_or(0), to = rest.value_or(recording.end_time());
+  const auto [from, to] = span_of(recording, job);
   const std::vector<Vec3> points = places(stage, recording, job, from);
   if (points.empty()) return {};
   Stage scene = stage;
@@ -143,7 +138,8 @@ std::vector<std::string> rest_ghosts(const Stage& stage, const engine::Recording
 }
 
 std::vector<double> times_of_sheet(const engine::Recording& recording, const FigureJob& job) {
-  const auto [hit, landed, rest] = span_of(job);
+  const PersonFacts nobody, &person = job.persons.empty() ? nobody : job.persons[job.person];
+  const auto &hit = person.hit, &landed = person.landed;
   std::vector<double> times;
   const double end = recording.end_time();
   if (!landed || !hit || !(*hit < *landed)) {
@@ -159,7 +155,7 @@ std::vector<std::string> contact_sheet(const Stage& stage, const engine::Recordi
   const std::vector<double> times = times_of_sheet(recording, job);
   const int w = job.width / kColumns, h = static_cast<int>(std::lround(w / kAspectOfFilm));
   Stage scene = stage;
-  if (!job.persons.empty()) scene.cameras.insert(scene.cameras.begin(), beside_person(job.persons.front(), recording));
+  if (!job.persons.empty()) scene.cameras.insert(scene.cameras.begin(), beside_person(job.persons[job.person], recording));
   // labels would be too small to read
   scene.overlays.hide({"contacts", "forces", "disclaimer", "caption", "legend", "speed_chart", "energy_chart"});
   scene.overlays.set("contact_history");
@@ -195,7 +191,7 @@ std::vector<std::string> contact_sheet(const Stage& stage, const engine::Recordi
   label.pivot = {1, 1};
   foot.labels.push_back(label);
   draw_labels(foot, sheet);
-  return write(job, "contact_sheet.png", sheet);
+  return write(job, "contact_sheet" + job.name_after + ".png", sheet);
 }
 
 }  // namespace render

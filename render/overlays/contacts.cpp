@@ -71,7 +71,11 @@ void add_forces(const Frame& frame, DrawList& list) {
   LabelItem label;
   const auto& names = frame.recording.body_names;
   const std::string against = largest->body_b >= 0 ? names[static_cast<std::size_t>(largest->body_b)] : "ground";
-  label.lines = {readable(names[static_cast<std::size_t>(largest->body_a)]) + " / " + against,
+  const std::string& part = names[static_cast<std::size_t>(largest->body_a)];
+  // of one person "left thigh", of several "boy's left thigh"
+  const std::size_t slash = part.find('/');
+  const std::string whose = frame.stage.persons.size() > 1 && slash != std::string::npos ? part.substr(0, slash) + "'s " : "";
+  label.lines = {whose + readable(part) + " / " + against,
                  largest->state == engine::ContactState::impact
                      ? fmt::format("impulse {:.0f} N s", std::hypot(largest->normal_impulse, largest->tangential_impulse))
                      : fmt::format("F = {}", newtons(largest->force.norm()))};

@@ -10,10 +10,14 @@ namespace {
 
 constexpr double kText = 15;  // pixels at 1080 lines
 
-void text(cairo_t* c, const std::string& what, double x, double y, double align) {
+double width_of(cairo_t* c, const std::string& what) {
   cairo_text_extents_t extents;
   cairo_text_extents(c, what.c_str(), &extents);
-  cairo_move_to(c, std::round(x - align * extents.x_advance), std::round(y));
+  return extents.x_advance;
+}
+
+void text(cairo_t* c, const std::string& what, double x, double y, double align) {
+  cairo_move_to(c, std::round(x - align * width_of(c, what)), std::round(y));
   cairo_show_text(c, what.c_str());
 }
 
@@ -49,15 +53,20 @@ void draw_chart(cairo_t* c, const ChartItem& chart, int width, int height) {
   // frame: title, names in their colours, axes with numbers at both ends
   paint_with(c, {1, 1, 1, 0.95f});
   text(c, chart.title, x0 + 12 * scale, y0 + 20 * scale, 0);
-  double at = x0 + 12 * scale;
+  const auto name_of = [](const ChartItem::Series& s) { return "\u25a0 " + s.name; };
+  const double indent = 12 * scale, between = 16 * scale;
+  double names = 0;
+  for (const ChartItem::Series& s : chart.series) names += width_of(c, name_of(s)) + between;
+  // many or long names are written smaller: none is cut off
+  const double shrink = std::min(1.0, (w - 2 * indent) / std::max(names - between, 1.0));
+  cairo_set_font_size(c, kText * scale * shrink);
+  double at = x0 + indent;
   for (const ChartItem::Series& s : chart.series) {
     paint_with(c, s.colour);
-    const std::string name = "\u25a0 " + s.name;
-    text(c, name, at, y0 + 40 * scale, 0);
-    cairo_text_extents_t extents;
-    cairo_text_extents(c, name.c_str(), &extents);
-    at += extents.x_advance + 16 * scale;
+    text(c, name_of(s), at, y0 + 40 * scale, 0);
+    at += width_of(c, name_of(s)) + between * shrink;
   }
+  cairo_set_font_size(c, kText * scale);
   paint_with(c, {0.8f, 0.85f, 0.9f, 0.9f});
   for (const double share : {0.0, 0.5, 1.0})
     text(c, fmt::format("{:g}", share * chart.ceiling), left - 6 * scale, py(share * chart.ceiling) + 5 * scale, 1);

@@ -41,6 +41,26 @@ TEST(Figure, OfAScenePersonsAreNotInLeavesOutWhatItCannotShow) {
   EXPECT_THAT(contents(folder / "fig/site_diagram.svg"), HasSubstr("stroke-dasharray")) << "where the ball began, and its way";
 }
 
+TEST(Figure, OfSeveralStruckHasAContactMapAndASheetEach) {
+  const Folder folder;
+  const auto person = [](const std::string& name, const std::string& y) {
+    return "[[person]]\nname = \"" + name + "\"\nstature = \"175 cm\"\nmass = \"75 kg\"\nposition = \"0.6 " + y + " m\"\n";
+  };
+  folder.write("two.toml",
+               "[simulation]\nduration = \"0.1 s\"\n[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\nfront = \"0 0 m\"\nspeed = "
+               "\"40 km/h\"\n" +
+                   person("bystander", "9") + person("left", "0.5") + person("right", "-0.5"));
+  const std::vector<std::string> draw = {"figure", "two.toml", "-o", "fig", "--size", "160x90", "--quality", "draft", "--quiet"};
+  ASSERT_EQ(run(folder, draw).code, 0);
+  const auto map = [&folder](const std::string& after) { return contents(folder / ("fig/contact_map" + after + ".pdf")); };
+  EXPECT_NE(map(""), map("_right"));
+  EXPECT_THAT(names_in(folder / "fig"),
+              testing::IsSupersetOf({"contact_map.pdf", "contact_map_right.svg", "contact_sheet.png", "contact_sheet_right.png"}));
+  EXPECT_EQ(map("_left"), "") << "the first who was struck has the plain names";
+  EXPECT_EQ(map("_bystander"), "") << "nobody struck the third";
+  EXPECT_EQ(run(folder, draw).code, 2) << "they are there";
+}
+
 TEST(Figure, RefusesToReplaceUnlessAsked) {
   const Folder folder;
   folder.write("ball.toml", kBall);

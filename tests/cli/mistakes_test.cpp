@@ -314,6 +314,17 @@ TEST(Check, ForeseesWhatARunWouldTellTooLate) {
   EXPECT_THAT(told(car + "[[vehicle]]\nname = \"other\"\nmodel = \"sedan\"\nposition = \"3 0.5 m\"\n"), HasSubstr("overlap"));
 }
 
+TEST(Check, ExpectsNoExchangeOfTwoVehiclesBeforeTheyMeet) {
+  const Folder folder;
+  const std::string asked = "collision = \"kudlich_slibar\"\n";
+  folder.write("a.toml", "[simulation]\nduration = \"1 s\"\n[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\nspeed = \"50 km/h\"\n" +
+                             asked + "[[vehicle]]\nname = \"other\"\nmodel = \"sedan\"\nposition = \"12 0.5 m\"\n" + asked +
+                             "[[impact]]\na = \"car\"\nb = \"other\"\nrestitution = 0.1\n");
+  const Result result = run(folder, {"check", "a.toml"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.err, "");
+}
+
 TEST(Simulate, ARunWithoutATouchSaysSo) {
   const Folder folder;
   folder.write("a.toml", "[simulation]\nduration = \"0.1 s\"\n[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\n" + kPerson +

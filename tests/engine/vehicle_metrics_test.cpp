@@ -47,6 +47,26 @@ TEST(VehicleMetrics, DeltaVIsTheChangeOfVelocityOfTheCollisionAndNotOfTheRun) {
   EXPECT_FALSE(value_of(out, "ees_mps")) << "a person takes up no energy that would deform a car";
 }
 
+TEST(VehicleMetrics, DeltaVIsThatOfTheLargestImpulseWhateverAThirdOneDidMeanwhile) {
+  Model model = person_and_car();
+  model.settings.gravity.setZero();
+  Recording run = standing_still(60);
+  const auto speed = [](int i) { return i < 5 ? 10.0 : i < 40 ? 4.0 : -3.0; };
+  for (int i = 0; i < 60; ++i) run.snapshots[i].bodies.own()[kCar].V_WB.v = {speed(i), 0, 0};
+  run.snapshots[5].contacts = {push(kHips, kCar, kOnVehicle, {6000, 0, 0})};
+  // of the 7 m/s of the second phase 3 are a third one's
+  run.snapshots[40].contacts = {push(kHips, kCar, kOnVehicle, {4000, 0, 0})};
+  const std::vector<Impact> impacts = impacts_of(model, run);
+  ASSERT_EQ(impacts.size(), 2u);
+  const ImpactSide& car = impacts[1].a.party.vehicle == 0 ? impacts[1].a : impacts[1].b;
+  EXPECT_NEAR(car.delta_v.norm(), 7, 1e-9);
+  EXPECT_EQ(hardest_impact(impacts, 0), &impacts[0]);
+  EXPECT_EQ(hardest_impact(impacts, 1), nullptr);
+  std::vector<Metric> out;
+  measure_vehicle(model, run, impacts, 0, out);
+  EXPECT_NEAR(value_of(out, "delta_v_mps").value(), 6, 1e-9);
+}
+
 TEST(VehicleMetrics, UntouchedVehicleHasNone) {
   const Model model = person_and_car();
   Recording run;
