@@ -7,6 +7,7 @@ endif()
 file(STRINGS ${HASHES} expected)
 foreach(folder ${SCRATCH} ${MESHES})
   file(GLOB names RELATIVE ${folder} ${folder}/*)
+  list(FILTER names EXCLUDE REGEX "\\.imported$")  # made of these
   set(found)
   foreach(name ${names})
     file(SHA256 ${folder}/${name} hash)

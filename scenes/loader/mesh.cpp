@@ -224,7 +224,8 @@ namespace {
 /// Null, with a problem told, where the file cannot be imported.
 std::shared_ptr<const ImportedMesh> bring_in(const std::filesystem::path& file, const std::string& extension,
                                              std::string& problem) {
-  CageResult result = import_in_cage(file, file.parent_path());
+  auto kept = imported_before(file, home_folder() / "assets/vehicles");
+  CageResult result = kept ? std::move(*kept) : import_in_cage(file, file.parent_path());
   problem = result.problem;
   if (!problem.empty()) return nullptr;
   turn_upright(result.parts, extension);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
+#include <stdexcept>
 
 #include "scenes/loader/cage.h"
 #include "scenes/loader/mesh.h"
@@ -44,12 +46,46 @@ class Message {
   bool good_ = true;
 };
 
+std::string contents(const std::filesystem::path& file) {
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(file, none);
+  std::string out(none ? 0 : size, '\0');
+  std::ifstream(file, std::ios::binary).read(out.data(), static_cast<std::streamsize>(out.size()));
+  return out;
+}
+
+/// Of the mesh and of the materials beside it.
+std::string hashes_of(const std::filesystem::path& file) {
+  return sha256(contents(file)) + sha256(contents(std::filesystem::path(file).replace_extension(".mtl")));
+}
+
 }  // namespace
 
-CageResult unpacked(const std::string& bytes) {
+std::string kept_import(const std::filesystem::path& file) {
+  const CageAnswer answer = ask_cage(file, file.parent_path());
+  if (!answer.problem.empty()) throw std::runtime_error(file.string() + " " + answer.problem);
+  return hashes_of(file) + sha256(answer.bytes) + answer.bytes;
+}
+
+std::optional<CageResult> imported_before(const std::filesystem::path& file, const std::filesystem::path& library) {
+  std::error_code none;
+  if (!std::filesystem::equivalent(file.parent_path(), library, none) || none) return std::nullopt;
+  const std::string kept = contents(file.string() + ".imported");
+  if (kept.empty()) return std::nullopt;
+  const std::string hashes = hashes_of(file);
+  constexpr std::size_t kHash = 64;
+  if (!kept.starts_with(hashes) || kept.size() < hashes.size() + kHash) return std::nullopt;
+  const auto [hash, answer] =
+      std::pair(std::string_view(kept).substr(hashes.size(), kHash), std::string_view(kept).substr(hashes.size() + kHash));
+  CageResult out = unpacked(answer);
+  if (!out.problem.empty() || out.sha256 != hash) return std::nullopt;
+  return out;
+}
+
+CageResult unpacked(std::string_view bytes) {
   CageResult out;
   std::size_t triangles = 0;
-  Message message(std::string_view(bytes).substr(std::min<std::size_t>(1, bytes.size())));
+  Message message(bytes.substr(std::min<std::size_t>(1, bytes.size())));
   while (message.more()) {
     RawPart part;
     std::vector<float> values;

@@ -251,6 +251,44 @@ TEST(MeshCage, SaysThatMemoryEnded) {
   EXPECT_EQ(import_in_cage(file, folder.path(), {.largest = 100}).problem, "what stands in it needs more than 0 MB; thin it out");
 }
 
+TEST(KeptImport, IsWhatTheCageSaysOfEveryMeshOfTheLibrary) {
+  const std::filesystem::path library = std::string(CRASHREEL_SOURCE_DIR) + "/assets/vehicles";
+  int meshes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(library)) {
+    if (entry.path().extension() != ".obj") continue;
+    const auto kept = imported_before(entry.path(), library);
+    ASSERT_TRUE(kept) << entry.path();
+    EXPECT_EQ(kept->sha256, import_in_cage(entry.path(), library).sha256) << entry.path();
+    EXPECT_FALSE(kept->parts.empty());
+    ++meshes;
+  }
+  EXPECT_GT(meshes, 20);
+}
+
+TEST(KeptImport, IsNotTakenOfAnotherMeshOrDamaged) {
+  const SceneFolder folder;
+  const auto car = folder.write("car.obj", box(4)), materials = folder.write("car.mtl", "newmtl paint\nKd 1 0 0\n");
+  const std::string kept = kept_import(car);
+  const auto taken = [&] { return imported_before(car, folder.path()).has_value(); };
+  EXPECT_FALSE(taken()) << "none is there";
+  folder.write("car.obj.imported", kept);
+  EXPECT_TRUE(taken());
+  EXPECT_FALSE(imported_before(car, folder.path() / "..")) << "not of the library";
+  folder.write("car.obj.imported", kept.substr(0, kept.size() - 1));
+  EXPECT_FALSE(taken()) << "cut off";
+  std::string other = kept;
+  other.back() = static_cast<char>(other.back() ^ 1);
+  folder.write("car.obj.imported", other);
+  EXPECT_FALSE(taken()) << "one bit";
+  folder.write("car.obj.imported", kept);
+  folder.write("car.mtl", "newmtl paint\nKd 0 1 0\n");
+  EXPECT_FALSE(taken()) << "another colour";
+  folder.write("car.mtl", "newmtl paint\nKd 1 0 0\n");
+  EXPECT_TRUE(taken());
+  folder.write("car.obj", box(4.5));
+  EXPECT_FALSE(taken()) << "another shape";
+}
+
 TEST(MeshAudit, TakesSecondsForMillionsOfTriangles) {
   // 4 million triangles, each twice: 20 s with a sorted set
   RawPart part;
