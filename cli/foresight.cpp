@@ -189,9 +189,9 @@ Sentences out_of_reach(const engine::Model& model) {
       alone = alone && gap > reach(a) + reach(b);
     }
     if (alone && free)
-      out.push_back(
-          fmt::format("{} can touch nothing: at the start it is {:.3g} m from the nearest other object, too far for {:.3g} s",
-                      a.name, nearest, time));
+      out.push_back(fmt::format(
+          "{} can touch nothing: at the start it is at least {:.3g} m from the nearest other object, too far for {:.3g} s", a.name,
+          nearest, time));
   }
   return out;
 }

@@ -306,13 +306,15 @@ constexpr double kDecides = 0.8;
 /// strikes the person's own arm, or is shaken by a blow to the trunk.
 const char* scattered(const engine::Metric& metric, const std::vector<engine::Metric>& all) {
   if (metric.key != "hic15" && metric.key != "hic15_ground") return "";
-  const auto decided_by = [&](const char* key) {
-    return std::any_of(all.begin(), all.end(), [&](const engine::Metric& m) {
-      return m.key == key && m.object == metric.object && m.value >= kDecides * metric.value;
-    });
+  const auto of = [&](const char* key) {
+    double out = 0;
+    for (const engine::Metric& m : all)
+      if (m.key == key && m.object == metric.object) out = m.value;
+    return out;
   };
-  if (metric.key == "hic15" && decided_by("hic15_vehicle")) return "";
-  return decided_by("hic15_ground") ? ", of the road: scatters widely" : ", of neither vehicle nor road alone";
+  const double by_vehicle = of("hic15_vehicle"), by_ground = of("hic15_ground");
+  if (metric.key == "hic15" && by_vehicle >= kDecides * metric.value && by_vehicle >= by_ground) return "";
+  return by_ground >= kDecides * metric.value ? ", of the road: scatters widely" : ", of neither vehicle nor road alone";
 }
 
 /// Beside the way of who came down and was taken along again: no friction follows from it.

@@ -80,8 +80,8 @@ constexpr Definition kDefinitions[] = {
      "foot may settle later. Of a vehicle on its wheels its way along the road and its yaw: it may go on rocking on its springs. "
      "Of rider and mount each its own.",
      kMoving, "to the recorded interval", true},
-    {"travel_m", "m", "way", "Level distance from start to end of who or what no vehicle touched.", "a person that was struck",
-     kPath, true},
+    {"travel_m", "m", "way", "Level distance from start to end, of a person whom no vehicle touched and of free bodies.",
+     "a person that was struck", kPath, true},
     {"turned_deg", "deg", "turned", "Angle between the attitudes of a free body at start and end, 0 to 180.", "not a free body",
      "exact to the step", true},
     {"rebound_height_m", "m", "rebound", "Height over the ground of a free body's lowest point at the top of its first rebound.",
@@ -133,8 +133,9 @@ constexpr Definition kDefinitions[] = {
     {"peak_acceleration_mps2", "m/s^2", "peak acceleration",
      "Largest acceleration of a part's centre, mean over a step; free fall counts one g.", kNoForce, "grows with stiffness"},
     {"delta_v_mps", "m/s", "delta-v",
-     "Change of the velocity of the centre of mass in the plane of the road over the collision phase, less what tyres and "
-     "gravity did meanwhile; of several phases that of the largest impulse. What a rider or a third one does in the same time is "
+     "Change of the velocity of the centre of mass in the plane of the road over the collision phase, less what tyres, air "
+     "and gravity did meanwhile; of several phases that of the largest impulse. What a rider or a third one does in the same time "
+     "is "
      "part of it; of a two-wheeler's tyres counts what they do under its weight and the rider's, to both. Begin and end of the "
      "phase as 49 CFR 563.5 says: exchange of more than 0.8 km/h of the lighter mass within 20 ms, 250 ms at most.",
      kNoDeltaV,

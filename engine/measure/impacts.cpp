@@ -1,4 +1,5 @@
 #include "engine/measure/impacts.h"
+#include "engine/effects/air_drag.h"
 #include "engine/math/functions.h"
 
 #include <algorithm>
@@ -109,8 +110,8 @@ double pdof_of(const Quat& q_WB, const Vec3& push) {
   return math::atan2(left, -push.dot(ahead)) * 180 / std::numbers::pi;
 }
 
-bool has_two_wheels(const Model& model, const Party& party) {
-  return party.vehicle >= 0 && model.vehicles[party.vehicle].wheels.size() == 2;
+bool is_two_wheeler(const Model& model, const Party& party) {
+  return party.vehicle >= 0 && model.vehicles[party.vehicle].wheels.size() == 2 && !has_track(model.vehicles[party.vehicle]);
 }
 
 /// Mass [kg] of a vehicle with who rides it.
@@ -133,13 +134,13 @@ Vec3 done_by_tyres(const Model& model, const Recording& recording, const Party& 
   for (std::size_t i = span.first; i <= span.last; ++i)
     if (const auto& of = recording.snapshots[i].tyre_impulse; party.vehicle < static_cast<int>(of.size()))
       impulse += of[party.vehicle];
-  if (!has_two_wheels(model, party)) return impulse / mass_of(model, party);
+  if (!is_two_wheeler(model, party)) return impulse / mass_of(model, party);
   const double duration = recording.snapshots[span.last].time - recording.snapshots[span.first > 0 ? span.first - 1 : 0].time;
   const double mass = mass_with_riders(model, party), weight = mass * model.settings.gravity.norm() * duration;
   return std::min(1.0, weight / std::max(impulse.z(), 1e-9)) * impulse / mass;
 }
 
-ImpactSide side_of(const Model& model, const Recording& recording, const Party& party, const Stretch& span) {
+ImpactSide side_of(const Model& model, const Recording& recording, const AirOfRun& air, const Party& party, const Stretch& span) {
   const auto& all = recording.snapshots;
   const Snapshot &before = all[span.first > 0 ? span.first - 1 : 0], &after = all[span.last];
   ImpactSide side;
@@ -155,6 +156,7 @@ ImpactSide side_of(const Model& model, const Recording& recording, const Party& 
   side.delta_v = v1 - v0 - model.settings.gravity * (after.time - before.time);
   if (party.vehicle < 0) return side;
   side.delta_v -= done_by_tyres(model, recording, party, span);
+  side.delta_v -= air.impulse(root, span.first > 0 ? span.first - 1 : 0, span.last) / mass_of(model, party);
   side.delta_v.z() = 0;  // as the field counts it: in the plane of the road
   side.pdof = pdof_of(before.bodies[root].X_WB.q, side.delta_v);
   return side;
@@ -180,7 +182,7 @@ void share_energy(const Model& model, const Snapshot& before, Impact& impact) {
   if (S_a != S_b) of_a = S_b / (S_a + S_b), rule = "by stiffness";
   if (A.fixed || B.fixed) of_a = A.fixed ? 0 : 1, rule = "all to the one that moves";
   // a two-wheeler and a car: no rule of cars' masses is theirs
-  if (rule == std::string("by mass") && has_two_wheels(model, impact.a.party) != has_two_wheels(model, impact.b.party)) return;
+  if (rule == std::string("by mass") && is_two_wheeler(model, impact.a.party) != is_two_wheeler(model, impact.b.party)) return;
   // an energy equivalent speed is told from what bodywork crushes: that of wheels against a kerb has no such scale
   if ((A.fixed && below_hubs(model, before, impact.b.party, impact.point)) ||
       (B.fixed && below_hubs(model, before, impact.a.party, impact.point)))
@@ -235,13 +237,14 @@ double duration_of(const Recording& recording, const Pair& pair, const Stretch& 
   return last - from;
 }
 
-Impact impact_of(const Model& model, const Recording& recording, const Pair& pair, const Stretch& span, std::size_t touch) {
+Impact impact_of(const Model& model, const Recording& recording, const AirOfRun& air, const Pair& pair, const Stretch& span,
+                 std::size_t touch) {
   Impact out;
   out.time = sum_contacts(recording, pair, span, out);
   const Snapshot& before = recording.snapshots[span.first > 0 ? span.first - 1 : 0];
   out.duration = duration_of(recording, pair, span, out.time);
-  out.a = side_of(model, recording, pair.a, span);
-  out.b = side_of(model, recording, pair.b, span);
+  out.a = side_of(model, recording, air, pair.a, span);
+  out.b = side_of(model, recording, air, pair.b, span);
   const bool person = pair.a.person >= 0 || pair.b.person >= 0;
   const auto at_point = [&](const Party& party) { return velocity_of_point(party.bodies.front(), before, out.point); };
   out.closing_speed = person ? first_closing(recording, pair, touch) : -(at_point(pair.a) - at_point(pair.b)).dot(out.normal);
@@ -294,6 +297,7 @@ std::vector<Stretch> stretches(const Recording& recording, const std::vector<Vec
 
 std::vector<Impact> impacts_of(const Model& model, const Recording& recording) {
   std::vector<Impact> out;
+  const AirOfRun air(model, recording);
   for (const Pair& pair : pairs_of(model, recording)) {
     double lighter = 1e300;
     for (const Party* party : {&pair.a, &pair.b})
@@ -302,7 +306,7 @@ std::vector<Impact> impacts_of(const Model& model, const Recording& recording) {
     const std::vector<Vec3> push = pushes(recording, pair);
     for (const Stretch& span : stretches(recording, push, kChange * lighter)) {
       const std::size_t touch = phase == 0 ? touch_of(recording, push, span.first) : span.first;
-      out.push_back(impact_of(model, recording, pair, span, touch));
+      out.push_back(impact_of(model, recording, air, pair, span, touch));
       out.back().phase = ++phase;
     }
   }
@@ -312,9 +316,10 @@ std::vector<Impact> impacts_of(const Model& model, const Recording& recording) {
 
 const Impact* hardest_impact(const std::vector<Impact>& impacts, int vehicle) {
   const Impact* out = nullptr;
+  // in the plane of the road, as its delta-v: what lies on a vehicle presses it down for long
+  const auto push = [](const Impact& i) { return i.impulse.head<2>().norm(); };
   for (const Impact& i : impacts)
-    if ((i.a.party.vehicle == vehicle || i.b.party.vehicle == vehicle) && (!out || i.impulse.norm() > out->impulse.norm()))
-      out = &i;
+    if ((i.a.party.vehicle == vehicle || i.b.party.vehicle == vehicle) && (!out || push(i) > push(*out))) out = &i;
   return out;
 }
 

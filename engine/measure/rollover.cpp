@@ -15,14 +15,6 @@ namespace {
 
 constexpr double kQuarter = std::numbers::pi / 2;  // [rad]
 
-/// One that stands by itself on wheels of both sides. A two-wheeler that falls on its side has not rolled over.
-bool has_track(const Vehicle& v) {
-  const auto side = [&](double sign) {
-    return std::any_of(v.wheels.begin(), v.wheels.end(), [&](const Wheel& w) { return sign * w.hub_B.y() > 0.1; });
-  };
-  return side(1) && side(-1);
-}
-
 /// Does it stand on wheels of both sides?
 bool stands(const Snapshot& s, const Vehicle& vehicle, int v) {
   const auto side = [&](double sign) {
@@ -106,7 +98,10 @@ class Roll {
   double after(const Quat& q_WB) {
     constexpr double kUpright = 0.3;  // [-] share of the vertical along the cross plane: 73 degrees of pitch
     const Vec3 up_B = q_WB.conjugate() * Vec3::UnitZ();
-    if (math::hypot(up_B.y(), up_B.z()) < kUpright) return turned_;
+    if (math::hypot(up_B.y(), up_B.z()) < kUpright) {
+      last_.reset();  // end over end it comes out upside down, and has not rolled
+      return turned_;
+    }
     const double lean = math::atan2(up_B.y(), up_B.z());
     if (last_) turned_ += std::remainder(lean - *last_, 4 * kQuarter);
     last_ = lean;

@@ -83,4 +83,14 @@ struct Vehicle {
   Vec3 drag{0.3, 0.8, 1};  // [-] of the air along its length, width and height, by the sides of the box round it
 };
 
+/// Whether it stands by itself on wheels of both sides: neither a two-wheeler nor something without wheels.
+inline bool has_track(const Vehicle& vehicle) {
+  bool left = false, right = false;
+  for (const Wheel& wheel : vehicle.wheels) {
+    left = left || wheel.hub_B.y() > 0.1;
+    right = right || wheel.hub_B.y() < -0.1;
+  }
+  return left && right;
+}
+
 }  // namespace engine

@@ -49,7 +49,7 @@ void EnergyWatch::close(const World& world, Diagnostics& out) const {
   out.warnings.push_back("energy: " + std::string(world.plan.active[static_cast<std::size_t>(world.log.gained_by)]->name) +
                          " gave " + number(gain.amount) + " J" +
                          (known ? " to " + name(gain.body_a) + " and " + name(gain.body_b) : "") + " in the step to " +
-                         moment(gain.time) + ", and has none to give" + kCompare);
+                         moment(gain.time) + ", though that effect has none to give" + kCompare);
 }
 
 }  // namespace engine

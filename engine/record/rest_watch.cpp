@@ -17,6 +17,37 @@ double pace_of(const Twist& V) {
   return std::max(V.v.norm() / kStillSpeed, V.w.norm() / kStillTurn);
 }
 
+/// [s] from when on nothing sets in motion by the clock what rests: no drive, no brake or friction that lets go, no softer surface.
+double quiet_from(const Model& model) {
+  constexpr double kPicksUp = 1;  // [s] until a twentieth of a metre per second squared is seen as motion
+  double last = -kPicksUp;
+  const auto take = [&last](double time) {
+    if (std::isfinite(time)) last = std::max(last, time);
+  };
+  const auto changes = [&](const Schedule& schedule, bool rises) {
+    const auto& knots = schedule.knots();
+    for (std::size_t i = 1; i < knots.size(); ++i)
+      if (knots[i].value < knots[i - 1].value || (rises && knots[i].value > knots[i - 1].value)) take(knots[i].time);
+  };
+  for (const Vehicle& vehicle : model.vehicles) {
+    changes(vehicle.drive_force, true);
+    changes(vehicle.brake, false);
+    for (const DriverPhase& phase : vehicle.sequence) {
+      if (phase.drives && phase.force != 0) take(phase.first_force + phase.build_up);
+      if (!phase.drives) take(phase.until);
+    }
+  }
+  const auto lets_go = [&](const SurfaceProperties& surface) {
+    changes(surface.friction_body, false);
+    changes(surface.friction_ground, false);
+    changes(surface.stiffness, true);
+  };
+  for (const Body& body : model.bodies) lets_go(body.surface);
+  lets_go(model.ground.surface);
+  for (const auto& patch : model.ground.patches) changes(patch.friction, false);
+  return last + kPicksUp;
+}
+
 /// Of the fastest body of a tree, whatever it does.
 double motion_of(const World& world, const State& state, std::size_t tree) {
   double motion = 0;
@@ -63,7 +94,8 @@ RestWatch::RestWatch(const World& world)
       rest_since_(world.topology.trees.size(), -1),
       halted_(world.topology.trees.size(), 0),
       motion_(world.topology.trees.size(), 0),
-      step_motion_(world.topology.trees.size(), 0) {
+      step_motion_(world.topology.trees.size(), 0),
+      quiet_from_(quiet_from(world.model)) {
   for (int t = 0; t < static_cast<int>(world.topology.trees.size()); ++t) {
     const auto& tree = world.topology.trees[t];
     if (tree.end - tree.begin == 1) alone_.push_back(t);
@@ -129,8 +161,9 @@ void RestWatch::watch_snapshot(const World& world, const State& state, double si
 }
 
 bool RestWatch::all_at_rest(const State& state) const {
-  return !still_since_.empty() && std::all_of(still_since_.begin(), still_since_.end(),
-                                              [&](double since) { return !(since < 0 || state.time - since < kStillTime); });
+  const auto long_enough = [&](double since) { return since >= 0 && state.time - since >= kStillTime; };
+  return state.time >= quiet_from_ && !still_since_.empty() && std::all_of(still_since_.begin(), still_since_.end(), long_enough) &&
+         std::all_of(rest_since_.begin(), rest_since_.end(), long_enough);
 }
 
 void RestWatch::tell(const World& world, const State& state, const Recording& recording, std::vector<Event>& events) const {

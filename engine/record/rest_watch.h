@@ -21,7 +21,7 @@ class RestWatch {
   /// At every snapshot, `since` [s] after the one before.
   void watch_snapshot(const World&, const State&, double since);
 
-  /// True once everything that can move has been still for a while.
+  /// True once everything that can move has been still for a while, and nothing by the clock will set it in motion.
   bool all_at_rest(const State&) const;
 
   /// Appends who came to rest and when, at the end of the run.
@@ -42,6 +42,7 @@ class RestWatch {
   std::vector<double> motion_;       // [-] per tree at the last snapshot: fastest body by what counts as still
   std::vector<double> step_motion_;  // [-] the same at the last step, of trees of one body
   double watched_ = 0;               // [s] when that was
+  double quiet_from_ = 0;            // [s] no act of a driver and no change of a surface comes later
 };
 
 }  // namespace engine

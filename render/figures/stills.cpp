@@ -59,11 +59,19 @@ Camera beside(const std::vector<Vec3>& points, double aspect) {
   return camera;
 }
 
-/// Goes along with a person, square to the way from where it is struck to where it ends.
+/// Goes along with a person, square to the way from where it is struck to where it ends, on the side where the vehicle that struck
+/// does not stand between: it was struck at a corner, say.
 Camera beside_person(const PersonFacts& p, const engine::Recording& recording) {
   Vec3 way = centre_of_mass(p, recording, recording.end_time()) - centre_of_mass(p, recording, p.hit.value_or(0));
   way.z() = 0;
   way = way.norm() > 0.2 ? Vec3(way.normalized()) : Vec3(Vec3::UnitX());
+  Vec3 side(way.y(), -way.x(), 0);
+  constexpr double kBesides = 0.3;  // [m]
+  if (p.vehicle_body >= 0) {
+    const double seen = 0.5 * (p.hit.value_or(0) + p.landed.value_or(recording.end_time()));
+    const Vec3 vehicle = recording.at(seen).bodies[static_cast<std::size_t>(p.vehicle_body)].X_WB.p;
+    if ((vehicle - centre_of_mass(p, recording, seen)).dot(side) > kBesides) side = -side;
+  }
   Camera camera;
   camera.name = "beside";
   camera.kind = CameraKind::follow;
@@ -71,7 +79,7 @@ Camera beside_person(const PersonFacts& p, const engine::Recording& recording) {
   camera.vertical_fov = 0.5;
   // what struck it comes from behind, and is to be seen too
   camera.target = -1.1 * way + Vec3(0, 0, 0.9);
-  camera.position = camera.target + 9.5 * Vec3(way.y(), -way.x(), 0) + Vec3(0, 0, 1.4);
+  camera.position = camera.target + 9.5 * side + Vec3(0, 0, 1.4);
   return camera;
 }
 

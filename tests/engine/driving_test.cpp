@@ -157,6 +157,39 @@ TEST(Braking, StopsAfterTheDistanceOfCoulombFriction) {
   EXPECT_NEAR(last_of(run).bodies[0].V_WB.v.norm(), 0, 1e-3);
 }
 
+TEST(WhoStandsAtFirst, IsNotAtRestBeforeTheDriverActs) {
+  Model model = on_ground(4);
+  model.settings.stop_at_rest = true;
+  add_reference_car(model, 0, 0);
+  DriverPhase drives = braking(1, 1495.95);
+  drives.drives = true;
+  drives.until = 2;
+  model.vehicles[0].sequence = {drives};
+  const Recording run = simulate(model);
+  // 1 m/s^2 for 1 s, then it coasts
+  EXPECT_NEAR(run.end_time(), 4, 1e-9);
+  EXPECT_NEAR(last_of(run).bodies[0].X_WB.p.x(), 2.5, 0.03);
+}
+
+TEST(WhoStandsAtFirst, IsNotAtRestBeforeItsBrakeOrTheRoadLetsGo) {
+  for (const bool by_brake : {true, false}) {
+    Model model = on_ground(4);
+    model.settings.stop_at_rest = true;
+    model.settings.gravity = kGravity * Vec3(std::sin(4 * kDegree), 0, -std::cos(4 * kDegree));
+    add_reference_car(model, 0, 0);
+    model.vehicles[0].sequence = {braking(0, 1e6)};
+    if (by_brake)
+      model.vehicles[0].sequence[0].until = 1.5;
+    else
+      model.ground.surface.friction_ground = Schedule({{1.4, 1}, {1.5, 0.01}});
+    const Recording run = simulate(model);
+    EXPECT_NEAR(run.end_time(), 4, 1e-9);
+    const double down = kGravity * (std::sin(4 * kDegree) - (by_brake ? 0 : 0.01 * std::cos(4 * kDegree)));
+    const double want = 0.5 * down * 2.5 * 2.5;  // from 1.5 s on
+    EXPECT_NEAR(last_of(run).bodies[0].X_WB.p.x(), want, 0.03 * want);
+  }
+}
+
 TEST(Braking, RestsWhereItStandsOnTheRoadAndRocksOn) {
   constexpr double kSpeed = 15, kInterval = 4e-3;
   Model model = on_ground(4);

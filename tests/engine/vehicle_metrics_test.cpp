@@ -54,8 +54,8 @@ TEST(VehicleMetrics, DeltaVIsThatOfTheLargestImpulseWhateverAThirdOneDidMeanwhil
   const auto speed = [](int i) { return i < 5 ? 10.0 : i < 40 ? 4.0 : -3.0; };
   for (int i = 0; i < 60; ++i) run.snapshots[i].bodies.own()[kCar].V_WB.v = {speed(i), 0, 0};
   run.snapshots[5].contacts = {push(kHips, kCar, kOnVehicle, {6000, 0, 0})};
-  // of the 7 m/s of the second phase 3 are a third one's
-  run.snapshots[40].contacts = {push(kHips, kCar, kOnVehicle, {4000, 0, 0})};
+  // it is pressed down besides, which changes no speed along the road; of the 7 m/s of the second phase 3 are a third one's
+  run.snapshots[40].contacts = {push(kHips, kCar, kOnVehicle, {4000, 0, 9000})};
   const std::vector<Impact> impacts = impacts_of(model, run);
   ASSERT_EQ(impacts.size(), 2u);
   const ImpactSide& car = impacts[1].a.party.vehicle == 0 ? impacts[1].a : impacts[1].b;
@@ -65,6 +65,29 @@ TEST(VehicleMetrics, DeltaVIsThatOfTheLargestImpulseWhateverAThirdOneDidMeanwhil
   std::vector<Metric> out;
   measure_vehicle(model, run, impacts, 0, out);
   EXPECT_NEAR(value_of(out, "delta_v_mps").value(), 6, 1e-9);
+}
+
+TEST(VehicleMetrics, DeltaVIsNotThatOfTheAir) {
+  Model model = person_and_car();
+  model.settings.gravity.setZero();
+  model.inputs = {{"air.density", {1.2, 0, 0}}, {"air.wind", {-10, 0, 0}}, {"air.drag", {1.2, 0, 0}}};
+  model.vehicles[0].drag = {0.3, 0.8, 1};
+  Recording run = standing_still(60);
+  for (int i = 0; i < 60; ++i) run.snapshots[i].bodies.own()[kCar].V_WB.v = {i < 5 ? 30.0 : 29.0, 0, 0};
+  run.snapshots[5].contacts = {push(kHips, kCar, kOnVehicle, {1000, 0, 0})};
+  const auto delta_v = [&] {
+    std::vector<Metric> out;
+    measure_vehicle(model, run, impacts_of(model, run), 0, out);
+    return value_of(out, "delta_v_mps").value();
+  };
+  EXPECT_NEAR(delta_v(), 1, kAlmost) << "the run had no air";
+  PlanLine air;
+  air.effect = "air_drag";
+  air.active = true;
+  run.plan = {air};
+  // a box 1.6 m wide and 0.7 m high at 40 and 39 m/s against the wind, in the hundredth of a second of the blow
+  const double force = 0.5 * 1.2 * 0.3 * 1.6 * 0.7 * (40 * 40 + 39 * 39) / 2;
+  EXPECT_NEAR(delta_v(), 1 - force * 0.01 / 1000, 1e-9);
 }
 
 TEST(VehicleMetrics, UntouchedVehicleHasNone) {
@@ -97,9 +120,10 @@ TEST(VehicleMetrics, RestIsPlaceHeadingAndLengthOfThePath) {
 
 /// A car of 1000 kg at 10 m/s and a block of a given mass that stands; they lose `energy` at 0.05 s.
 std::vector<Impact> car_against_block(double mass, double energy, double stiffness = 400e3, bool fixed = false, int wheels = 4,
-                                      double height = 0.6) {
+                                      double height = 0.6, bool track = false) {
   Model model = person_and_car();
   model.vehicles[0].wheels.resize(static_cast<std::size_t>(wheels));
+  if (track) model.vehicles[0].wheels.back().hub_B.y() = -model.vehicles[0].wheels.front().hub_B.y();
   Body& block = model.bodies[kHips];
   block.person = -1;
   block.mass = mass;
@@ -149,6 +173,7 @@ TEST(ImpactTable, ATwoWheelerAndACarShareNoEnergyByARuleOfCars) {
   EXPECT_STREQ(by_mass.ees_rule, "");
   EXPECT_STREQ(car_against_block(500, 20e3, 1200e3, false, 2).at(0).ees_rule, "by stiffness") << "where the scene tells them apart";
   EXPECT_STREQ(car_against_block(500, 20e3, 400e3, true, 2).at(0).ees_rule, "all to the one that moves");
+  EXPECT_STREQ(car_against_block(500, 20e3, 400e3, false, 2, 0.6, true).at(0).ees_rule, "by mass") << "a trailer of one axle";
 }
 
 TEST(ImpactTable, FrictionIsThatOfEachContactAlongItsOwnSurface) {
@@ -424,6 +449,9 @@ TEST(Rollover, IsNoneOfWhoTipsAndFallsBackPitchesOrHasTwoWheels) {
   EXPECT_TRUE(rollover_of(model, back).empty());
   Recording nose = rolled_like_a_cylinder(0);
   for (Snapshot& s : nose.snapshots) s.bodies.own()[kCar].X_WB.q = Quat(Eigen::AngleAxisd(std::min(s.time, 1.5), Vec3::UnitY()));
+  EXPECT_TRUE(rollover_of(model, nose).empty());
+  // on over its nose onto its roof: upside down, and has not rolled
+  for (Snapshot& s : nose.snapshots) s.bodies.own()[kCar].X_WB.q = Quat(Eigen::AngleAxisd(std::min(s.time, 3.0), Vec3::UnitY()));
   EXPECT_TRUE(rollover_of(model, nose).empty());
   EXPECT_TRUE(rollover_of(person_and_car(), rolled_like_a_cylinder(4)).empty()) << "it has no wheels on its right";
 }
