@@ -46,12 +46,66 @@ Finding look_for_driver(const Model& model) {
   return {true, acts, ridden ? "lean of ridden two-wheelers: until something touches them rider and mount are one, upright" : ""};
 }
 
+/// The place of a path nearest to a point, seen from above: on which leg, as a share of its length.
+struct OnPath {
+  std::size_t leg = 0;
+  double share = 0, distance = 1e300;  // [-], [m]
+};
+
+/// Behind the end of the path the last leg goes on.
+OnPath nearest_on(const std::vector<Vec3>& path, const Vec3& at) {
+  OnPath out;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Vec3 d = (path[i + 1] - path[i]).cwiseProduct(Vec3(1, 1, 0));
+    const bool last = i + 2 == path.size();
+    const Vec3 from = (at - path[i]).cwiseProduct(Vec3(1, 1, 0));
+    const double s = std::clamp(from.dot(d) / d.squaredNorm(), 0.0, last ? 1e9 : 1.0);
+    const double distance = (from - s * d).norm();
+    if (distance < out.distance) out = {i, s, distance};
+  }
+  return out;
+}
+
+/// Who is on the path and leaves it again, untouched: too fast for its bends.
+LeftOut off_the_path(const Model& model, const Recording& run) {
+  constexpr double kOn = 0.5, kOff = 1;  // [m]
+  LeftOut out;
+  for (std::size_t v = 0; v < model.vehicles.size(); ++v) {
+    const Vehicle& vehicle = model.vehicles[v];
+    if (vehicle.path.points.size() < 2) continue;
+    bool was_on = false;
+    double off = 0, when = 0;
+    for (const Snapshot& s : run.snapshots) {
+      const bool touched = std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
+        return c.body_a == vehicle.body || c.body_b == vehicle.body;
+      });
+      if (touched) break;
+      const double distance = nearest_on(vehicle.path.points, s.bodies[static_cast<std::size_t>(vehicle.body)].X_WB.p).distance;
+      was_on = was_on || distance < kOn;
+      if (was_on && distance > off) off = distance, when = s.time;
+    }
+    if (off < kOff) continue;
+    out.matters = true;
+    out.text += (out.text.empty() ? "" : "; ") + vehicle.name + " leaves its path by up to " + number(off) + " m, at " +
+                number(when) + " s: drive slower, or look further ahead with `preview`";
+  }
+  return out;
+}
+
+/// Where a vehicle will be when it answers to the wheel, turning and moving as it does: steered from where it is, it weaves at
+/// speed.
+Pose when_it_answers(const Pose& X, const Twist& V) {
+  constexpr double kLag = 0.4;  // [s] of yaw and of the tyres' side forces behind the wheel angle
+  const Quat half(Eigen::AngleAxisd(0.5 * kLag * V.w.z(), Vec3::UnitZ()));
+  return {X.p + half * Vec3(kLag * V.v), half * half * X.q};
+}
+
 /// Pure pursuit: the circle through the middle of the unsteered wheels, along the vehicle's axis, that meets the path a preview
 /// ahead. Behind the end of the path the last segment goes on.
 void steer_along_path(const Vehicle& vehicle, const Motion& state, double h, double& steer) {
   const std::vector<Vec3>& path = vehicle.path.points;
   if (path.size() < 2) return;
-  const Pose& X = state.X_WB[vehicle.body];
+  const Pose X = when_it_answers(state.X_WB[vehicle.body], state.V_WB[vehicle.body]);
   double front = 0, rear = 0, count_front = 0, count_rear = 0;
   for (const Wheel& wheel : vehicle.wheels) {
     (wheel.steered ? front : rear) += wheel.hub_B.x();
@@ -61,16 +115,7 @@ void steer_along_path(const Vehicle& vehicle, const Motion& state, double h, dou
   const double wheelbase = front / count_front - rear / count_rear;
   const Vec3 at = X * Vec3(rear / count_rear, 0, 0);
   // nearest point of the path, then the preview along it
-  double best = 1e300, share = 0;
-  std::size_t segment = 0;
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const Vec3 d = (path[i + 1] - path[i]).cwiseProduct(Vec3(1, 1, 0));
-    const bool last = i + 2 == path.size();
-    const Vec3 from = (at - path[i]).cwiseProduct(Vec3(1, 1, 0));
-    const double s = std::clamp(from.dot(d) / d.squaredNorm(), 0.0, last ? 1e9 : 1.0);
-    const double distance = (from - s * d).norm();
-    if (distance < best) best = distance, segment = i, share = s;
-  }
+  auto [segment, share, distance] = nearest_on(path, at);
   const double ahead = std::max(2.0, vehicle.path.preview * state.V_WB[vehicle.body].v.norm());
   double left = ahead;
   for (;; ++segment, share = 0) {
@@ -131,6 +176,12 @@ class Driver final : public EffectWith<DriverMemory> {
  public:
   static constexpr const char* kName = "driver";
   static Finding look(const Model& model) { return look_for_driver(model); }
+  static LeftOut left_out(const Model& model, const Recording& run, bool) {
+    LeftOut out = off_the_path(model, run);
+    const std::string lean = look_for_driver(model).left_out;
+    if (out.matters && !lean.empty()) out.text += "; " + lean;
+    return out;
+  }
 
   Driver(const World&, int self) : EffectWith(self) {}
 
