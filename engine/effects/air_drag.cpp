@@ -9,8 +9,6 @@
 // A scene without [air] has still air of the usual density around its vehicles and persons, unless what it is worth is below
 // kShare. Its free bodies have none: nobody knows what they are meant to be. What that leaves out is told as the speed that drag
 // would take: 1/2 rho A v^2/m in a unit of time. Before the run v is bounded by the energy there is, after it v is that of the run.
-#include "engine/effects/air_drag.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -21,13 +19,6 @@
 #include "engine/math/functions.h"
 
 namespace engine {
-
-struct Air {
-  double density = 0;
-  Vec3 wind = Vec3::Zero();
-  std::vector<Vec3> drag_area;  // [m^2] per body, along its axes
-};
-
 namespace {
 
 constexpr double kDensity = 1.2;                          // [kg/m^3] at 20 deg C and 1013 hPa
@@ -41,6 +32,12 @@ constexpr SceneKey kKeys[] = {
      "Drag coefficients of all meshes along their length, width and height, by the sides of their boxes. Left out: each vehicle "
      "has its own, other meshes those of a saloon car, [0.3, 0.8, 1].",
      0},
+};
+
+struct Air {
+  double density = 0;
+  Vec3 wind = Vec3::Zero();
+  std::vector<Vec3> drag_area;  // [m^2] per body, along its axes
 };
 
 /// Areas [m^2] of the sections across x, y and z.
@@ -249,22 +246,6 @@ double power_taken(const World& world, const Motion& at, const Air& air) {
 }
 
 }  // namespace
-
-AirOfRun::AirOfRun(const Model& model, const Recording& recording) : recording_(recording) {
-  for (const PlanLine& line : recording.plan)
-    if (line.effect == "air_drag" && line.active) air_ = std::make_unique<const Air>(air_of(model));
-}
-AirOfRun::~AirOfRun() = default;
-
-Vec3 AirOfRun::impulse(int body, std::size_t from, std::size_t to) const {
-  Vec3 out = Vec3::Zero();
-  if (!air_ || air_->density == 0) return out;
-  const auto b = static_cast<std::size_t>(body);
-  const auto force = [&](const Snapshot& s) { return force_on(*air_, b, s.bodies[b].X_WB.q, s.bodies[b].V_WB.v); };
-  const auto& all = recording_.snapshots;
-  for (std::size_t i = from; i < to; ++i) out += 0.5 * (all[i + 1].time - all[i].time) * (force(all[i]) + force(all[i + 1]));
-  return out;
-}
 
 class AirDrag final : public Effect {
  public:

@@ -96,7 +96,8 @@ LeftOut off_the_path(const Model& model, const Recording& run) {
 /// speed.
 Pose when_it_answers(const Pose& X, const Twist& V) {
   constexpr double kLag = 0.4;  // [s] of yaw and of the tyres' side forces behind the wheel angle
-  const Quat half(Eigen::AngleAxisd(0.5 * kLag * V.w.z(), Vec3::UnitZ()));
+  const double quarter = 0.25 * kLag * V.w.z();
+  const Quat half(math::cos(quarter), 0, 0, math::sin(quarter));
   return {X.p + half * Vec3(kLag * V.v), half * half * X.q};
 }
 

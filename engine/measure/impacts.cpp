@@ -1,5 +1,4 @@
 #include "engine/measure/impacts.h"
-#include "engine/effects/air_drag.h"
 #include "engine/math/functions.h"
 
 #include <algorithm>
@@ -140,7 +139,7 @@ Vec3 done_by_tyres(const Model& model, const Recording& recording, const Party& 
   return std::min(1.0, weight / std::max(impulse.z(), 1e-9)) * impulse / mass;
 }
 
-ImpactSide side_of(const Model& model, const Recording& recording, const AirOfRun& air, const Party& party, const Stretch& span) {
+ImpactSide side_of(const Model& model, const Recording& recording, const Party& party, const Stretch& span) {
   const auto& all = recording.snapshots;
   const Snapshot &before = all[span.first > 0 ? span.first - 1 : 0], &after = all[span.last];
   ImpactSide side;
@@ -156,7 +155,6 @@ ImpactSide side_of(const Model& model, const Recording& recording, const AirOfRu
   side.delta_v = v1 - v0 - model.settings.gravity * (after.time - before.time);
   if (party.vehicle < 0) return side;
   side.delta_v -= done_by_tyres(model, recording, party, span);
-  side.delta_v -= air.impulse(root, span.first > 0 ? span.first - 1 : 0, span.last) / mass_of(model, party);
   side.delta_v.z() = 0;  // as the field counts it: in the plane of the road
   side.pdof = pdof_of(before.bodies[root].X_WB.q, side.delta_v);
   return side;
@@ -237,14 +235,13 @@ double duration_of(const Recording& recording, const Pair& pair, const Stretch& 
   return last - from;
 }
 
-Impact impact_of(const Model& model, const Recording& recording, const AirOfRun& air, const Pair& pair, const Stretch& span,
-                 std::size_t touch) {
+Impact impact_of(const Model& model, const Recording& recording, const Pair& pair, const Stretch& span, std::size_t touch) {
   Impact out;
   out.time = sum_contacts(recording, pair, span, out);
   const Snapshot& before = recording.snapshots[span.first > 0 ? span.first - 1 : 0];
   out.duration = duration_of(recording, pair, span, out.time);
-  out.a = side_of(model, recording, air, pair.a, span);
-  out.b = side_of(model, recording, air, pair.b, span);
+  out.a = side_of(model, recording, pair.a, span);
+  out.b = side_of(model, recording, pair.b, span);
   const bool person = pair.a.person >= 0 || pair.b.person >= 0;
   const auto at_point = [&](const Party& party) { return velocity_of_point(party.bodies.front(), before, out.point); };
   out.closing_speed = person ? first_closing(recording, pair, touch) : -(at_point(pair.a) - at_point(pair.b)).dot(out.normal);
@@ -297,7 +294,6 @@ std::vector<Stretch> stretches(const Recording& recording, const std::vector<Vec
 
 std::vector<Impact> impacts_of(const Model& model, const Recording& recording) {
   std::vector<Impact> out;
-  const AirOfRun air(model, recording);
   for (const Pair& pair : pairs_of(model, recording)) {
     double lighter = 1e300;
     for (const Party* party : {&pair.a, &pair.b})
@@ -306,7 +302,7 @@ std::vector<Impact> impacts_of(const Model& model, const Recording& recording) {
     const std::vector<Vec3> push = pushes(recording, pair);
     for (const Stretch& span : stretches(recording, push, kChange * lighter)) {
       const std::size_t touch = phase == 0 ? touch_of(recording, push, span.first) : span.first;
-      out.push_back(impact_of(model, recording, air, pair, span, touch));
+      out.push_back(impact_of(model, recording, pair, span, touch));
       out.back().phase = ++phase;
     }
   }
