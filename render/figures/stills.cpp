@@ -59,19 +59,38 @@ Camera beside(const std::vector<Vec3>& points, double aspect) {
   return camera;
 }
 
+/// At how many of some instants from the touch to the landing the vehicle that struck stands between a person and who looks from
+/// that far beside it.
+int times_hidden(const Stage& stage, const PersonFacts& p, const engine::Recording& recording, const Vec3& beside) {
+  constexpr int kInstants = 6, kPoints = 40;
+  const double from = p.hit.value_or(0), to = p.landed.value_or(recording.end_time());
+  int hidden = 0;
+  for (const MeshActor& actor : stage.meshes) {
+    if (p.vehicle_body < 0 || actor.body != p.vehicle_body) continue;
+    Eigen::AlignedBox2d box;
+    for (std::size_t i = 0; i + 1 < actor.mesh->positions.size(); i += 3)
+      box.extend(Eigen::Vector2d(actor.mesh->positions[i], actor.mesh->positions[i + 1]));
+    for (int k = 0; k < kInstants; ++k) {
+      const double time = from + (to - from) * k / (kInstants - 1);
+      const Vec3 person = centre_of_mass(p, recording, time);
+      const engine::Pose X_MW = (recording.at(time).bodies[static_cast<std::size_t>(actor.body)].X_WB * actor.X_BM).inverse();
+      bool between = false;
+      for (int i = 1; i <= kPoints; ++i) between = between || box.contains((X_MW * Vec3(person + i * beside / kPoints)).head<2>());
+      hidden += between;
+    }
+  }
+  return hidden;
+}
+
 /// Goes along with a person, square to the way from where it is struck to where it ends, on the side where the vehicle that struck
 /// does not stand between: it was struck at a corner, say.
-Camera beside_person(const PersonFacts& p, const engine::Recording& recording) {
+Camera beside_person(const Stage& stage, const PersonFacts& p, const engine::Recording& recording) {
   Vec3 way = centre_of_mass(p, recording, recording.end_time()) - centre_of_mass(p, recording, p.hit.value_or(0));
   way.z() = 0;
   way = way.norm() > 0.2 ? Vec3(way.normalized()) : Vec3(Vec3::UnitX());
+  constexpr double kAway = 9.5;  // [m]
   Vec3 side(way.y(), -way.x(), 0);
-  constexpr double kBesides = 0.3;  // [m]
-  if (p.vehicle_body >= 0) {
-    const double seen = 0.5 * (p.hit.value_or(0) + p.landed.value_or(recording.end_time()));
-    const Vec3 vehicle = recording.at(seen).bodies[static_cast<std::size_t>(p.vehicle_body)].X_WB.p;
-    if ((vehicle - centre_of_mass(p, recording, seen)).dot(side) > kBesides) side = -side;
-  }
+  if (times_hidden(stage, p, recording, kAway * side) > times_hidden(stage, p, recording, -kAway * side)) side = -side;
   Camera camera;
   camera.name = "beside";
   camera.kind = CameraKind::follow;
@@ -79,7 +98,7 @@ Camera beside_person(const PersonFacts& p, const engine::Recording& recording) {
   camera.vertical_fov = 0.5;
   // what struck it comes from behind, and is to be seen too
   camera.target = -1.1 * way + Vec3(0, 0, 0.9);
-  camera.position = camera.target + 9.5 * side + Vec3(0, 0, 1.4);
+  camera.position = camera.target + kAway * side + Vec3(0, 0, 1.4);
   return camera;
 }
 
@@ -163,7 +182,7 @@ std::vector<std::string> contact_sheet(const Stage& stage, const engine::Recordi
   const std::vector<double> times = times_of_sheet(recording, job);
   const int w = job.width / kColumns, h = static_cast<int>(std::lround(w / kAspectOfFilm));
   Stage scene = stage;
-  if (!job.persons.empty()) scene.cameras.insert(scene.cameras.begin(), beside_person(job.persons[job.person], recording));
+  if (!job.persons.empty()) scene.cameras.insert(scene.cameras.begin(), beside_person(stage, job.persons[job.person], recording));
   // labels would be too small to read
   scene.overlays.hide({"contacts", "forces", "disclaimer", "caption", "legend", "speed_chart", "energy_chart"});
   scene.overlays.set("contact_history");
