@@ -1,51 +1,10 @@
 // Vehicles on their wheels against closed forms and published time histories.
 #include <gtest/gtest.h>
 
-#include "engine/geometry/triangle_mesh.h"
-#include "tests/engine/experiment.h"
+#include "tests/engine/reference_car.h"
 
 namespace engine::test {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-/// The 2004 sedan of the reference histories: 3298 lb, yaw inertia 2040 slug ft^2, wheelbase 106 in, centre of mass 38.1 in behind
-/// the front axle and 21.5 in high, track 60 in, overhangs 38 and 43 in, width 70 in; tyre friction 0.76.
-constexpr double kInch = 0.0254, kFoot = 0.3048, kMph = 0.44704;
-
-void add_reference_car(Model& model, double x, double speed) {
-  Body body = inert(1495.95, {560, 2600, 2765.9}, {x, 0, 21.5 * kInch});
-  body.name = "car" + std::to_string(model.vehicles.size());
-  body.V_WB.v.x() = speed;
-  const double front = (38.1 + 38) * kInch, rear = -(106 - 38.1 + 43) * kInch, half = 35 * kInch;
-  // what meets in a rear-end collision: the bumpers, which stand 16 to 20 in above the road (49 CFR part 581), below the centre of
-  // mass
-  std::vector<Vec3> corners;
-  for (int i = 0; i < 8; ++i)
-    corners.push_back({i & 1 ? front : rear, i & 2 ? half : -half, (i & 4 ? 20 - 21.5 : 16 - 21.5) * kInch});
-  const std::vector<Triangle> faces{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  body.shape = MeshShape{std::make_shared<TriangleMesh>(corners, faces), {}};
-  body.collision_model = CollisionModel::kudlich_slibar;
-  body.surface.restitution_body = 0.1;
-  Vehicle vehicle;
-  vehicle.name = body.name;
-  vehicle.body = static_cast<int>(model.bodies.size());
-  body.vehicle = static_cast<int>(model.vehicles.size());
-  for (const double at : {38.1, 38.1 - 106})
-    for (const double side : {30.0, -30.0}) {
-      Wheel wheel;
-      wheel.hub_B = Vec3(at * kInch, side * kInch, -(21.5 * kInch - 0.31));
-      wheel.radius = 0.31;
-      wheel.friction = 0.76;
-      wheel.steered = at > 0;
-      wheel.driven = at > 0;
-      wheel.brake_share = at > 0 ? 0.35 : 0.15;
-      vehicle.wheels.push_back(wheel);
-    }
-  model.vehicles.push_back(vehicle);
-  model.bodies.push_back(body);
-}
 
 DriverPhase braking(double from, double force) {
   DriverPhase phase;
@@ -454,51 +413,6 @@ TEST(Accelerating, GainsTheWorkOfTheEngine) {
   EXPECT_NEAR(s.bodies[0].V_WB.v.x(), 5 + 0.2 * kGravity * 3, 0.02);
   const double kinetic = s.energies.kinetic;
   EXPECT_NEAR(s.energies.residual, 0, 2e-3 * kinetic);
-}
-
-TEST(FollowedPath, ThatIsLeftIsTold) {
-  Model model = on_ground(4);
-  add_reference_car(model, 0, 30);
-  // a bend of 30 m radius at 30 m/s asks for three times gravity
-  model.vehicles[0].path.points = {{0, 0, 0}, {40, 0, 0}, {62, 9, 0}, {70, 30, 0}, {70, 100, 0}};
-  const auto told = [&] {
-    const std::vector<std::string> warnings = simulate(model).diagnostics.warnings;
-    return std::any_of(warnings.begin(), warnings.end(),
-                       [](const std::string& w) { return w.find("car0 leaves its path by up to") != std::string::npos; });
-  };
-  EXPECT_TRUE(told());
-  model.bodies[0].V_WB.v.x() = 8;
-  EXPECT_FALSE(told());
-}
-
-TEST(FollowedPath, IsHeldAtMotorwaySpeedWithoutWeaving) {
-  for (const double kmh : {90.0, 130.0}) {
-    Model model = on_ground(12);
-    add_reference_car(model, 0, kmh / 3.6);
-    // another lane in 150 m
-    model.vehicles[0].path.points = {{0, 0, 0}, {20, 0, 0}, {170, 3.5, 0}, {600, 3.5, 0}};
-    double beyond = 0, off = 0;  // [m]
-    for (const Snapshot& s : simulate(model).snapshots) {
-      const Vec3& at = s.bodies[0].X_WB.p;
-      beyond = std::max(beyond, at.y() - 3.5);
-      if (s.time > 9) off = std::max(off, std::abs(at.y() - 3.5));
-    }
-    EXPECT_LT(beyond, 0.5) << kmh;  // of a bend without a transition
-    EXPECT_LT(off, 0.3) << kmh;
-  }
-}
-
-TEST(Path, IsFollowedRoundABend) {
-  Model model = on_ground(8);
-  add_reference_car(model, 0, 10);
-  model.vehicles[0].path.points = {{-10, 0, 0}, {30, 0, 0}, {50, 10, 0}, {100, 35, 0}};
-  const Recording run = simulate(model);
-  // pure pursuit cuts the corner by half its preview; on the last leg it is back on the line
-  const Snapshot s = last_of(run);
-  const Vec3 on = Vec3(50, 10, 0), along = Vec3(2, 1, 0).normalized();
-  const Vec3 off = s.bodies[0].X_WB.p - on;
-  EXPECT_GT(off.dot(along), 15);
-  EXPECT_LT(std::abs(Vec3(0, 0, 1).dot(along.cross(Vec3(off.x(), off.y(), 0)))), 0.3);
 }
 
 }  // namespace
