@@ -134,7 +134,8 @@ constexpr Definition kDefinitions[] = {
      "Largest acceleration of a part's centre, mean over a step; free fall counts one g.", kNoForce, "grows with stiffness"},
     {"delta_v_mps", "m/s", "delta-v",
      "Change of the velocity of the centre of mass in the plane of the road over the collision phase, less what tyres and "
-     "gravity did meanwhile; of several phases that of the largest impulse. What a rider or a third one does in the same "
+     "gravity did meanwhile; of several phases that of the largest impulse along the road. What a rider or a third one does in the "
+     "same "
      "time is part of it; of a two-wheeler's tyres counts what they do under its weight and the rider's, to both. Begin and end of "
      "the phase as 49 CFR 563.5 says: exchange of more than 0.8 km/h of the lighter mass within 20 ms, 250 ms at most.",
      kNoDeltaV,

@@ -41,7 +41,7 @@ struct CageResult {
 /// Imports a mesh in the cage; of other files it gets those below `root`. Never throws.
 CageResult import_in_cage(const std::filesystem::path& file, const std::filesystem::path& root, const CageLimits& = {});
 /// What the build had the cage say of a mesh of the library (assets/import.cpp), where the mesh and its materials are still the
-/// same; nothing of a file that does not lie in `library`. A third of the time of a scene with a car went into reading these again.
+/// same; nothing of a file that does not lie in `library`.
 std::optional<CageResult> imported_before(const std::filesystem::path& file, const std::filesystem::path& library);
 /// What is kept for that, as the bytes of the file NAME.obj.imported. Throws std::runtime_error where the mesh cannot be read.
 std::string kept_import(const std::filesystem::path& file);

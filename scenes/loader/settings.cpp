@@ -74,7 +74,8 @@ const Key kSimulationKeys[] = {
         {"sleep", Type::boolean, Dimension::none, "false",
          "What moves less than 0.02 mm in a second is left alone until something comes near: long waits cost little."}),
     bound<&engine::Settings::stop_at_rest>(
-        {"stop_at_rest", Type::boolean, Dimension::none, "true", "End the run when everything has come to rest."}),
+        {"stop_at_rest", Type::boolean, Dimension::none, "true",
+         "End the run when everything has come to rest and no driver, brake or friction that changes later can set it in motion."}),
     {"effects", Type::table, Dimension::none, "", "Effects forced on or off.", kAny, {}, &kEffectsSection},
 };
 

@@ -27,7 +27,7 @@ TEST(FollowedPath, IsHeldAtMotorwaySpeedWithoutWeaving) {
     add_reference_car(model, 0, kmh / 3.6);
     // another lane in 150 m
     model.vehicles[0].path.points = {{0, 0, 0}, {20, 0, 0}, {170, 3.5, 0}, {600, 3.5, 0}};
-    double beyond = 0, off = 0;  // [m]
+    double beyond = 0, off = 0;  // [m]; a car in a lane of 3.5 m has 0.85 m on either side
     for (const Snapshot& s : simulate(model).snapshots) {
       const Vec3& at = s.bodies[0].X_WB.p;
       beyond = std::max(beyond, at.y() - 3.5);

@@ -267,7 +267,8 @@ TEST(KeptImport, IsWhatTheCageSaysOfEveryMeshOfTheLibrary) {
 
 TEST(KeptImport, IsNotTakenOfAnotherMeshOrDamaged) {
   const SceneFolder folder;
-  const auto car = folder.write("car.obj", box(4)), materials = folder.write("car.mtl", "newmtl paint\nKd 1 0 0\n");
+  const auto car = folder.write("car.obj", box(4));
+  folder.write("car.mtl", "newmtl paint\nKd 1 0 0\n");
   const std::string kept = kept_import(car);
   const auto taken = [&] { return imported_before(car, folder.path()).has_value(); };
   EXPECT_FALSE(taken()) << "none is there";
