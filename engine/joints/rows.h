@@ -55,22 +55,21 @@ inline double gap_of(const JointRows& rows) {
   return rows.held_along == 3 ? rows.error.head<3>().norm() : rows.error.head(rows.held_along).norm();
 }
 
-/// Motion subspace: columns (v of the joint's point, w) of the child against the parent, slides before turns.
-template <int Freedoms>
-Eigen::Matrix<double, 6, Freedoms> motion_subspace(const JointRows& rows) {
-  Eigen::Matrix<double, 6, Freedoms> S = decltype(S)::Zero();
+/// Motion subspace: columns (v of the joint's point, w) of the child against the parent, slides before turns, then zeros.
+inline Mat6 motion_subspace(const JointRows& rows) {
+  Mat6 S = Mat6::Zero();
   const int slides = rows.slides();
-  for (int k = 0; k < slides; ++k) S.col(k).template head<3>() = rows.d.col(rows.held_along + k);
+  for (int k = 0; k < slides; ++k) S.col(k).head<3>() = rows.d.col(rows.held_along + k);
   switch (rows.held_turns()) {
     case 0:
-      for (int k = 0; k < 3 && slides + k < Freedoms; ++k) S(3 + k, slides + k) = 1;
+      for (int k = 0; k < 3; ++k) S(3 + k, slides + k) = 1;
       break;
     case 1:
-      S.col(slides).template tail<3>() = rows.t[0];
-      S.col(slides + 1).template tail<3>() = rows.u[0];
+      S.col(slides).tail<3>() = rows.t[0];
+      S.col(slides + 1).tail<3>() = rows.u[0];
       break;
     case 2:
-      S.col(slides).template tail<3>() = rows.u[0];
+      S.col(slides).tail<3>() = rows.u[0];
       break;
     default:
       break;

@@ -22,10 +22,11 @@ Mat6 inverse_spd(const Mat6& A) {
   return out;
 }
 
+using Rows3 = Eigen::Matrix<double, 3, 6>;
+
 /// M skew(r), without the products with its zeros. In line: results stay in registers, a fiftieth of a step.
-template <int N>
-[[gnu::always_inline]] inline Eigen::Matrix<double, N, 3> times_skew(const Eigen::Matrix<double, N, 3>& M, const Vec3& r) {
-  Eigen::Matrix<double, N, 3> out;
+[[gnu::always_inline]] inline Mat3 times_skew(const Mat3& M, const Vec3& r) {
+  Mat3 out;
   out.col(0) = r.z() * M.col(1) - r.y() * M.col(2);
   out.col(1) = r.x() * M.col(2) - r.z() * M.col(0);
   out.col(2) = r.y() * M.col(0) - r.x() * M.col(1);
@@ -94,30 +95,32 @@ void Articulation::reset(const Topology& topology) {
   places_.assign(links, {});
 }
 
-/// Of the motion subspace S, at the joint's point, the body's centre makes [S_v + skew(r) S_w; S_w].
-template <int K>
+/// Of the motion subspace S, at the joint's point, the body's centre makes [S_v + skew(r) S_w; S_w]. The columns that the joint
+/// does not have are zeros, with ones in K: one product of fixed size for every joint that has none of its own.
 void Articulation::eliminate(Factor& f, const Hinge& hinge, const Mat6& H, Mat6* H_parent) {
-  Eigen::Matrix<double, 6, K> S = motion_subspace<K>(f.rows);
-  const Eigen::Matrix<double, 3, K> S_v = S.template topRows<3>(), S_w = S.template bottomRows<3>();
-  S.template topRows<3>() += skew_times<K>(hinge.r, S_w);
-  const Eigen::Matrix<double, 6, K> HS = H * S;
-  Eigen::Matrix<double, K, K> k = S.transpose() * HS;
+  Mat6 S = motion_subspace(f.rows);
+  const Rows3 S_v = S.topRows<3>(), S_w = S.bottomRows<3>();
+  S.topRows<3>() += skew_times(hinge.r, S_w);
+  const Mat6 HS = H * S;
+  Mat6 K = S.transpose() * HS;
   if (hinge.damper && hinge.damper->present) {
-    k.noalias() += S_w.transpose() * hinge.damper->turning * S_w;
-    if (f.rows.slides() > 0) k.noalias() += S_v.transpose() * hinge.damper->sliding * S_v;
+    const Rows3 turning = hinge.damper->turning * S_w, sliding = hinge.damper->sliding * S_v;
+    K.noalias() += S_w.transpose() * turning;
+    if (f.rows.slides() > 0) K.noalias() += S_v.transpose() * sliding;
   }
-  const Eigen::Matrix<double, K, K> ki = k.inverse();
-  f.D.noalias() = S * ki * S.transpose();
+  for (int k = f.rows.slides() + f.rows.turns(); k < 6; ++k) K(k, k) = 1;
+  const Mat6 Ki = inverse_spd(K), SKi = S * Ki;
+  f.D.noalias() = SKi * S.transpose();
   if (!H_parent) {
     f.X.setZero();
     return;
   }
   // X0 = [1, -skew(d); 0, 1]
   const Vec3 d = hinge.r_parent - hinge.r;
-  const Eigen::Matrix<double, 6, K> U = HS * ki;
-  Eigen::Matrix<double, K, 6> UX;
-  UX.template leftCols<3>() = U.template topRows<3>().transpose();
-  UX.template rightCols<3>() = U.template bottomRows<3>().transpose() + skew_times<K>(d, U.template topRows<3>()).transpose();
+  const Mat6 U = HS * Ki;
+  Mat6 UX;
+  UX.leftCols<3>() = U.topRows<3>().transpose();
+  UX.rightCols<3>() = U.bottomRows<3>().transpose() + skew_times<6>(d, U.topRows<3>()).transpose();
   f.X.noalias() = -(S * UX);
   f.X.diagonal().array() += 1;
   f.X.topRightCorner<3, 3>() -= skew(d);
@@ -125,7 +128,7 @@ void Articulation::eliminate(Factor& f, const Hinge& hinge, const Mat6& H, Mat6*
   rest.noalias() -= U * HS.transpose();
   // X0^T rest X0
   const Mat3 P = rest.topLeftCorner<3, 3>();
-  const Mat3 PT = -times_skew<3>(P, d);
+  const Mat3 PT = -times_skew(P, d);
   const Mat3 Q = rest.topRightCorner<3, 3>();
   const Mat3 TQ = skew_times<3>(d, Q);
   const Mat3 upper = Q + PT;
@@ -135,7 +138,7 @@ void Articulation::eliminate(Factor& f, const Hinge& hinge, const Mat6& H, Mat6*
   H_parent->bottomRightCorner<3, 3>() += rest.bottomRightCorner<3, 3>() + TQ + TQ.transpose() + skew_times<3>(d, PT);
 }
 
-/// By the size of the motion subspace: a free ball and a hinge, the joints of persons, have products of their own.
+/// A free ball and a hinge, the joints of persons, have products of their own.
 [[gnu::always_inline]] inline void Articulation::eliminate_any(Factor& f, const Hinge& hinge, const Mat6& H, Mat6* H_parent) {
   const int slides = f.rows.slides(), turns = f.rows.turns();
   const bool damped = hinge.damper && hinge.damper->present;
@@ -154,20 +157,7 @@ void Articulation::eliminate(Factor& f, const Hinge& hinge, const Mat6& H, Mat6*
     eliminate_hinge(H.data(), hinge.r.data(), hinge.r_parent.data(), axis.data(), damping, f.D.data(), f.X.data(), parent);
     return;
   }
-  switch (slides + turns) {
-    case 0:
-      return eliminate_fixed(f, hinge, H, H_parent);
-    case 1:
-      return eliminate<1>(f, hinge, H, H_parent);
-    case 2:
-      return eliminate<2>(f, hinge, H, H_parent);
-    case 3:
-      return eliminate<3>(f, hinge, H, H_parent);
-    case 4:
-      return eliminate<4>(f, hinge, H, H_parent);
-    default:
-      return eliminate<5>(f, hinge, H, H_parent);
-  }
+  slides + turns == 0 ? eliminate_fixed(f, hinge, H, H_parent) : eliminate(f, hinge, H, H_parent);
 }
 
 /// No freedom at all: the parent carries the body as its own.

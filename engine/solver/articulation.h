@@ -6,7 +6,7 @@
 //   H_c = M_c + what its children added,  K = S^T H_c S,  D = S K^-1 S^T
 //   a_c = X a_p + D f_c + c,     X = X0 - D H_c X0,  with f_c - H_c c for f_c
 //   H_p += X0^T H_c X            f_p += X^T f_c
-// after Featherstone (1983). What is inverted is K, as large as the joint has freedoms, and never the inertia of a light body.
+// after Featherstone (1983). What is inverted is K, over the joint's freedoms, and never the inertia of a light body.
 // A damper C between c and p (on the relative velocity at the joint's point, times the step) adds S^T C S to K.
 // How bodies answer each other follows from X and D alone: W_ii = D_i + X_i W_pp X_i^T, W_ij = X_i W_pj: see response.h.
 #pragma once
@@ -65,8 +65,6 @@ class Articulation {
     const Vec3& r_parent;  // [m] from its parent's
     const JointDamper* damper;
   };
-  /// The joint's freedoms in number K.
-  template <int K>
   void eliminate(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);
   void eliminate_any(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);
   void eliminate_fixed(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);

@@ -324,7 +324,7 @@ TEST(MotionSubspace, IsWhatTheRowsLeaveFree) {
     const auto free = joint_coordinates(joint, X_WP, X_WC).free;
     EXPECT_EQ(free[kSlide], type.slides() == 1) << type.name;
     EXPECT_EQ(free[0] + free[1] + free[2], type.turns()) << type.name;
-    const Eigen::Matrix<double, 6, 6> S = motion_subspace<6>(rows);
+    const Mat6 S = motion_subspace(rows);
     for (int i = 0; i < 6 - rows.count; ++i) {
       EXPECT_NEAR(S.col(i).norm(), 1, 1e-12) << type.name;
       Vec6 V_C;  // of the child's centre
