@@ -42,6 +42,14 @@ struct MeshPairRun {
   std::size_t begin = 0, end = 0;
 };
 
+/// A mesh that wheels roll on.
+struct Road {
+  const TriangleMesh* mesh = nullptr;
+  Pose X_WM;
+  Aabb box;  // [m] world
+  int body = kTerrain;
+};
+
 /// A wheel and a round body that it may run over or into.
 struct TyrePair {
   int wheel = 0;  // of State::wheels
@@ -75,6 +83,7 @@ struct ContactPairs {
   std::vector<BodyPair> bodywork;                                         // of meshes whose points meet the other's surface
   std::vector<std::array<std::vector<SurfacePoint>, 2>> bodywork_points;  // of those pairs, that may meet the other
   std::vector<TyrePair> tyres;                                            // by wheels
+  std::vector<Road> roads;                                                // the terrain first
   std::vector<std::vector<SurfacePoint>> points;                          // per body with a mesh
   ContactPoints touches;                                                  // scratch: those of the pair looked at last
   std::vector<SurfaceContact> point_contacts;                             // of meshes

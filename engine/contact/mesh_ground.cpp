@@ -1,6 +1,7 @@
 // The mesh of a vehicle, or of any body, on the ground: kerb, slope, rollover. What lies under a wheel is its suspension's
 // business.
 #include "engine/contact/mesh_points.h"
+#include "engine/contact/road.h"
 #include "engine/geometry/mesh_overlap.h"
 #include "engine/world.h"
 
@@ -31,7 +32,8 @@ Touches touches_between<ShapeKind::mesh, ShapeKind::terrain>(const Outlook& outl
   const TriangleMesh& terrain = *world.model.ground.terrain;
   const std::vector<SurfacePoint>& points = world.pairs.points[pair.a];
   touch_with_points(outlook, pair.a, points, {0, points.size()},
-                    {.mesh = &terrain, .within = terrain.bounds(), .rolls = kWheelFacing}, contact_margin(outlook, pair.a));
+                    {.mesh = &terrain, .within = terrain.bounds(), .rolls = kWheelFacing, .road = road_of(world.pairs, kTerrain)},
+                    contact_margin(outlook, pair.a));
   for (SurfaceContact& c : world.pairs.point_contacts) c.key |= kOnTerrain;
   return world.pairs.point_contacts;
 }

@@ -1,5 +1,6 @@
 // Points of one mesh on the surface of another.
 #include "engine/contact/mesh_points.h"
+#include "engine/contact/road.h"
 #include "engine/world.h"
 
 namespace engine {
@@ -34,13 +35,15 @@ Touches touches_between<ShapeKind::mesh, ShapeKind::mesh>(const Outlook& outlook
   const Pose X_AB = at.X_WB[low].inverse() * at.X_WB[high];
   Clearance& clearance = outlook.state.contact_memory.bodywork[pair.at][way];
   const auto& shape = std::get<MeshShape>(world.model.bodies[pair.b].shape);
+  const Road* road = road_of(world.pairs, pair.b);
   const std::vector<SurfacePoint>& points = world.pairs.bodywork_points[pair.at][way];
   touch_with_points(outlook, pair.a, points, {0, points.size()},
                     {.mesh = shape.mesh.get(),
                      .X_WM = at.X_WB[pair.b] * shape.X_BM,
                      .within = *within,
                      .rolls = kUnderWheel,
-                     .is_road = false,
+                     .is_ground = false,
+                     .road = road,
                      .least = clearance.by_now(X_AB, world.reach[high]) - kFarther},
                     margin);
   clearance = {0, X_AB};

@@ -4,6 +4,7 @@
 #include <array>
 #include <numbers>
 
+#include "engine/contact/road.h"
 #include "engine/contact/round_tyre.h"
 #include "engine/geometry/mesh_overlap.h"
 #include "engine/geometry/point_mesh.h"
@@ -30,6 +31,7 @@ namespace {
 
 constexpr double kSpacing = 0.10;       // [m] between the points that stand for a mesh
 constexpr double kDeepestPoint = 0.15;  // [m] a point farther behind a surface has come from its other side
+constexpr double kAside = 0.8;          // [-] cosine to the axle: what a flank meets is not mounted
 constexpr double kClear = 0.05;         // [m] from a coupled vehicle: nearer at the start, and they never meet there
 
 /// Points that stand for a body's mesh and, of a vehicle, for its wheels, of which `first_wheel` is the number of the first.
@@ -150,7 +152,16 @@ void touch_with_points(const Outlook& outlook, int body, const std::vector<Surfa
   out.clear();
   const Pose& X = outlook.at.X_WB[body];
   const Vec3 up = X.q * Vec3::UnitZ();
+  const Vec3 axle = X.q * Vec3::UnitY();
   const Pose X_MW = target.X_WM.inverse();
+  // asked once for all points of a wheel, which stand one after the other
+  int asked = -1;
+  bool mounts_it = false;
+  const auto mounted = [&](int wheel) {
+    if (wheel != asked) mounts_it = mounts(outlook, wheel, *target.road);
+    asked = wheel;
+    return mounts_it;
+  };
   for (std::size_t i = which.begin; i < which.end; ++i) {
     Vec3 p = X * points[i].p_B;
     if (points[i].wheel >= 0 && !outlook.state.wheels.empty()) p += outlook.state.wheels[points[i].wheel].lift * up;
@@ -171,8 +182,11 @@ void touch_with_points(const Outlook& outlook, int body, const std::vector<Surfa
       c.p_b = p - c.gap * Vec3::UnitZ();
     }
     if (points[i].wheel >= 0) c.gap = given(c.gap);  // it may come from its tread down onto its flank pressed in by millimetres
-    c.rolls = points[i].wheel >= 0 && c.normal.dot(up) > target.rolls;
-    if (c.rolls && target.is_road) continue;
+    if (points[i].wheel >= 0) {
+      c.rolls = c.normal.dot(up) > target.rolls;
+      if (c.rolls && target.is_ground) continue;
+      if (target.road && std::abs(c.normal.dot(axle)) < kAside && mounted(points[i].wheel)) continue;
+    }
     out.push_back(c);
   }
   keep_spread(out, static_cast<std::size_t>(world.model.settings.contacts_per_pair));

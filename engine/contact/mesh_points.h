@@ -40,7 +40,8 @@ struct PointTarget {
   double height = 0;                                        // [m]
   Aabb within = {};                                         // what is outside of this box is not looked at
   double rolls = 0;                                         // [-] cosine to the up axis: a wheel rolls on what is nearer to level
-  bool is_road = true;                                      // its tyre carries a wheel that rolls there
+  bool is_ground = true;                                    // its tyre carries a wheel that rolls there, however it got there
+  const Road* road = nullptr;                               // its tyre carries a wheel that mounts it
   double least = -std::numeric_limits<double>::infinity();  // [m] what has a smaller gap is not met
 };
 

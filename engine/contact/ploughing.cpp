@@ -3,8 +3,9 @@
 //
 //   N = p (pi / 2) L B,   T = p (4 / 3) d B,   T / N = (8 / 3 pi) d / L,
 //
-// for a sphere of radius R and small d the 4 a / (3 pi R) of Bowden and Tabor, with a = L and d = a^2 / 2R. L is exact here: from
-// the deepest point d up, then along the slip to the part's own surface.
+// for a sphere of radius R and small d the 4 a / (3 pi R) of Bowden and Tabor, with a = L and d = a^2 / 2R. L is measured on the
+// part: from the deepest point d up, then half the chord along the slip. One way alone would be nothing where the part leans, its
+// deepest point near the edge of the dent, and the friction without bound.
 #include "engine/contact/ploughing.h"
 
 #include <algorithm>
@@ -15,11 +16,14 @@
 namespace engine {
 namespace {
 
-/// From `from`, inside the part, along unit `direction` to its surface [m].
-double way_to_surface(const HyperEllipsoid& part, const Vec3& from, const Vec3& direction) {
+/// Half the chord [m] of the part through `p`, inside it, along unit `direction`.
+double half_chord(const HyperEllipsoid& part, const Vec3& p, const Vec3& direction) {
   constexpr int kHalvings = 20;  // a millionth of the part's length
-  const auto is_inside = [&](double way) { return gauge(part, from + way * direction) < 1; };
-  return math::bisect({0, 2 * part.semi_axes.norm()}, kHalvings, 0, is_inside).high;
+  const auto way = [&](double sense) {
+    const auto is_inside = [&](double s) { return gauge(part, p + sense * s * direction) < 1; };
+    return math::bisect({0, 2 * part.semi_axes.norm()}, kHalvings, 0, is_inside).high;
+  };
+  return (way(1) + way(-1)) / 2;
 }
 
 }  // namespace
@@ -29,7 +33,7 @@ double ploughing(const HyperEllipsoid& part, const Vec3& inward, const Vec3& sli
   if (!(depth > 0)) return 0;
   const Support deepest = support(part, -inward);
   const double d = std::min(depth, kHalf * deepest.value);
-  return 8 / (3 * std::numbers::pi) * d / way_to_surface(part, deepest.point + d * inward, slip);
+  return 8 / (3 * std::numbers::pi) * d / half_chord(part, deepest.point + d * inward, slip);
 }
 
 }  // namespace engine

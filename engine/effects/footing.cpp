@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/contact/road.h"
 #include "engine/contact/round_tyre.h"
 #include "engine/world.h"
 
@@ -31,28 +32,39 @@ Footing on_plane(const Wheel& spec, const Pose& X, const Vec3& on, const Vec3& n
 
 }  // namespace
 
-Footing footing_of(const Ground& ground, const Wheel& spec, const Pose& X, double droop) {
+Footing footing_of(const Outlook& outlook, int wheel, double droop) {
+  const WheelState& state = outlook.state.wheels[static_cast<std::size_t>(wheel)];
+  const Vehicle& vehicle = outlook.world.model.vehicles[state.vehicle];
+  const Wheel& spec = vehicle.wheels[state.wheel];
+  const Ground& ground = outlook.world.model.ground;
+  const Pose& X = outlook.at.X_WB[vehicle.body];
   const Vec3 hub = X * spec.hub_B, up = X.q * Vec3::UnitZ();
   Footing best;
   best.compression = best.leaving = -droop;
-  auto look_at = [&](const Vec3& on, const Vec3& normal) {
+  auto look_at = [&](const Vec3& on, const Vec3& normal, int body) {
     const Footing f = on_plane(spec, X, on, normal);
     best.near = best.near || (f.near && normal.dot(hub - on) < spec.radius + droop);
     if (f.near) best.leaving = std::max(best.leaving, f.compression);
     if (f.near || f.compression <= best.compression) return;
     best.found = true;
+    best.body = body;
     best.compression = f.compression;
     best.point = f.point;
     best.normal = f.normal;
   };
-  if (ground.plane) look_at(Vec3(hub.x(), hub.y(), ground.height), Vec3::UnitZ());
+  if (ground.plane) look_at(Vec3(hub.x(), hub.y(), ground.height), Vec3::UnitZ(), -1);
   if (ground.terrain) {
     constexpr double kAbove = 0.6;  // [m] start over the hub, so that a wheel pushed into a kerb still finds the surface
     double s = 0;
     int triangle = -1;
     const double farthest = kAbove + spec.radius / kWheelFacing + droop;  // a leaning wheel's shoulder is nearer than what is below
     if (ground.terrain->raycast(hub + kAbove * up, -up, farthest, s, triangle))
-      look_at(hub + (kAbove - s) * up, ground.terrain->face_normals()[triangle]);
+      look_at(hub + (kAbove - s) * up, ground.terrain->face_normals()[triangle], -1);
+  }
+  for (const Road& road : outlook.world.pairs.roads) {
+    constexpr double kHigher = 1e-5;  // [m] below it the surface under the hub serves, on which a leaning tyre has its shoulder
+    if (const auto touch = stands_on(outlook, wheel, road, best.compression + kHigher))
+      look_at(touch->point, touch->normal, road.body);
   }
   return best;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/contact/mean_friction.h"
+#include "engine/contact/road.h"
 #include "engine/contact/round_tyre.h"
 #include "engine/effects/footing.h"
 #include "engine/effects/registration.h"
@@ -33,7 +34,9 @@ Finding look_for_tyres(const Model& model) {
   }
   if (model.vehicles.empty()) return {false, "no vehicle", ""};
   if (count == 0) return {false, "no vehicle with wheels", ""};
-  if (!model.ground.plane && !model.ground.terrain) return {false, counted(count, "wheel") + ", but no ground to roll on", ""};
+  const bool deck = std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.fixed; });
+  if (!model.ground.plane && !model.ground.terrain && !deck)
+    return {false, counted(count, "wheel") + ", but no ground to roll on", ""};
   const std::string friction = low == high ? number(low) : number(low) + " to " + number(high);
   const std::string over = tyre_pairs(model).empty() ? "" : "; they roll over persons and free bodies too";
   return {true, counted(count, "wheel") + " of " + listed(names) + ", tyre friction " + friction + over, ""};
@@ -95,7 +98,9 @@ void add_wheel(StepContext& step, const WheelState& wheel, const Footing& footin
   c.a.body = vehicle.body;
   c.b.body = moves(footing.body) ? footing.body : -1;
   c.a.record = vehicle.body;
-  c.b.record = footing.body;
+  // what stands fast under a wheel is road: nobody is struck, and it leaves its mark there
+  const bool road = footing.body < 0 || (world.model.bodies[footing.body].fixed && world.model.bodies[footing.body].person < 0);
+  c.b.record = road ? -1 : footing.body;
   c.point = footing.point;
   const Vec3 forward = X.q * Vec3(math::cos(wheel.steer), math::sin(wheel.steer), 0);
   const Vec3 t1 = (forward - forward.dot(footing.normal) * footing.normal).normalized();
@@ -179,6 +184,7 @@ class Tyres final : public EffectWith<TyresMemory> {
   Tyres(World& world, int self) : EffectWith(self) {
     ContactPairs& pairs = world.pairs;
     pairs.tyres = tyre_pairs(world.model);
+    pairs.roads = roads_of(world.model);
     for (std::size_t i = 0; i < pairs.tyres.size(); ++i) pairs.in_reach.tyres.push_back(i);
   }
 
@@ -245,7 +251,7 @@ class Tyres final : public EffectWith<TyresMemory> {
       const Pose& X = state.X_WB[vehicle.body];
       const Vec3 up = X.q * Vec3::UnitZ();
       const double droop = droop_of(spec, wheel.static_load);
-      Footing footing = footing_of(world.model.ground, spec, X, droop);
+      Footing footing = footing_of(outlook, i, droop);
       const auto first = pair;
       while (pair != in_reach.end() && world.pairs.tyres[*pair].wheel == i) ++pair;
       step_on_bodies(outlook, {first, pair}, footing);

@@ -20,7 +20,7 @@ Finding look_for_zero_condition(const Model& model) {
   if (waiting.empty()) return {false, "zero_condition = false for " + counted(model.persons.size(), "person"), ""};
   const std::string keep = waiting.size() == 1 ? " keeps pose and speed" : " keep pose and speed";
   return {true, listed(waiting) + keep + " until something other than the support touches",
-          "until then gravity, joints and support, which are taken to be in balance"};
+          "until then gravity, joints, support and the air, which are taken to be in balance: who walks or rides keeps its speed"};
 }
 
 bool waits(const World& world, const State& state, int body) {

@@ -1,5 +1,7 @@
 #include "engine/geometry/hyper_ellipsoid_tyre.h"
 
+#include "engine/math/functions.h"
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -7,6 +9,7 @@
 namespace engine {
 namespace {
 
+constexpr double kFlat = 8;            // [-] least exponent of a shape with flat sides
 constexpr double kLeastAcross = 1e-9;  // [-] of a direction along the axle, where the rim's side is flat
 
 /// Support function of the tyre about its centre, its point and its second derivative.
@@ -109,6 +112,24 @@ void creep_down(const Way& way, Lowest& at, const Bounds& bounds) {
   }
 }
 
+/// On a flat side, well within its rim, the normal is the body's axis: there Newton's method has nothing to go by.
+std::optional<Lowest> on_flat_side(const Way& way) {
+  constexpr double kBent = 1e-7;  // [m] by which the side has fallen away there from its middle
+  const HyperEllipsoid& shape = way.shape;
+  if (shape.exponent < kFlat) return std::nullopt;
+  for (int i = 0; i < 3; ++i) {
+    const double facing = way.R_WA.col(i).dot(way.along);
+    if (std::abs(facing) < 0.5) continue;
+    const Vec3 m = way.R_WA.col(i) / facing;
+    const Vec3 on = way.R_WA.transpose() * (way.apart - support_of(way.tyre, m).point);
+    double share = 0;
+    for (int k = 0; k < 3; ++k)
+      if (k != i) share += math::pow(std::min(1.0, std::abs(on[k]) / shape.semi_axes[k]), shape.exponent);
+    if (shape.semi_axes[i] * share < kBent * shape.exponent) return Lowest{way.E.transpose() * m, way.value(m)};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<TyreTouch> move_clear(const Tyre& tyre, const HyperEllipsoid& shape, const Pose& X_WA, const Vec3& along,
@@ -119,13 +140,16 @@ std::optional<TyreTouch> move_clear(const Tyre& tyre, const HyperEllipsoid& shap
   const double steepest = std::sqrt(1 / (facing * facing) - 1);
   Lowest at{Eigen::Vector2d::Zero(), way.value(along)};
   const Bounds bounds{least, 2 * steepest};
-  if (!descend(way, at, bounds)) creep_down(way, at, bounds);
+  if (const auto flat = on_flat_side(way))
+    at = *flat;
+  else if (!descend(way, at, bounds))
+    creep_down(way, at, bounds);
   if (at.s.norm() > steepest || at.way < least) return std::nullopt;
   const Vec3 m = way.normal(at.s);
   TyreTouch touch;
   touch.way = at.way;
   touch.normal = m.normalized();
-  touch.point = X_WA.p + way.R_WA * support_point(shape, way.R_WA.transpose() * m);
+  touch.point = tyre.centre + at.way * along - support_of(tyre, m).point;  // of a flat side any point would be the shape's
   return touch;
 }
 
@@ -134,7 +158,15 @@ std::optional<SurfaceContact> contact_with_tyre(const HyperEllipsoid& shape, con
   constexpr double kAny = 0.05;
   Vec3 along = tyre.centre - X_WA.p;
   if (!(along.norm() > 0)) return std::nullopt;
-  along.normalize();
+  if (shape.exponent < kFlat) {
+    along.normalize();
+  } else {
+    // from the side before which the tyre stands
+    const Vec3 from = X_WA.q.conjugate() * along;
+    int side = 0;
+    from.cwiseAbs().cwiseQuotient(shape.semi_axes).maxCoeff(&side);
+    along = X_WA.q * (std::copysign(1.0, from[side]) * Vec3::Unit(side));
+  }
   std::optional<TyreTouch> touch;
   for (int k = 0; k < kTurns; ++k) {
     const auto next = move_clear(tyre, shape, X_WA, along, kAny, -2 * (margin + tyre.radius) / kAny);

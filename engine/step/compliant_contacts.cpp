@@ -180,18 +180,18 @@ struct Functions {
   double gap, speed;
 };
 Functions functions_of(ContactPhase phase, double gap, double speed) {
-  constexpr double kNever = -1;
+  constexpr double kNone = -1;
   switch (phase) {
     case ContactPhase::open:
-      return {-gap, kNever};
+      return {-gap, kNone};
     case ContactPhase::approach:
       return {gap, speed};
     case ContactPhase::separate:
       return {gap, -speed};
     case ContactPhase::resting:
-      return {gap, kNever};
+      return {gap, kNone};
   }
-  return {kNever, kNever};
+  return {kNone, kNone};
 }
 
 }  // namespace
