@@ -20,6 +20,8 @@ constexpr const char* kPhase =
 constexpr const char* kMoving = "still moving when the run ends";
 constexpr const char* kNoDeltaV = "the vehicle touched no person, vehicle or object, or is fixed";
 constexpr const char* kNotRolled = "the vehicle did not roll onto its side or farther; or it is a two-wheeler";
+constexpr const char* kNotDown =
+    "the vehicle did not roll onto its side or farther, and its bodywork never came down so hard; or it is a two-wheeler";
 constexpr const char* kNoStrike = "as ground_strikes; or the bodywork never came down so hard";
 constexpr const char* kRolls = "bodywork is rigid: what it ploughs and crushes is not in it";
 
@@ -173,10 +175,11 @@ constexpr Definition kDefinitions[] = {
      "or to the end of the run.",
      kNotRolled, kRolls, true},
     {"ground_strikes", "", "ground strikes",
-     "How often the bodywork of a vehicle that rolled over came down on the ground from the trip to rest: the ground pushed it by "
-     "more than 0.8 km/h times its mass within 20 ms, as collision phases are counted. The table of impacts has no rows of the "
+     "How often the bodywork of a vehicle came down on the ground, from the trip to rest where it rolled over: the ground pushed "
+     "it "
+     "by more than 0.8 km/h times its mass within 20 ms, as collision phases are counted. The table of impacts has no rows of the "
      "ground. Scraping and what the wheels bear do not count.",
-     kNotRolled, kRolls, true},
+     kNotDown, kRolls, true},
     {"ground_strike_s", "s", "hardest ground strike", "Time at which the hardest of them began.", kNoStrike, kRolls, true},
     {"ground_strike_mps", "m/s", "delta-v, ground strike",
      "Impulse of the ground on the bodywork in the hardest of them over the vehicle's mass: what it changes of the velocity, "

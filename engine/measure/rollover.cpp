@@ -1,5 +1,5 @@
-// What is quoted of a vehicle that rolls over: quarter turns, distance and mean drag factor from the trip to rest, and how its
-// bodywork came down on the ground meanwhile.
+// What is quoted of a vehicle that rolls over: quarter turns, distance and mean drag factor from the trip to rest. And how the
+// bodywork came down on the ground, of any vehicle.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -141,7 +141,12 @@ void measure_rollover(const Model& model, const Recording& recording, const std:
     if (tripped && standing && !upright) upright = &s, way_upright = way;
   }
   const double quarters = std::round(std::abs(turned) / kQuarter);
-  if (quarters < 1) return;
+  if (quarters < 1) {
+    // it fell, or came down on its nose
+    const std::vector<Strike> strikes = ground_strikes(model, recording, party, 0, end);
+    if (!strikes.empty()) measure_strikes(model, vehicle, strikes, out);
+    return;
+  }
   out.push_back({"quarter_turns", vehicle.name, quarters});
   out.push_back({"trip_s", vehicle.name, trip->time});
   if (upright) way = way_upright;

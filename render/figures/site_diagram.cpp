@@ -156,35 +156,58 @@ std::vector<LengthShown> dimensions_of(const Site& site, const PersonFacts& fact
   return out;
 }
 
-constexpr double kDisc = 2.6;  // [mm] radius of a number's circle
+constexpr double kKeyLine = 4.4, kKeyLetters = 2.9;  // [mm]
+constexpr double kDisc = 2.6;                        // [mm] radius of a number's circle
 
-std::vector<Point2> numbers_of(const Site& site, const PersonFacts& facts) {
-  std::vector<Point2> out;
-  for (const double t : times_of_interest(facts, site.recording))
-    out.push_back(site.plan.at(centre_of_mass(facts, site.recording, t)) + Point2(0, -11));
+/// A circle's number and its middle [mm].
+struct Numbered {
+  const PersonFacts* person;
+  int number;
+  Point2 at;
+};
+
+/// A number in a circle beside each place of each person, explained in the key; a circle makes room for those before it.
+std::vector<Numbered> numbers_of(const Site& site) {
+  std::vector<Numbered> out;
+  for (const PersonFacts& facts : site.job.persons) {
+    int number = 0;
+    for (const double t : times_of_interest(facts, site.recording)) {
+      Point2 p = site.plan.at(centre_of_mass(facts, site.recording, t)) + Point2(0, -11);
+      const auto taken = [&](const Numbered& other) { return (other.at - p).norm() < 2 * kDisc + 0.4; };
+      while (std::any_of(out.begin(), out.end(), taken)) p.y() -= 1;
+      out.push_back({&facts, ++number, p});
+    }
+  }
   return out;
 }
 
-/// A number in a circle beside each place of the person, explained in the key.
-void draw_numbers(cairo_t* c, const Site& site, const PersonFacts& facts) {
-  int number = 0;
-  for (const Point2& p : numbers_of(site, facts)) {
+/// Of several persons each circle says whose it is.
+void draw_numbers(cairo_t* c, const Site& site) {
+  for (const auto& [facts, number, p] : numbers_of(site)) {
+    if (site.job.persons.size() > 1) {
+      const double width = text_width(c, facts->name, kKeyLetters);
+      cairo_set_source_rgb(c, 1, 1, 1);
+      cairo_rectangle(c, p.x() + kDisc, p.y() - 1.6, width + 1.6, 3.4);
+      cairo_fill(c);
+      grey(c, 0);
+      draw_text(c, p.x() + kDisc + 0.8, p.y() + 1.0, facts->name, kKeyLetters);
+    }
     cairo_set_source_rgb(c, 1, 1, 1);
     cairo_arc(c, p.x(), p.y(), kDisc, 0, 2 * M_PI);
     cairo_fill_preserve(c);
     grey(c, 0);
     cairo_set_line_width(c, 0.3);
     cairo_stroke(c);
-    draw_text(c, p.x(), p.y() + 1.2, fmt::format("{}", ++number), 3.4, Align::centre);
+    draw_text(c, p.x(), p.y() + 1.2, fmt::format("{}", number), 3.4, Align::centre);
   }
 }
 
 /// What is written into the plan and has its size on the paper [mm], not in the world.
 std::vector<Point2> written_into(cairo_t* c, const Site& site) {
   std::vector<Point2> out;
+  for (const Numbered& n : numbers_of(site))
+    for (const double side : {-1.0, 1.0}) out.push_back(n.at + side * Point2(kDisc + 0.5, kDisc + 0.5));
   for (const PersonFacts& facts : site.job.persons) {
-    for (const Point2& p : numbers_of(site, facts))
-      for (const double side : {-1.0, 1.0}) out.push_back(p + side * Point2(kDisc + 0.5, kDisc + 0.5));
     for (const LengthShown& d : dimensions_of(site, facts)) {
       const DimensionLine line = line_of(site.plan, d);
       const double half = std::max(text_width(c, d.text, kNumber), (line.q - line.p).norm()) / 2 + 1.5;
@@ -212,8 +235,6 @@ Plan plan_with_writing(cairo_t* c, const Site& site, Point2 lower, Point2 upper,
   }
   return tried.plan;
 }
-
-constexpr double kKeyLine = 4.4, kKeyLetters = 2.9;  // [mm]
 
 /// What stands above the plan: of each person when and how far, then the impacts; in lines that leave the title its place.
 std::vector<std::string> key_of(const engine::Recording& recording, const FigureJob& job) {
@@ -337,8 +358,8 @@ std::vector<std::string> site_diagram(const Stage& stage, const engine::Recordin
                     {0.92 - 0.42 * static_cast<double>(i + 1) / static_cast<double>(times.size()), 0});
       draw_path(c, site, p);
       for (const LengthShown& d : dimensions_of(site, p)) draw_dimension(c, site, d);
-      draw_numbers(c, site, p);
     }
+    draw_numbers(c, site);
     cairo_restore(c);
     draw_key(c, key, key_top);
     draw_scale(c, stage, site.plan);

@@ -59,23 +59,27 @@ Camera beside(const std::vector<Vec3>& points, double aspect) {
   return camera;
 }
 
-/// At how many of some instants from the touch to the landing the vehicle that struck stands between a person and who looks from
+/// At how many of some instants from the touch to the landing something as high as a car stands between a person and who looks from
 /// that far beside it.
 int times_hidden(const Stage& stage, const PersonFacts& p, const engine::Recording& recording, const Vec3& beside) {
   constexpr int kInstants = 6, kPoints = 40;
+  constexpr double kHigh = 1;  // [m]
   const double from = p.hit.value_or(0), to = p.landed.value_or(recording.end_time());
   int hidden = 0;
   for (const MeshActor& actor : stage.meshes) {
-    if (p.vehicle_body < 0 || actor.body != p.vehicle_body) continue;
-    Eigen::AlignedBox2d box;
-    for (std::size_t i = 0; i + 1 < actor.mesh->positions.size(); i += 3)
-      box.extend(Eigen::Vector2d(actor.mesh->positions[i], actor.mesh->positions[i + 1]));
+    if (actor.body < 0) continue;
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = 0; i + 2 < actor.mesh->positions.size(); i += 3)
+      box.extend(Eigen::Vector3d(actor.mesh->positions[i], actor.mesh->positions[i + 1], actor.mesh->positions[i + 2]));
+    if (box.sizes().z() < kHigh) continue;
+    box.min().z() = -1e3;
+    box.max().z() = 1e3;
     for (int k = 0; k < kInstants; ++k) {
       const double time = from + (to - from) * k / (kInstants - 1);
       const Vec3 person = centre_of_mass(p, recording, time);
       const engine::Pose X_MW = (recording.at(time).bodies[static_cast<std::size_t>(actor.body)].X_WB * actor.X_BM).inverse();
       bool between = false;
-      for (int i = 1; i <= kPoints; ++i) between = between || box.contains((X_MW * Vec3(person + i * beside / kPoints)).head<2>());
+      for (int i = 1; i <= kPoints; ++i) between = between || box.contains(X_MW * Vec3(person + i * beside / kPoints));
       hidden += between;
     }
   }

@@ -417,6 +417,19 @@ TEST(Rollover, TellsHowOftenAndHowHardTheBodyworkCameDown) {
   EXPECT_TRUE(value_of(out, "roll_drag_factor")) << "the ground is what drags";
 }
 
+TEST(GroundStrike, IsToldOfACarThatFallsWithoutRollingOver) {
+  const Model model = car_with_a_track();
+  Recording run = rolled_like_a_cylinder(0);
+  EXPECT_FALSE(value_of(rollover_of(model, run), "ground_strikes"));
+  ContactRecord c = push(kCar, -1, {ShapeKind::mesh, ShapeKind::plane}, {0, 0, 9000});
+  c.begun = run.snapshots[79].time;
+  run.snapshots[80].contacts.push_back(c);
+  const std::vector<Metric> out = rollover_of(model, run);
+  EXPECT_EQ(value_of(out, "ground_strikes"), 1.0);
+  EXPECT_NEAR(value_of(out, "ground_strike_mps").value(), 9, kAlmost);
+  EXPECT_FALSE(value_of(out, "quarter_turns"));
+}
+
 TEST(Rollover, IsNoneOfWhoTipsAndFallsBackPitchesOrHasTwoWheels) {
   const Model model = car_with_a_track();
   EXPECT_TRUE(rollover_of(model, rolled_like_a_cylinder(0.4)).empty());
