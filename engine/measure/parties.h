@@ -46,6 +46,12 @@ inline bool bears(const Vec3& normal) {
   return normal.z() > 0.5;
 }
 
+/// Whether a touch between such shapes, of that body with that unit normal away from it, is one of the ground or of what stands on
+/// it for good, whatever its shape.
+inline bool is_ground(const Model& model, const ShapePair& shapes, int body, const Vec3& normal) {
+  return shapes.on_ground() || (is_fixture(model, body) && bears(normal));
+}
+
 /// A push of a contact on the party, zero where it has no part in it; contacts within the party count for nothing.
 Vec3 push_on(const Party&, const ContactRecord&);
 

@@ -40,8 +40,8 @@ std::optional<Touch> first_touch(const Model& model, const Recording& recording,
 bool pushed_by_vehicle(const Model& model, const Party& party, const Snapshot& s, int struck_by, bool moving = false) {
   constexpr double kStands = 0.05;  // [m/s] slower, as at rest, it pushes nobody along
   return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
-    return c.shapes.on_vehicle() && c.normal_impulse > 0 && !push_on(party, c).isZero(0) &&
-           (c.body_b == struck_by || !is_fixture(model, c.body_b)) && (!moving || s.bodies[c.body_b].V_WB.v.norm() > kStands);
+    const bool by = is_fixture(model, c.body_b) ? c.body_b == struck_by : c.shapes.on_vehicle();
+    return by && c.normal_impulse > 0 && !push_on(party, c).isZero(0) && (!moving || s.bodies[c.body_b].V_WB.v.norm() > kStands);
   });
 }
 
@@ -63,15 +63,15 @@ std::optional<double> off_mount(const Model& model, const Recording& recording, 
 /// On the ground, or on what stands on it for good.
 bool on_ground(const Model& model, const Party& party, const Snapshot& s) {
   return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
-    const bool ground = c.shapes.on_ground() || (is_fixture(model, c.body_b) && bears(c.normal));
-    return ground && c.normal_impulse > 0 && holds(party, c.body_a);
+    return is_ground(model, c.shapes, c.body_b, c.normal) && c.normal_impulse > 0 && holds(party, c.body_a);
   });
 }
 
-/// Whether the trunk is on the ground at some instant from `from` to `to`. The recorder tells a landing of all but who lay there.
-bool lies_after(const Model& model, const Recording& recording, const Party& trunk, double from, double to) {
+/// Whether the trunk is on the ground when it is touched: before it, or just after, since nothing holds who waits until then.
+bool lies_at(const Model& model, const Recording& recording, const Party& trunk, double hit) {
+  const double around = kBreak + recording.interval;
   return std::any_of(recording.snapshots.begin(), recording.snapshots.end(),
-                     [&](const Snapshot& s) { return s.time >= from && s.time <= to && on_ground(model, trunk, s); });
+                     [&](const Snapshot& s) { return std::abs(s.time - hit) <= around && on_ground(model, trunk, s); });
 }
 
 /// By anything but itself.
@@ -202,7 +202,7 @@ std::optional<Throw> throw_of_person(const Model& model, const Recording& record
   if (!t.separated && t.landed) t.separated = t.hit;
   if (const auto off = off_mount(model, recording, p); off && t.separated)
     t.separated = std::min(std::max(*t.separated, *off), t.landed.value_or(t.end));
-  t.lay = !t.landed && lies_after(model, recording, {p, -1, trunk_of(model, p)}, t.hit, t.end);
+  t.lay = !t.landed && lies_at(model, recording, {p, -1, trunk_of(model, p)}, t.hit);
   t.flew = t.landed && flew_between(recording, party, *t.separated, *t.landed);
   add_phases(model, recording, party, t);
   return t;

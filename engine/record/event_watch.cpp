@@ -93,9 +93,9 @@ void EventWatch::watch_ground(const Constraint& c, int person, double time) {
 void EventWatch::watch(const World& world, const Constraint& c, double time) {
   const int person = c.a.record >= 0 ? world.model.bodies[c.a.record].person : -1;
   if (person < 0 || world.model.bodies[c.a.record].vehicle >= 0 || c.impulse[0] <= 0) return;
-  const bool fixture = c.shapes.on_vehicle() && is_fixture(world.model, c.b.record);
-  if (c.shapes.on_vehicle() && (!fixture || world.model.persons[person].mount >= 0)) watch_vehicle(world, c, person, time);
-  if (c.shapes.on_ground() || (fixture && bears(c.frame.col(0)))) watch_ground(c, person, time);
+  const bool struck = is_fixture(world.model, c.b.record) ? world.model.persons[person].mount >= 0 : c.shapes.on_vehicle();
+  if (struck) watch_vehicle(world, c, person, time);
+  if (is_ground(world.model, c.shapes, c.b.record, c.frame.col(0))) watch_ground(c, person, time);
 }
 
 void EventWatch::list_lying(const World& world, const State& state) {

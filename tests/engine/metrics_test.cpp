@@ -349,6 +349,50 @@ TEST(ThrowMetrics, WhoLayThereDoesNotLandAndSlidesFromTheLastPush) {
   EXPECT_EQ(reason("fall_m"), "it lay on the ground when it was struck");
 }
 
+/// Struck upright and thrown: what lies later did not lie then, whether the recorder has told a landing or not.
+TEST(ThrowMetrics, WhoIsStruckUprightIsNotSaidToHaveLain) {
+  Model model = person_and_car();
+  model.persons[0].hips = kHips;
+  Recording run = struck_along_y();  // on the ground from 4 s on
+  std::erase_if(run.events, [](const Event& e) { return e.kind == "ground_contact"; });
+  const auto thrown = throw_of_person(model, run, 0);
+  ASSERT_TRUE(thrown);
+  EXPECT_FALSE(thrown->lay);
+  for (const ThrowPhase& phase : thrown->phases) EXPECT_STRNE(phase.name, "slide") << "a flight is none";
+}
+
+/// A pavement of either shape: who comes down on it lands, as on the road, and it strikes nobody.
+TEST(ThrowMetrics, TheRecorderTellsALandingOnWhatIsFixedWhateverItsShape) {
+  HyperEllipsoid slab, ball;
+  slab.semi_axes = {5, 5, 0.5};
+  slab.exponent = 60;
+  ball.semi_axes = {0.1, 0.1, 0.1};
+  for (const Shape& pavement : {Shape(slab), Shape(MeshShape{box({-5, -5, -0.5}, {5, 5, 0.5}), Pose{}})}) {
+    Model model = person_and_car();
+    model.ground.plane = false;
+    model.settings.contact_law = ContactLaw::persons_yield;
+    model.settings.duration = 0.3;
+    model.vehicles.clear();
+    model.bodies[kCar].vehicle = -1;
+    model.bodies[kCar].fixed = true;
+    model.bodies[kCar].shape = pavement;
+    model.bodies[kCar].X_WB.p = {0, 0, -0.5};
+    for (const int b : {kHead, kHips}) model.bodies[b].shape = ball;
+    model.bodies[kHips].X_WB.p = {0, 0, 0.2};  // falls by 0.1 m
+    model.bodies[kHead].X_WB.p = {1, 0, 5};
+    model.persons[0].hips = kHips;
+    model.persons[0].zero_condition = false;
+    const Recording run = simulate(model);
+    const auto landing =
+        std::find_if(run.events.begin(), run.events.end(), [](const Event& e) { return e.kind == "ground_contact"; });
+    ASSERT_NE(landing, run.events.end()) << pavement.index();
+    EXPECT_EQ(landing->body_a, kHips);
+    EXPECT_EQ(landing->body_b, kCar);
+    EXPECT_NEAR(landing->time, std::sqrt(2 * 0.1 / 9.81), 2e-3);
+    EXPECT_TRUE(std::none_of(run.events.begin(), run.events.end(), [](const Event& e) { return e.kind == "first_contact"; }));
+  }
+}
+
 TEST(ThrowMetrics, WhoIsRunOverIsToldByTheFirstWheelThatStandsOnIt) {
   Model model = person_and_car();
   model.bodies[kHips].name = "pedestrian/hips";
