@@ -23,11 +23,22 @@ class Absences {
   const std::vector<Metric>& there_;
 };
 
+/// Of somebody or something that moved, at its last motion.
+const char* why_no_rest(const Twist& V) {
+  constexpr double kStillSpeed = 0.05, kStillTurn = 0.3;  // [m/s], [rad/s] as in the definition of rest_s
+  const bool moves = V.v.norm() > kStillSpeed || V.w.norm() > kStillTurn;
+  return moves ? "still moving when the run ends" : "still for less than 0.25 s when the run ends";
+}
+
 void absent_throw(const Model& model, const Recording& recording, int p, Absences& absent) {
   const std::string& name = model.persons[p].name;
   const auto t = throw_of_person(model, recording, p);
-  const bool moves = velocity_of(model, {p, -1, model.persons[p].bodies}, recording.snapshots.back()).norm() > 0;
-  absent.note("rest_s", name, t || moves ? "still moving when the run ends" : "nothing touched it: it stands as it stood");
+  constexpr double kWent = 1e-3;  // [m]
+  const Party party{p, -1, model.persons[p].bodies};
+  const Snapshot &first = recording.snapshots.front(), &last = recording.snapshots.back();
+  const Vec3 way = centre_of_mass(model, party, last) - centre_of_mass(model, party, first), v = velocity_of(model, party, last);
+  const bool moved = t || v.norm() > 0 || way.norm() > kWent;
+  absent.note("rest_s", name, moved ? why_no_rest({v, Vec3::Zero()}) : "nothing touched it: it stands as it stood");
   if (!t) {
     absent.note("throw_distance_m", name, "no vehicle touched it");
     return;
@@ -92,7 +103,8 @@ std::vector<AbsentMetric> absent_metrics(const Model& model, const Recording& re
   const std::vector<Impact> impacts = impacts_of(model, recording);
   for (const Vehicle& v : model.vehicles) {
     for (const char* key : {"rest_s", "rest_x_m", "rest_y_m", "rest_heading_deg"})
-      absent.note(key, v.name, "still moving when the run ends");
+      absent.note(key, v.name,
+                  model.bodies[v.body].fixed ? "it is fixed" : why_no_rest(recording.snapshots.back().bodies[v.body].V_WB));
     const auto has = [&](const char* key) {
       return std::any_of(there.begin(), there.end(), [&](const Metric& m) { return m.key == key && m.object == v.name; });
     };

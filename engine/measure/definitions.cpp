@@ -17,7 +17,7 @@ constexpr const char* kHic =
     "bottoms out";
 constexpr const char* kPhase =
     "measured along the line from first touch to rest, so that the distances of all phases sum to throw_distance_m";
-constexpr const char* kMoving = "still moving when the run ends";
+constexpr const char* kMoving = "still moving when the run ends, or still for less than 0.25 s";
 constexpr const char* kNoDeltaV = "the vehicle touched no person, vehicle or object, or is fixed";
 constexpr const char* kNotRolled = "the vehicle did not roll onto its side or farther; or it is a two-wheeler";
 constexpr const char* kNotDown =

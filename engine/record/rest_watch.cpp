@@ -71,6 +71,16 @@ bool halts(const World& world, const Recording& recording, std::size_t tree, dou
   return true;
 }
 
+/// Whether somebody who waits in the zero condition has a rest of its own: what is ridden as any vehicle, its rider where the two
+/// came there. Who stands on its feet stands as it stood.
+bool rests_waiting(const World& world, const State& state, const Recording& recording, int b) {
+  constexpr double kWent = 1e-3;  // [m]
+  const Body& body = world.model.bodies[b];
+  if (body.vehicle >= 0) return true;
+  const Vec3 way = state.X_WB[b].p - recording.snapshots.front().bodies[b].X_WB.p;
+  return world.model.persons[body.person].mount >= 0 && way.norm() > kWent;
+}
+
 }  // namespace
 
 Twist travel_of(const Model& model, int b, const Pose& X, const Twist& V) {
@@ -168,11 +178,15 @@ bool RestWatch::all_at_rest(const State& state) const {
 
 void RestWatch::tell(const World& world, const State& state, const Recording& recording, std::vector<Event>& events) const {
   for (std::size_t t = 0; t < world.topology.trees.size(); ++t) {
-    if (rest_since_[t] < 0 || state.time - rest_since_[t] < 0.9 * kStillTime) continue;
     const int root = world.topology.links[world.topology.trees[t].end - 1].body;
     const int person = world.model.bodies[root].person;
-    if (person >= 0 && !state.released[person]) continue;
-    const double time = halts(world, recording, t, halted_[t]) ? halted_[t] : rest_since_[t];
+    const bool waits = person >= 0 && !state.released[person];
+    if (waits && !rests_waiting(world, state, recording, root)) continue;
+    const int mount = waits ? world.model.persons[person].mount : -1;
+    const int ridden = mount >= 0 ? world.topology.tree_of_body[mount] : -1;
+    const std::size_t as = ridden >= 0 ? static_cast<std::size_t>(ridden) : t;  // rider and mount are one until they are touched
+    if (rest_since_[as] < 0 || state.time - rest_since_[as] < 0.9 * kStillTime) continue;
+    const double time = halts(world, recording, t, halted_[as]) ? halted_[as] : rest_since_[as];
     events.push_back({time, "rest", root, -1, recording.at(time).bodies[root].X_WB.p, 0});
   }
 }

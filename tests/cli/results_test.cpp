@@ -414,6 +414,32 @@ TEST(Simulate, TheSameRunHasTheSameHashEveryTime) {
   }
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(contents(folder / "first/trajectory.csv"), contents(folder / "second/trajectory.csv"));
+/// Rider and mount are one until something touches them, and have a rest where they halt.
+TEST(Simulate, ARiddenTwoWheelerThatBrakesToAHaltRests) {
+  const Folder folder;
+  const auto absent_and_metrics = [&folder](const std::string& speed, const std::string& duration) {
+    folder.write("a.toml", "[simulation]\nduration = \"" + duration +
+                               "\"\n[[vehicle]]\nname = \"bike\"\nmodel = \"bicycle\"\nspeed = \"" + speed +
+                               "\"\n[vehicle.brake]\nfrom = \"0.3 s\"\nbuild_up = \"0 s\"\ndeceleration = \"4 m/s^2\"\n" +
+                               "[[person]]\nname = \"r\"\npose = \"cyclist\"\nrides = \"bike\"\n");
+    EXPECT_EQ(run(folder, {"simulate", "a.toml", "-o", "out", "--overwrite"}).code, 0);
+    const Json summary = Json::parse(contents(folder / "out/summary.json"));
+    return std::pair(summary.at("absent"), summary.at("metrics"));
+  };
+  const auto [none, halted] = absent_and_metrics("5 m/s", "5 s");
+  EXPECT_FALSE(none.contains("rest_s"));
+  for (const char* who : {"bike", "r"}) EXPECT_NEAR(halted.at("rest_s").at(who).get<double>(), 1.55, 0.01) << who;
+  // from where its centre of mass starts: 1.5 m until the brake, 3.125 m with it
+  EXPECT_NEAR(halted.at("rest_x_m").get<double>(), -0.13 + 4.625, 0.01);
+  const auto [too_short, until] = absent_and_metrics("5 m/s", "1.65 s");
+  EXPECT_FALSE(until.contains("rest_s"));
+  for (const char* who : {"bike", "r"})
+    EXPECT_EQ(too_short.at("rest_s").at(who), "still for less than 0.25 s when the run ends") << who;
+  const auto [stands, parked] = absent_and_metrics("0 m/s", "1 s");
+  EXPECT_EQ(stands.at("rest_s").at("r"), "nothing touched it: it stands as it stood") << "of the rider";
+  EXPECT_EQ(parked.at("rest_s"), 0.0) << "of the bicycle, as of a car that is parked";
+}
+
   EXPECT_EQ(contents(folder / "first/contacts.csv"), contents(folder / "second/contacts.csv"));
   const Result other =
       run(folder, {"simulate", "ball.toml", "-o", "third", "--json", "--set", "body.ball.velocity=1.000001 0 0 m/s"});
