@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "cli/disk_room.h"
@@ -116,6 +117,35 @@ Sentences unlikely_speeds(const engine::Model& model) {
     tell(vehicle.name, model.bodies[static_cast<std::size_t>(vehicle.body)].V_WB.v.norm(), kFastestVehicle);
   for (const engine::Person& person : model.persons)
     if (person.mount < 0) tell(person.name, model.bodies[static_cast<std::size_t>(person.hips)].V_WB.v.norm(), kFastestPerson);
+  return out;
+}
+
+/// Masses, places of the centre of mass and wheel angles that no vehicle has.
+Sentences unlikely_figures(const engine::Model& model) {
+  constexpr double kDensest = 1000, kLightest = 20,
+                   kLightestTwoWheeler = 3;  // [kg/m^3] of the box round the bodywork; cars: 95 to 130
+  constexpr double kFarthest = 1.2;          // [rad] of a steered wheel
+  Sentences out;
+  for (const engine::Vehicle& vehicle : model.vehicles) {
+    const engine::Body& body = model.bodies[static_cast<std::size_t>(vehicle.body)];
+    if (const auto* shell = std::get_if<engine::MeshShape>(&body.shape)) {
+      const auto box = shell->mesh->bounds();
+      const Vec3 size = box.upper - box.lower, cg = shell->X_BM.inverse() * Vec3::Zero();
+      const double density = body.mass / std::max(1e-9, size.prod());
+      if (density > kDensest || density < (has_track(vehicle) ? kLightest : kLightestTwoWheeler))
+        out.push_back(
+            fmt::format("{} has a mass of {:.4g} kg and is {:.3g} m long, {:.3g} m wide and {:.3g} m high; is the unit right?",
+                        vehicle.name, body.mass, size.x(), size.y(), size.z()));
+      if ((cg - box.lower).minCoeff() < 0 || (box.upper - cg).minCoeff() < 0)
+        out.push_back(fmt::format("{} has its centre of mass outside its bodywork, {:.3g} m above the road; is the unit right?",
+                                  vehicle.name, cg.z()));
+    }
+    double most = 0;
+    for (const auto& knot : vehicle.steer.knots()) most = std::max(most, std::abs(knot.value));
+    if (most > kFarthest)
+      out.push_back(fmt::format("{} steers by up to {:.4g} deg, farther than {:.3g} deg; is the unit right?", vehicle.name,
+                                most * 180 / std::numbers::pi, kFarthest * 180 / std::numbers::pi));
+  }
   return out;
 }
 
@@ -314,7 +344,7 @@ std::vector<std::string> foresee(const scenes::Scene& scene, const std::string& 
   const bool inside = !out.empty();
   const Sentences far = out_of_reach(scene.model);
   for (const Sentences& more :
-       {first_steps(scene), unlikely_speeds(scene.model), unlikely_ground(scene.model), far,
+       {first_steps(scene), unlikely_speeds(scene.model), unlikely_figures(scene.model), unlikely_ground(scene.model), far,
         inside || !far.empty() ? Sentences() : misses(scene), blind_cameras(scene), room_on_disk(scene, output)})
     out.insert(out.end(), more.begin(), more.end());
   return out;

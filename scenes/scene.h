@@ -84,6 +84,7 @@ struct Scene {
   SnapshotTest snapshot;
   Inference inference;
   std::vector<std::string> warnings;          // file:line:column: what looked odd but loads
+  std::vector<std::string> assumed;           // the same of what was taken where the scene left it open
   std::map<std::string, double> closed_form;  // expected measures the scene carries, SI, by metric key
   std::shared_ptr<MeshShelf> meshes;
 };

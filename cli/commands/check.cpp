@@ -35,6 +35,7 @@ Verdict verdict_of(const std::string& file, const CheckWish& wish) {
   try {
     const scenes::Scene scene = scenes::load(scenes::read_scene_file(file, {wish.allow.begin(), wish.allow.end()}), wish.set);
     for (const std::string& warning : scene.warnings) out.warnings.push_back(finding_of(warning, "odd"));
+    for (const std::string& taken : scene.assumed) out.warnings.push_back(finding_of(taken, "assumed"));
     for (const std::string& sentence : foresee(scene, wish.output)) out.warnings.push_back({file, 0, 0, "foreseen", sentence});
   } catch (const scenes::SceneErrors& found) {
     out.errors = found.findings;

@@ -15,6 +15,7 @@ namespace scenes {
 struct Builder {
   Scene scene;
   Errors errors;
+  Errors assumed;                                                     // nothing wrong: what the scene left open
   std::filesystem::path folder;                                       // of the scene file
   std::map<std::string, std::shared_ptr<const ImportedMesh>> meshes;  // by path: those of this scene, each told of once
 

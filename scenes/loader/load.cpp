@@ -242,6 +242,7 @@ Scene load(const SceneFile& file, const std::vector<std::string>& overrides, std
   if (!builder.errors.empty()) throw SceneErrors(builder.errors.findings());
   builder.scene.assets_sha256 = sha256(builder.assets);
   builder.scene.warnings = builder.errors.warnings();
+  builder.scene.assumed = builder.assumed.warnings();
   builder.scene.stage.title = builder.scene.title;
   builder.scene.stage.provenance = fmt::format("scene {}", builder.scene.sha256.substr(0, 12));
   return std::move(builder.scene);

@@ -47,7 +47,9 @@ const Key kVehicleKeys[] = {
     bound<&engine::Body::mass>({"mass", Type::number, Dimension::mass, "", "Mass with occupants.", kPositive}),
     bound<&VehicleGiven::cg>({"cg", Type::vector3, Dimension::length, "", "Centre of mass in the mesh frame."}),
     bound<&engine::Body::inertia_B>(
-        {"inertia", Type::inertia, Dimension::inertia, "", "Roll, pitch, yaw moments about the centre of mass, or a tensor."}),
+        {"inertia", Type::inertia, Dimension::inertia, "",
+         "Roll, pitch, yaw moments about the centre of mass, or a tensor. Left out beside a mass of the scene's: "
+         "the model's, in proportion to the mass."}),
     bound<&Placing::position>({"position", Type::vector2, Dimension::length, "'0 0 m'", "World x, y of the mesh frame's origin."}),
     bound<&VehicleGiven::front>(
         {"front", Type::vector2, Dimension::length, "", "World x, y of the middle of the front bumper, in place of position."}),
@@ -99,11 +101,24 @@ Value laid_over(Value model, const Value& scene) {
   return overlaid(model, scene);
 }
 
+struct Laid {
+  Value tree;
+  double mass = 0;  // [kg] that the inertia in it is of, where it is the model's and the mass is the scene's; else 0
+};
+
+/// The mass of a model whose inertia the scene leaves as it is, and whose mass it does not.
+double mass_of_inertia(const Value& model, const Reader& scene) {
+  if (!scene.has("mass") || scene.has("inertia") || !model.find("mass") || !model.find("inertia")) return 0;
+  Errors told_elsewhere;
+  return Reader(model, kVehicleSection, scene.path(), told_elsewhere).number("mass");
+}
+
 /// The scene's table laid over the library's.
-std::optional<Value> with_model(Builder& builder, Reader& r) {
+std::optional<Laid> with_model(Builder& builder, Reader& r) {
   const std::string name = r.text("model");
-  if (name.empty()) return r.value();
-  if (const auto model = library_entry(builder, "vehicles", name)) return laid_over(*model, r.value());
+  if (name.empty()) return Laid{r.value()};
+  if (const auto model = library_entry(builder, "vehicles", name))
+    return Laid{laid_over(*model, r.value()), mass_of_inertia(*model, r)};
   r.fail("model", not_in_library(builder, "vehicles", "model", name));
   return std::nullopt;
 }
@@ -236,9 +251,9 @@ const Section kVehicleSection{"vehicle", "[[vehicle]]", "A vehicle: a rigid body
 
 void read_vehicle(Builder& builder, Reader scene) {
   engine::Model& model = builder.scene.model;
-  const auto tree = with_model(builder, scene);
-  if (!tree) return;
-  Reader r(*tree, kVehicleSection, scene.path(), builder.errors);
+  const auto laid = with_model(builder, scene);
+  if (!laid) return;
+  Reader r(laid->tree, kVehicleSection, scene.path(), builder.errors);
   engine::Vehicle vehicle;
   r.fill(vehicle);
   if (vehicle.name.empty()) scene.fail("name", "must be given; every vehicle needs a name");
@@ -266,6 +281,13 @@ void read_vehicle(Builder& builder, Reader scene) {
   r.fill(placing);
   r.fill(body);
   body.name = vehicle.name;
+  if (laid->mass > 0 && body.mass > 0 && body.mass != laid->mass) {
+    // radii of inertia of measured vehicles go by wheelbase and track, whatever their mass
+    body.inertia_B *= body.mass / laid->mass;
+    builder.assumed.warn(r.place("mass"), fmt::format("{} is {:.4g} times the model's; its inertia is taken as that many times the "
+                                                      "model's, unless `inertia` is given",
+                                                      r.path("mass"), body.mass / laid->mass));
+  }
   check_inertia(r, "inertia", body.inertia_B);
   body.surface = read_surface(r, {});
   body.vehicle = static_cast<int>(model.vehicles.size());

@@ -292,6 +292,17 @@ TEST(Check, ForeseesWhatARunWouldTellTooLate) {
   EXPECT_EQ(told(car + kPerson), "a.toml: p stands inside car at the start\n");
   EXPECT_THAT(told(car_at("400 km/h") + kPerson + "position = \"6 0 m\"\n"),
               HasSubstr("car starts at 400 km/h, faster than 250 km/h; is the unit right?"));
+  const std::string heavy = "front = \"-3 0 m\"\n" + kPerson + "position = \"6 0 m\"\n";
+  EXPECT_THAT(told(car + "mass = \"1.5 kg\"\n" + heavy), HasSubstr("car has a mass of 1.5 kg and is 4.64 m long"));
+  EXPECT_THAT(told(car + "mass = \"1500 t\"\n" + heavy), HasSubstr("m high; is the unit right?"));
+  EXPECT_EQ(told(car + "mass = \"1800 kg\"\n" + heavy),
+            "a.toml:7:8: vehicle.car.mass is 1.2 times the model's; its inertia is taken as that many times the model's, unless "
+            "`inertia` is given\n    7 | mass = \"1800 kg\"\n      |        ^\n");
+  EXPECT_EQ(told(car + "mass = \"1800 kg\"\ninertia = \"700 3300 3500 kg m^2\"\n" + heavy), "");
+  EXPECT_EQ(told(car + "cg = \"0.1 0 2.5 m\"\n" + heavy),
+            "a.toml: car has its centre of mass outside its bodywork, 2.5 m above the road; is the unit right?\n");
+  EXPECT_THAT(told(car + "steer = \"30 rad\"\n" + heavy),
+              HasSubstr("car steers by up to 1719 deg, farther than 68.8 deg; is the unit right?"));
   EXPECT_EQ(told(car_at("10 km/h") + kPerson + "position = \"6 0.5 m\"\nvelocity = \"0 3 0 m/s\"\n"),
             "a.toml: nothing touches: p/right_forearm and car come no nearer than 2.65 m, at 0.70 s\n");
   EXPECT_EQ(told(car_at("0 km/h") + kPerson + "position = \"6 0 m\"\n"), "") << "nobody goes anywhere";

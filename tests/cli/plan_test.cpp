@@ -47,6 +47,14 @@ TEST(Plan, NamesTheCriterionOfEveryRow) {
   EXPECT_THAT(result.out, HasSubstr("no vehicle"));
 }
 
+TEST(Plan, TellsThatTheModelsInertiaGoesWithTheMass) {
+  const Folder folder;
+  folder.write("a.toml", "[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\nmass = \"1800 kg\"\n");
+  const Result result = run(folder, {"plan", "a.toml"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, testing::ContainsRegex("assumed +a.toml:4:8: vehicle.car.mass is 1.2 times"));
+}
+
 TEST(Plan, FitsOnATerminal) {
   const Folder folder;
   folder.write("ball.toml", kBall);

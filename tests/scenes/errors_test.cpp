@@ -179,6 +179,20 @@ TEST(SceneHash, IsThatOfTheFileAndItsOverrides) {
   EXPECT_NE(plain.sha256, changed.sha256);
 }
 
+TEST(Library, GivesAMassOfTheScenesTheInertiaOfTheModelInProportion) {
+  const auto body = [](const std::string& keys) {
+    return folder().load("[[vehicle]]\nname = \"van\"\nmodel = \"van\"\n" + keys).model.bodies.at(0);
+  };
+  const engine::Body own = body(""), laden = body("mass = \"3500 kg\"\n");
+  EXPECT_TRUE(laden.inertia_B.isApprox(3500 / own.mass * own.inertia_B, 1e-12));
+  const engine::Body given = body("mass = \"3500 kg\"\ninertia = \"1300 6500 6700 kg m^2\"\n");
+  EXPECT_EQ(given.inertia_B.diagonal(), engine::Vec3(1300, 6500, 6700));
+  const engine::Body same = body("mass = \"2500 kg\"\n");
+  EXPECT_EQ(same.inertia_B, own.inertia_B);
+  // it stands as high, its wheels' loads being found for the mass it has
+  EXPECT_EQ(laden.X_WB.p, own.X_WB.p);
+}
+
 TEST(Library, IsNotHiddenByASceneOfTheSameName) {
   const scenes::testing::SceneFolder own;
   const std::string scene = "[[person]]\nname = \"rider\"\npose = \"cyclist\"\nposition = \"0 0 m\"\n";
