@@ -302,9 +302,17 @@ std::string digits_of(const engine::Metric& metric, const engine::Definition* kn
 /// stretches end 5 ms from the touch: a tail of the blow can be missing, but a power of 2.5 makes the peak count.
 constexpr double kDecides = 0.8;
 
-/// Beside a criterion that the road decided: one fall of many that could have been. The worst of all may be of neither: a head
-/// strikes the person's own arm, or is shaken by a blow to the trunk.
-const char* scattered(const engine::Metric& metric, const std::vector<engine::Metric>& all) {
+/// The fixed body that the person of that name met with its head at the worst (engine::struck_at_worst).
+int struck_by_name(const scenes::Scene& scene, const engine::Recording& recording, const std::string& name) {
+  for (int p = 0; p < static_cast<int>(scene.model.persons.size()); ++p)
+    if (scene.model.persons[static_cast<std::size_t>(p)].name == name) return engine::struck_at_worst(scene.model, recording, p);
+  return -1;
+}
+
+/// Beside a criterion that road or wall decided, which of them. On the road it is one fall of many that could have been. The worst
+/// of all may be of neither: a head strikes the person's own arm, or is shaken by a blow to the trunk.
+std::string decided(const engine::Metric& metric, const std::vector<engine::Metric>& all, const scenes::Scene& scene,
+                    const engine::Recording& recording) {
   if (metric.key != "hic15" && metric.key != "hic15_ground") return "";
   const auto of = [&](const char* key) {
     double out = 0;
@@ -314,7 +322,9 @@ const char* scattered(const engine::Metric& metric, const std::vector<engine::Me
   };
   const double by_vehicle = of("hic15_vehicle"), by_ground = of("hic15_ground");
   if (metric.key == "hic15" && by_vehicle >= kDecides * metric.value && by_vehicle >= by_ground) return "";
-  return by_ground >= kDecides * metric.value ? ", of the road: scatters widely" : ", of neither vehicle nor road alone";
+  if (by_ground < kDecides * metric.value) return ", of neither vehicle nor road alone";
+  const int struck = struck_by_name(scene, recording, metric.object);
+  return struck < 0 ? ", of the road: scatters widely" : ", of " + scene.model.bodies[static_cast<std::size_t>(struck)].name;
 }
 
 /// Beside the way of who came down and was taken along again: no friction follows from it.
@@ -386,9 +396,10 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
     const engine::Definition* known = engine::definition_of(metric.key);
     if (!is_shown(metric, known, absent)) continue;
     line(metric.object.empty() ? metric.key : metric.key + " " + metric.object,
-         metric.text.empty() ? digits_of(metric, known, is_person(scene, metric.object)) + scattered(metric, metrics) +
-                                   unfinished(metric, metrics, absent) + backwards(metric) + dragged(metric, scene, recording)
-                             : metric.text);
+         metric.text.empty()
+             ? digits_of(metric, known, is_person(scene, metric.object)) + decided(metric, metrics, scene, recording) +
+                   unfinished(metric, metrics, absent) + backwards(metric) + dragged(metric, scene, recording)
+             : metric.text);
   }
   // whose it is, where another has it
   std::vector<std::string> missing_names;

@@ -1,6 +1,7 @@
 // Head injury criteria, of the whole course and of what the head did against each partner.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/math/roots.h"
 #include "engine/measure/metrics.h"
@@ -127,6 +128,26 @@ Criteria criteria(const HeadMotion& head, const std::vector<Span>& spans) {
 }
 
 }  // namespace
+
+int struck_at_worst(const Model& model, const Recording& recording, int p) {
+  const int part = model.persons[p].head;
+  for (const HeadMotion& head : recording.heads) {
+    if (head.person != p) continue;
+    Span worst;
+    double most = 0;
+    for (const Span& span : touches(model, recording, part, Partner::ground))
+      if (const double hic15 = criteria(head, {span}).hic15; hic15 > most) most = hic15, worst = span;
+    std::map<int, double> pushed;  // [N s] by body
+    for (const Snapshot& s : recording.snapshots)
+      for (const ContactRecord& c : s.contacts)
+        if (c.body_a == part && s.time > worst.from && s.time <= worst.to && (c.shapes.on_ground() || is_fixture(model, c.body_b)))
+          pushed[c.body_b] += c.normal_impulse;
+    const auto hardest =
+        std::max_element(pushed.begin(), pushed.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (hardest != pushed.end()) return hardest->first;
+  }
+  return -1;
+}
 
 void measure_injury(const Model& model, const Recording& recording, int p, std::vector<Metric>& out) {
   const Person& person = model.persons[p];

@@ -151,6 +151,24 @@ TEST(Simulate, TellsWhatDecidedAHeadInjuryCriterion) {
   EXPECT_THAT(text(7, 5), testing::ContainsRegex("hic15 p +36, of neither vehicle nor road alone\n"));
 }
 
+/// Head first against a wall of either shape: a blow, and no fall on the road.
+TEST(Simulate, NamesTheWallThatDecidedAHeadInjuryCriterion) {
+  const Folder folder;
+  folder.write("wall.obj",
+               "v 1.8 -3 0\nv 2.2 -3 0\nv 2.2 3 0\nv 1.8 3 0\nv 1.8 -3 3\nv 2.2 -3 3\nv 2.2 3 3\nv 1.8 3 3\nf 1 4 3 2\nf 5 6 7 8\n"
+               "f 1 2 6 5\nf 3 4 8 7\nf 1 5 8 4\nf 2 3 7 6\n");
+  for (const std::string shape : {"axes = \"0.2 3 1.5 m\"\nexponent = 30\nposition = \"2 0 1.5 m\"\n", "mesh = \"wall.obj\"\n"}) {
+    folder.write("a.toml",
+                 "[simulation]\nduration = \"0.5 s\"\n[[person]]\nname = \"p\"\npose = \"lying_prone\"\nheight = \"1 m\"\n"
+                 "velocity = \"6 0 0 m/s\"\nzero_condition = false\n[[body]]\nname = \"wall\"\nfixed = true\n" +
+                     shape);
+    const Result result = run(folder, {"simulate", "a.toml", "-o", "out", "--overwrite"});
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_THAT(result.out, testing::ContainsRegex("hic15_ground p +[0-9]+, of wall\n")) << shape;
+    EXPECT_THAT(result.out, testing::Not(HasSubstr("of the road"))) << shape;
+  }
+}
+
 TEST(Simulate, CountsTurnsInWholesAndHasOneNumberForStraightFromBehind) {
   const Folder folder;
   folder.write("ball.toml", kBall);
@@ -396,24 +414,6 @@ TEST(Simulate, ARiderRunningIntoACarTellsTheCollisionWithItsUnit) {
     }
 }
 
-TEST(Simulate, WhoIsPushedAlongAfterTheLandingIsNotSaidToSlide) {
-  const Folder folder;
-  const Result result = run(folder, {"simulate", cases("suv_child_fit.toml"), "-o", "out"});
-  ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_TRUE(std::regex_search(result.out, std::regex("slide_m child +[0-9.]+, pushed by a vehicle on the way\n"))) << result.out;
-}
-
-TEST(Simulate, TheSameRunHasTheSameHashEveryTime) {
-  const Folder folder;
-  folder.write("ball.toml", kBall);
-  std::vector<std::string> hashes;
-  for (const char* out : {"first", "second"}) {
-    const Result result = run(folder, {"simulate", "ball.toml", "-o", out, "--json"});
-    ASSERT_EQ(result.code, 0) << result.err;
-    hashes.push_back(Json::parse(result.out).at("recording").at("hash"));
-  }
-  EXPECT_EQ(hashes[0], hashes[1]);
-  EXPECT_EQ(contents(folder / "first/trajectory.csv"), contents(folder / "second/trajectory.csv"));
 /// Rider and mount are one until something touches them, and have a rest where they halt.
 TEST(Simulate, ARiddenTwoWheelerThatBrakesToAHaltRests) {
   const Folder folder;
@@ -440,6 +440,24 @@ TEST(Simulate, ARiddenTwoWheelerThatBrakesToAHaltRests) {
   EXPECT_EQ(parked.at("rest_s"), 0.0) << "of the bicycle, as of a car that is parked";
 }
 
+TEST(Simulate, WhoIsPushedAlongAfterTheLandingIsNotSaidToSlide) {
+  const Folder folder;
+  const Result result = run(folder, {"simulate", cases("suv_child_fit.toml"), "-o", "out"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(std::regex_search(result.out, std::regex("slide_m child +[0-9.]+, pushed by a vehicle on the way\n"))) << result.out;
+}
+
+TEST(Simulate, TheSameRunHasTheSameHashEveryTime) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  std::vector<std::string> hashes;
+  for (const char* out : {"first", "second"}) {
+    const Result result = run(folder, {"simulate", "ball.toml", "-o", out, "--json"});
+    ASSERT_EQ(result.code, 0) << result.err;
+    hashes.push_back(Json::parse(result.out).at("recording").at("hash"));
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(contents(folder / "first/trajectory.csv"), contents(folder / "second/trajectory.csv"));
   EXPECT_EQ(contents(folder / "first/contacts.csv"), contents(folder / "second/contacts.csv"));
   const Result other =
       run(folder, {"simulate", "ball.toml", "-o", "third", "--json", "--set", "body.ball.velocity=1.000001 0 0 m/s"});
