@@ -122,9 +122,9 @@ Sentences unlikely_speeds(const engine::Model& model) {
 
 /// Masses, places of the centre of mass and wheel angles that no vehicle has.
 Sentences unlikely_figures(const engine::Model& model) {
-  constexpr double kDensest = 1000, kLightest = 20,
-                   kLightestTwoWheeler = 3;  // [kg/m^3] of the box round the bodywork; cars: 95 to 130
-  constexpr double kFarthest = 1.2;          // [rad] of a steered wheel
+  // [kg/m^3] of the box round the bodywork; cars have 110 to 145, a bicycle 20
+  constexpr double kDensest = 1000, kLightest = 20, kLightestTwoWheeler = 3;
+  constexpr double kFarthest = 1.2;  // [rad] of a steered wheel
   Sentences out;
   for (const engine::Vehicle& vehicle : model.vehicles) {
     const engine::Body& body = model.bodies[static_cast<std::size_t>(vehicle.body)];
