@@ -62,6 +62,7 @@ struct TyrePair {
 struct SurfacePoint {
   Vec3 p_B = Vec3::Zero();  // [m] of a wheel at static ride
   int wheel = -1;           // of State::wheels, -1: of the body
+  double radius = 0;        // [m] from the wheel's axle
 };
 
 /// Of the pairs those that a step can bring together, as the broad phase saw last.

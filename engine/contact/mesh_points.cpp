@@ -41,7 +41,10 @@ std::vector<SurfacePoint> points_of(const Model& model, const Body& body, int fi
   for (const Vec3& p : representative_points(*shape.mesh, kSpacing, of)) out.push_back({shape.X_BM * p});
   if (body.vehicle < 0) return out;
   for (const Wheel& wheel : model.vehicles[body.vehicle].wheels) {
-    for (int i = 0; i < kRimPoints; ++i) out.push_back({rim_point(wheel, i), first_wheel});
+    for (int i = 0; i < kRimPoints; ++i) {
+      const Vec3 p = rim_point(wheel, i), arm = p - wheel.hub_B;
+      out.push_back({p, first_wheel, math::hypot(arm.x(), arm.z())});
+    }
     ++first_wheel;
   }
   return out;
@@ -154,14 +157,6 @@ void touch_with_points(const Outlook& outlook, int body, const std::vector<Surfa
   const Vec3 up = X.q * Vec3::UnitZ();
   const Vec3 axle = X.q * Vec3::UnitY();
   const Pose X_MW = target.X_WM.inverse();
-  // asked once for all points of a wheel, which stand one after the other
-  int asked = -1;
-  bool mounts_it = false;
-  const auto mounted = [&](int wheel) {
-    if (wheel != asked) mounts_it = mounts(outlook, wheel, *target.road);
-    asked = wheel;
-    return mounts_it;
-  };
   for (std::size_t i = which.begin; i < which.end; ++i) {
     Vec3 p = X * points[i].p_B;
     if (points[i].wheel >= 0 && !outlook.state.wheels.empty()) p += outlook.state.wheels[points[i].wheel].lift * up;
@@ -184,8 +179,9 @@ void touch_with_points(const Outlook& outlook, int body, const std::vector<Surfa
     if (points[i].wheel >= 0) c.gap = given(c.gap);  // it may come from its tread down onto its flank pressed in by millimetres
     if (points[i].wheel >= 0) {
       c.rolls = c.normal.dot(up) > target.rolls;
-      if (c.rolls && target.is_ground) continue;
-      if (target.road && std::abs(c.normal.dot(axle)) < kAside && mounted(points[i].wheel)) continue;
+      if (c.rolls && (target.is_ground || (target.road && carries(outlook, points[i].wheel, *target.road)))) continue;
+      const bool ahead = !c.rolls && std::abs(c.normal.dot(axle)) < kAside;
+      if (target.road && ahead && mounts(outlook, points[i].wheel, points[i].radius, *target.road, c)) continue;
     }
     out.push_back(c);
   }

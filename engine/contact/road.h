@@ -16,10 +16,13 @@ std::vector<Road> roads_of(const Model&);
 const Road* road_of(const ContactPairs&, int body);
 
 /// The strut's way [m], from static ride, at which the wheel's tyre just stands on the mesh, on an edge of it too. Nothing where it
-/// is below `least` [m], or the two have met sideways: one that rolls up has not got farther than the last step took it.
+/// is below `least` [m], too steep to the tyre, or met sideways.
 std::optional<TyreTouch> stands_on(const Outlook&, int wheel, const Road&, double least);
 
-/// Does the wheel mount what stands before it? Then its rim does not strike it.
-bool mounts(const Outlook&, int wheel, const Road&);
+/// Does the wheel's tyre stand on the mesh, wherever it is in its stroke?
+bool carries(const Outlook&, int wheel, const Road&);
+
+/// Does the wheel mount what a point of it, `radius` [m] from its axle, meets there? Then that does not strike the rim.
+bool mounts(const Outlook&, int wheel, double radius, const Road&, const SurfaceContact&);
 
 }  // namespace engine

@@ -41,10 +41,7 @@ Footing footing_of(const Outlook& outlook, int wheel, double droop) {
   const Vec3 hub = X * spec.hub_B, up = X.q * Vec3::UnitZ();
   Footing best;
   best.compression = best.leaving = -droop;
-  auto look_at = [&](const Vec3& on, const Vec3& normal, int body) {
-    const Footing f = on_plane(spec, X, on, normal);
-    best.near = best.near || (f.near && normal.dot(hub - on) < spec.radius + droop);
-    if (f.near) best.leaving = std::max(best.leaving, f.compression);
+  auto stand = [&](const Footing& f, int body) {
     if (f.near || f.compression <= best.compression) return;
     best.found = true;
     best.body = body;
@@ -52,19 +49,25 @@ Footing footing_of(const Outlook& outlook, int wheel, double droop) {
     best.point = f.point;
     best.normal = f.normal;
   };
-  if (ground.plane) look_at(Vec3(hub.x(), hub.y(), ground.height), Vec3::UnitZ(), -1);
+  auto look_at = [&](const Vec3& on, const Vec3& normal) {
+    const Footing f = on_plane(spec, X, on, normal);
+    best.near = best.near || (f.near && normal.dot(hub - on) < spec.radius + droop);
+    if (f.near) best.leaving = std::max(best.leaving, f.compression);
+    stand(f, -1);
+  };
+  if (ground.plane) look_at(Vec3(hub.x(), hub.y(), ground.height), Vec3::UnitZ());
   if (ground.terrain) {
     constexpr double kAbove = 0.6;  // [m] start over the hub, so that a wheel pushed into a kerb still finds the surface
     double s = 0;
     int triangle = -1;
     const double farthest = kAbove + spec.radius / kWheelFacing + droop;  // a leaning wheel's shoulder is nearer than what is below
     if (ground.terrain->raycast(hub + kAbove * up, -up, farthest, s, triangle))
-      look_at(hub + (kAbove - s) * up, ground.terrain->face_normals()[triangle], -1);
+      look_at(hub + (kAbove - s) * up, ground.terrain->face_normals()[triangle]);
   }
   for (const Road& road : outlook.world.pairs.roads) {
     constexpr double kHigher = 1e-5;  // [m] below it the surface under the hub serves, on which a leaning tyre has its shoulder
     if (const auto touch = stands_on(outlook, wheel, road, best.compression + kHigher))
-      look_at(touch->point, touch->normal, road.body);
+      stand(on_plane(spec, X, touch->point, touch->normal), road.body);
   }
   return best;
 }

@@ -122,7 +122,7 @@ TEST(Simulate, ImpactsAreTheSameInTableAndSummary) {
 TEST(Simulate, PrintsNoMoreDigitsThanAMeasureBears) {
   const Folder folder;
   const std::string scene = std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/sedan_pedestrian_40kmh.toml";
-  const Result result = run(folder, {"simulate", scene, "-q", "-o", "out", "--set", "simulation.duration=1.3 s"});
+  const Result result = run(folder, {"simulate", scene, "-q", "-o", "out", "--set", "simulation.duration=1.05 s"});
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, testing::ContainsRegex("head_impact_s pedestrian +[0-9]\\.[0-9][0-9][0-9]\n"));
   EXPECT_THAT(result.out, testing::ContainsRegex("wrap_around_distance_m pedestrian [0-9]\\.[0-9][0-9]\n"));

@@ -106,8 +106,27 @@ TEST(Kerb, CostsWhatTheStrutsGive) {
 }
 
 TEST(Kerb, HigherThanAWheelMountsIsAWall) {
-  const Recording run = simulate(before_step(Made::terrain, 0.29, 3, 1e-3));
-  EXPECT_LT(run.snapshots.back().bodies[0].X_WB.p.x(), 0);
+  for (const double speed : {3.0, 15.0})
+    for (const Made of : {Made::terrain, Made::mesh}) {
+      // with and without a floor of the same mesh before it
+      for (const bool floor : {false, true}) {
+        Model model = before_step(of, 0.29, speed, 1e-3);
+        if (floor) {
+          model.ground.plane = false;
+          const std::vector<Vec3> corners{{-50, -9, 0},  {0, -9, 0},     {0, 9, 0},     {-50, 9, 0},
+                                          {0, -9, 0.29}, {50, -9, 0.29}, {50, 9, 0.29}, {0, 9, 0.29}};
+          const auto street = std::make_shared<TriangleMesh>(
+              corners, std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {1, 4, 7}, {1, 7, 2}, {4, 5, 6}, {4, 6, 7}});
+          if (of == Made::terrain)
+            model.ground.terrain = street;
+          else
+            model.bodies[1].shape = MeshShape{street, Pose{}};
+        }
+        const Recording run = simulate(model);
+        EXPECT_LT(run.snapshots.back().bodies[0].X_WB.p.x(), 0) << speed << ' ' << floor;
+        EXPECT_GT(run.snapshots.back().bodies[0].X_WB.p.z(), 0.4) << speed << ' ' << floor;
+      }
+    }
 }
 
 TEST(Deck, OfWhateverItIsMadeIsRoad) {
