@@ -213,7 +213,8 @@ TEST(ThrowMetrics, WhoIsPushedAgainAfterComingDownDoesNotSlideByItself) {
 /// A car that has stopped lets go of who slides off it. A tenth of a second later a foot is down, and then the trunk:
 /// a fall. Later the car rolls against who lies there.
 TEST(ThrowMetrics, WhoSlidesOffAStandingCarFallsLandsAndIsTouchedAgain) {
-  const Model model = person_and_car();
+  Model model = person_and_car();
+  model.bodies.resize(4);  // the last is a part of somebody else
   Recording run;
   run.interval = 0.02;
   for (int i = 0; i <= 200; ++i) {  // the centre goes at 2 m/s until 1 s, then slows down to rest at 3 s
