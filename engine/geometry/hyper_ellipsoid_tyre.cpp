@@ -1,10 +1,10 @@
 #include "engine/geometry/hyper_ellipsoid_tyre.h"
 
-#include "engine/math/functions.h"
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "engine/math/functions.h"
 
 namespace engine {
 namespace {
