@@ -303,13 +303,13 @@ std::string digits_of(const engine::Metric& metric, const engine::Definition* kn
 constexpr double kDecides = 0.8;
 
 /// The fixed body that the person of that name met with its head at the worst (engine::struck_at_worst).
-int struck_by_name(const scenes::Scene& scene, const engine::Recording& recording, const std::string& name) {
+engine::StruckAtWorst struck_by_name(const scenes::Scene& scene, const engine::Recording& recording, const std::string& name) {
   for (int p = 0; p < static_cast<int>(scene.model.persons.size()); ++p)
     if (scene.model.persons[static_cast<std::size_t>(p)].name == name) return engine::struck_at_worst(scene.model, recording, p);
-  return -1;
+  return {};
 }
 
-/// Beside a criterion that road or wall decided, which of them. On the road it is one fall of many that could have been. The worst
+/// Beside a criterion that road or wall decided, which of them. Who came down had one fall of many that could have been. The worst
 /// of all may be of neither: a head strikes the person's own arm, or is shaken by a blow to the trunk.
 std::string decided(const engine::Metric& metric, const std::vector<engine::Metric>& all, const scenes::Scene& scene,
                     const engine::Recording& recording) {
@@ -323,8 +323,9 @@ std::string decided(const engine::Metric& metric, const std::vector<engine::Metr
   const double by_vehicle = of("hic15_vehicle"), by_ground = of("hic15_ground");
   if (metric.key == "hic15" && by_vehicle >= kDecides * metric.value && by_vehicle >= by_ground) return "";
   if (by_ground < kDecides * metric.value) return ", of neither vehicle nor road alone";
-  const int struck = struck_by_name(scene, recording, metric.object);
-  return struck < 0 ? ", of the road: scatters widely" : ", of " + scene.model.bodies[static_cast<std::size_t>(struck)].name;
+  const auto [body, came_down] = struck_by_name(scene, recording, metric.object);
+  const std::string name = body < 0 ? "the road" : scene.model.bodies[static_cast<std::size_t>(body)].name;
+  return ", of " + name + (came_down ? ": scatters widely" : "");
 }
 
 /// Beside the way of who came down and was taken along again: no friction follows from it.

@@ -129,7 +129,7 @@ Criteria criteria(const HeadMotion& head, const std::vector<Span>& spans) {
 
 }  // namespace
 
-int struck_at_worst(const Model& model, const Recording& recording, int p) {
+StruckAtWorst struck_at_worst(const Model& model, const Recording& recording, int p) {
   const int part = model.persons[p].head;
   for (const HeadMotion& head : recording.heads) {
     if (head.person != p) continue;
@@ -137,16 +137,16 @@ int struck_at_worst(const Model& model, const Recording& recording, int p) {
     double most = 0;
     for (const Span& span : touches(model, recording, part, Partner::ground))
       if (const double hic15 = criteria(head, {span}).hic15; hic15 > most) most = hic15, worst = span;
-    std::map<int, double> pushed;  // [N s] by body
+    std::map<int, double> pushed, upwards;  // [N s] by body
     for (const Snapshot& s : recording.snapshots)
       for (const ContactRecord& c : s.contacts)
         if (c.body_a == part && s.time > worst.from && s.time <= worst.to && (c.shapes.on_ground() || is_fixture(model, c.body_b)))
-          pushed[c.body_b] += c.normal_impulse;
+          pushed[c.body_b] += c.normal_impulse, upwards[c.body_b] += bears(c.normal) ? c.normal_impulse : 0;
     const auto hardest =
         std::max_element(pushed.begin(), pushed.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (hardest != pushed.end()) return hardest->first;
+    if (hardest != pushed.end()) return {hardest->first, upwards[hardest->first] > 0.5 * hardest->second};
   }
-  return -1;
+  return {};
 }
 
 void measure_injury(const Model& model, const Recording& recording, int p, std::vector<Metric>& out) {

@@ -40,9 +40,12 @@ void measure_head(const Model&, const Recording&, int person, std::vector<Metric
 /// the ground alone, each from 5 ms before to 5 ms after, the worst touch. Only where the contact law gives accelerations.
 void measure_injury(const Model&, const Recording&, int person, std::vector<Metric>&);
 
-/// What the head met at the worst of the touches that hic15_ground is of: a body that is fixed, as a wall; -1: the ground itself,
-/// or nothing.
-int struck_at_worst(const Model&, const Recording&, int person);
+/// What the head met at the worst of the touches that hic15_ground is of.
+struct StruckAtWorst {
+  int body = -1;          // fixed, as a wall; -1: the ground itself, or nothing
+  bool came_down = true;  // on it, as on the ground
+};
+StruckAtWorst struck_at_worst(const Model&, const Recording&, int person);
 
 /// Of every part of a person: largest acceleration of its centre, mean over a step, free fall counting one g. Only with the
 /// compliant law: a rigid impact changes velocities in an instant.
