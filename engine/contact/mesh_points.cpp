@@ -176,8 +176,8 @@ void touch_with_points(const Outlook& outlook, int body, const std::vector<Surfa
       if (c.gap >= margin) continue;
       c.p_b = p - c.gap * Vec3::UnitZ();
     }
-    if (points[i].wheel >= 0) c.gap = given(c.gap);  // it may come from its tread down onto its flank pressed in by millimetres
     if (points[i].wheel >= 0) {
+      c.gap = given(c.gap);  // it may come from its tread down onto its flank pressed in by millimetres
       c.rolls = c.normal.dot(up) > target.rolls;
       if (c.rolls && (target.is_ground || (target.road && carries(outlook, points[i].wheel, *target.road)))) continue;
       const bool ahead = !c.rolls && std::abs(c.normal.dot(axle)) < kAside;

@@ -20,7 +20,7 @@ class RestingPerson : public testing::TestWithParam<Lying> {};
 // every joint has dry friction, which makes the schemes the same: once is enough to see that
 INSTANTIATE_TEST_SUITE_P(In, RestingPerson,
                          testing::Values(Lying{"lying_supine", "1 ms", "stepping", 60},
-                                         Lying{"lying_prone", "1 ms", "stepping", 30}, Lying{"cat", "1 ms", "stepping", 30},
+                                         Lying{"lying_prone", "1 ms", "stepping", 60}, Lying{"cat", "1 ms", "stepping", 60},
                                          Lying{"lying_supine", "1 ms", "rk4"}, Lying{"lying_supine", "2 ms", "stepping"},
                                          Lying{"lying_prone", "2 ms", "stepping"}, Lying{"cat", "2 ms", "stepping"},
                                          Lying{"lying_supine", "0.5 ms", "stepping"}));
