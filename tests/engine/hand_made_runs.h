@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -85,6 +86,32 @@ inline ContactRecord push(int a, int b, const ShapePair& shapes, const Vec3& imp
   c.impulse = impulse;
   c.normal_impulse = impulse.norm();
   return c;
+}
+
+/// The car heads along +y at 5 m/s; the person, struck at 1 s, is as fast at 2 s, let go at 3 s, down at 4 s, bounces until 5 s and
+/// lies from 6 s on. Head and hips move apart, their centre of mass (10 : 30 kg) counts.
+inline Recording struck_along_y() {
+  Recording run;
+  run.interval = 1;
+  const Quat heading(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitZ()));
+  const double y[] = {0, 0, 3, 7, 12, 14, 16}, speed[] = {0, 0, 6, 6, 5, 2, 0};
+  for (int i = 0; i < 7; ++i) {
+    Snapshot s = still(i);
+    s.bodies.own()[kCar].X_WB.q = heading;
+    s.bodies.own()[kCar].V_WB.v = {0, 5, 0};
+    s.bodies.own()[kHead].X_WB.p = {1.0 * i, y[i], 1};
+    s.bodies.own()[kHips].X_WB.p = {0, y[i], 1};
+    for (const int b : {kHead, kHips}) s.bodies.own()[b].V_WB.v = {0, speed[i], 0};
+    run.snapshots.push_back(s);
+  }
+  for (const int i : {1, 2, 3}) run.snapshots[i].contacts.push_back(push(kHips, kCar, kOnVehicle, {0, 10, 0}));
+  run.events = {{1, "first_contact", kHips, kCar, Vec3::Zero(), 0},
+                {4, "ground_contact", kHips, -1, Vec3::Zero(), 0},
+                {6, "rest", kHips, -1, Vec3::Zero(), 0}};
+  // a bounce: on the ground at 4 s, off it, on it again at 5 s and from there on without a break a row could see
+  run.snapshots[4].contacts.push_back(push(kHips, -1, kOnGround, {0, 0, 9}));
+  run.snapshots[5].contacts.push_back(push(kHips, -1, kOnGround, {0, 0, 9}));
+  return run;
 }
 
 /// A car at 12 m/s strikes a falling head at 0.2 s, on the top of the box 1.5 m behind its front and 0.4 m beside the middle.

@@ -1,46 +1,16 @@
-// What is measured of persons and bodies, and that every measure is defined once.
+// What is measured of the throw of persons.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <memory>
 #include <numbers>
 #include <optional>
-#include <set>
 
-#include "engine/measure/definitions.h"
 #include "engine/measure/phases.h"
 #include "tests/engine/hand_made_runs.h"
 
 namespace engine {
 namespace {
-
-/// The car heads along +y at 5 m/s; the person, struck at 1 s, is as fast at 2 s, let go at 3 s, down at 4 s, bounces until 5 s and
-/// lies from 6 s on. Head and hips move apart, their centre of mass (10 : 30 kg) counts.
-Recording struck_along_y() {
-  Recording run;
-  run.interval = 1;
-  const Quat heading(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitZ()));
-  const double y[] = {0, 0, 3, 7, 12, 14, 16}, speed[] = {0, 0, 6, 6, 5, 2, 0};
-  for (int i = 0; i < 7; ++i) {
-    Snapshot s = still(i);
-    s.bodies.own()[kCar].X_WB.q = heading;
-    s.bodies.own()[kCar].V_WB.v = {0, 5, 0};
-    s.bodies.own()[kHead].X_WB.p = {1.0 * i, y[i], 1};
-    s.bodies.own()[kHips].X_WB.p = {0, y[i], 1};
-    for (const int b : {kHead, kHips}) s.bodies.own()[b].V_WB.v = {0, speed[i], 0};
-    run.snapshots.push_back(s);
-  }
-  for (const int i : {1, 2, 3}) run.snapshots[i].contacts.push_back(push(kHips, kCar, kOnVehicle, {0, 10, 0}));
-  run.events = {{1, "first_contact", kHips, kCar, Vec3::Zero(), 0},
-                {4, "ground_contact", kHips, -1, Vec3::Zero(), 0},
-                {6, "rest", kHips, -1, Vec3::Zero(), 0}};
-  // a bounce: on the ground at 4 s, off it, on it again at 5 s and from there on without a break a row could see
-  run.snapshots[4].contacts.push_back(push(kHips, -1, kOnGround, {0, 0, 9}));
-  run.snapshots[5].contacts.push_back(push(kHips, -1, kOnGround, {0, 0, 9}));
-  return run;
-}
 
 constexpr int kMount = 3;
 
@@ -435,71 +405,6 @@ TEST(ThrowMetrics, RiderAndMountHaveEachTheirOwnRestAndThrow) {
   EXPECT_NEAR(of("throw_distance_m", "bicycle"), 1.5, kAlmost) << "from the touch at 0.5 s to its own rest";
   // the rider's centre was at (0.125, 0) when the mount was struck
   EXPECT_NEAR(of("throw_distance_m", "pedestrian"), std::hypot(1.375, 16), kAlmost);
-}
-
-TEST(BodyMetrics, ReboundIsTheTopOfTheFlightBetweenTwoTouches) {
-  Model model;
-  model.bodies.resize(1);
-  model.bodies[0].name = "ball";
-  HyperEllipsoid ball;
-  model.bodies[0].shape = ball;
-  const double radius = aabb_half_widths(ball, Quat::Identity()).z();
-  Recording run;
-  // off the ground at 0.1 s with 2 m/s; the top, 2^2/(2 g) above, lies between two recorded instants
-  for (int i = 0; i < 7; ++i) {
-    Snapshot s;
-    s.time = 0.1 * i;
-    s.bodies.own().resize(1);
-    const double t = s.time - 0.1;
-    s.bodies.own()[0].X_WB.p = {3.0 * i, 4.0 * i, radius + (i ? 2 * t - 0.5 * 9.81 * t * t : 0.3)};
-    s.bodies.own()[0].V_WB.v = {30, 40, i ? 2 - 9.81 * t : -3};
-    run.snapshots.push_back(s);
-  }
-  for (const int i : {1, 6}) run.snapshots[i].contacts.push_back(push(0, -1, kOnGround, {0, 0, 5}));
-  std::vector<Metric> out;
-  measure_body(model, run, 0, out);
-  // the top is a flat maximum: searched to 1e-9 s it is right to rounding
-  EXPECT_NEAR(value_of(out, "rebound_height_m").value(), 2.0 * 2.0 / (2 * 9.81), kAlmost);
-  EXPECT_NEAR(value_of(out, "travel_m").value(), 30, kAlmost);
-  EXPECT_NEAR(value_of(out, "turned_deg").value(), 0, 1e-6);
-}
-
-TEST(AbsentMetrics, WhoStandsIsNotSaidToMove) {
-  const Model model = person_and_car();
-  Recording run;
-  run.interval = 1;
-  run.snapshots = {still(0), still(1)};
-  const auto reason = [&] {
-    for (const AbsentMetric& a : absent_metrics(model, run, {}))
-      if (a.key == "rest_s" && a.object == "pedestrian") return a.reason;
-    return std::string();
-  };
-  EXPECT_EQ(reason(), "nothing touched it: it stands as it stood");
-  run.snapshots[1].bodies.own()[kHips].V_WB.v = {1, 0, 0};
-  EXPECT_EQ(reason(), "still moving when the run ends");
-}
-
-TEST(Definitions, EveryMeasureIsDefinedOnceWithItsUnitInItsName) {
-  std::set<std::string> keys;
-  for (const Definition& d : definitions()) {
-    EXPECT_TRUE(keys.insert(d.key).second) << d.key;
-    for (const char* text : {d.title, d.definition, d.absent, d.sureness}) EXPECT_GT(std::string(text).size(), 0u) << d.key;
-    const std::map<std::string, std::string> endings{{"m", "_m"}, {"s", "_s"}, {"m/s", "_mps"}, {"deg", "_deg"}, {"g", "_g"}};
-    if (const auto ending = endings.find(d.unit); ending != endings.end()) {
-      EXPECT_TRUE(std::string(d.key).ends_with(ending->second)) << d.key;
-    }
-  }
-  const Model model = person_and_car();
-  for (const Recording& run : {struck_along_y(), head_on_bonnet()}) {
-    const std::vector<Metric> metrics = measure(model, run);
-    for (const Metric& m : metrics) EXPECT_TRUE(definition_of(m.key)) << m.key;
-    for (const AbsentMetric& a : absent_metrics(model, run, metrics)) {
-      EXPECT_TRUE(definition_of(a.key)) << a.key;
-      EXPECT_TRUE(
-          std::none_of(metrics.begin(), metrics.end(), [&](const Metric& m) { return m.key == a.key && m.object == a.object; }))
-          << a.key << ": either a figure or a reason";
-    }
-  }
 }
 
 }  // namespace
