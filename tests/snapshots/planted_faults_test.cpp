@@ -180,7 +180,7 @@ TEST(Harmless, WhatAnotherProcessorDoesIsPassed) {
   for (const std::size_t from : {100 * width + 300, 300 * width + 500, 500 * width + 20}) {
     const render::Image wrong[] = {off_by_one([](std::size_t i) { return i * 32003 + 77; }),
                                    off_by_one([from](std::size_t i) { return from + i; }),
-                                   off_by_one([from, width](std::size_t i) { return from + i % 4 + (i / 4) * width; })};
+                                   off_by_one([from](std::size_t i) { return from + i % 4 + (i / 4) * width; })};
     for (const render::Image& picture : wrong) {
       const render::Difference found = render::difference_of(right, picture);
       EXPECT_EQ(found.differing, 16);
