@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/effects/effect.h"
+#include "engine/effects/underfoot.h"
 #include "engine/effects/words.h"
 #include "engine/geometry/mesh_overlap.h"
 #include "engine/math/roots.h"
@@ -29,6 +30,7 @@ struct ReachGroup {
   double speed = 0;            // [m/s] of the centre at most, and
   double gain = 0;             // [m/s^2] by which that bound grows
   bool fixed = false;
+  bool climbs = false;  // walks over ground that is not level, and may walk off an edge
   bool steady = false;  // goes on at `velocity` as it stands until something touches it
   Vec3 velocity = Vec3::Zero();
   std::vector<Aabb> boxes;  // of its bodies at the start, where it is steady
@@ -156,8 +158,14 @@ void bound_motion(const Model& model, ReachGroup& group) {
     group.velocity = velocity;
     for (const int b : group.bodies) group.boxes.push_back(box_at_start(model.bodies[b]));
   }
+  group.climbs = all_wait && !velocity.isZero(0) && is_uneven(model);
+  group.steady = group.steady && !group.climbs;
   group.extent = all_wait || all_fixed ? spread : arms + reach;
   if (all_fixed) return;
+  if (group.climbs) {
+    group.speed = kNever;
+    return;
+  }
   if (all_wait) {
     for (const int b : group.bodies) group.speed = std::max(group.speed, model.bodies[b].V_WB.v.norm());
     return;
@@ -232,6 +240,8 @@ Reach reach_of(const Model& model) {
   const std::vector<ReachGroup> groups = reach_groups_of(model);
   Reach reach;
   reach.first_touch = kNever;
+  for (const ReachGroup& group : groups)
+    if (group.climbs) reach = {0, group.name + " and the ground"};
   for (std::size_t a = 0; a < groups.size(); ++a)
     for (std::size_t b = a + 1; b < groups.size(); ++b) {
       if (groups[a].fixed && groups[b].fixed) continue;

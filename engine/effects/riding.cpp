@@ -94,7 +94,8 @@ void ride(StepContext& step, int p, int self) {
     if (!wheel.steered) rear += wheel.hub_B.x(), ++rears;
   const Vec3 pivot = state.X_WB[mount].p + (rears > 0 ? rear / rears : 0) * forward;
   const Quat turned = math::rotation(h * turn, Vec3::UnitZ()), halfway = math::rotation(0.5 * h * turn, Vec3::UnitZ());
-  const Vec3 way = h * mean * (halfway * forward), w = turn * Vec3::UnitZ(), velocity = next * (turned * forward);
+  const Vec3 climbs = state.V_WB[mount].v.z() * Vec3::UnitZ(), w = turn * Vec3::UnitZ();
+  const Vec3 way = h * mean * (halfway * forward) + h * climbs, velocity = next * (turned * forward) + climbs;
   for (const int b : pair) {
     const Vec3 arm = turned * (state.X_WB[b].p - pivot);
     state.X_WB[b].p = pivot + way + arm;

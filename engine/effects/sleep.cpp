@@ -11,10 +11,10 @@
 namespace engine {
 namespace {
 
-constexpr double kWindow = 1;      // [s] between two looks at what has moved
-constexpr double kMoved = 2e-5;    // [m] by any point of a tree in a window: still
-constexpr double kNear = 0.01;     // [m] between bounding spheres
-constexpr double kApproach = 0.1;  // [s] of flight ahead of which the sleeping wake
+constexpr double kBetweenLooks = 1;  // [s] between two looks at what has moved
+constexpr double kMoved = 2e-5;      // [m] by any point of a tree in a window: still
+constexpr double kNear = 0.01;       // [m] between bounding spheres
+constexpr double kApproach = 0.1;    // [s] of flight ahead of which the sleeping wake
 
 Finding look_for_sleep(const Model& model) {
   if (!model.settings.sleep) return {false, "simulation.sleep is false", ""};
@@ -120,7 +120,7 @@ class Sleep final : public EffectWith<SleepMemory> {
   void begin(World& world, State& state) override {
     if (!world.model.settings.sleep) return;
     state.asleep.assign(world.topology.trees.size(), 0);
-    memory(state) = {state.X_WB, kWindow};
+    memory(state) = {state.X_WB, kBetweenLooks};
   }
 
   void before_step(World& world, State& state, double) override {
@@ -129,7 +129,7 @@ class Sleep final : public EffectWith<SleepMemory> {
     if (std::find(asleep.begin(), asleep.end(), 1) != asleep.end()) wake_near(world, state);
     auto& [X_then, next_look] = memory(state);
     if (state.time < next_look) return;
-    next_look += kWindow;
+    next_look += kBetweenLooks;
     if (!more_to_come(world.model, state.time)) fall_asleep(world, state);
     X_then = state.X_WB;
   }

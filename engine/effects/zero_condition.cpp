@@ -1,12 +1,14 @@
 // Until the first external impact gravity and joint forces of a person balance: it keeps its pose, stands or walks on as one, and
 // costs a bounding test a step. The first touch by anything but its support releases it (source 000, "zero condition").
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "engine/contact/mesh_points.h"
 #include "engine/effects/body_pairs.h"
 #include "engine/effects/registration.h"
 #include "engine/effects/riding.h"
+#include "engine/effects/underfoot.h"
 #include "engine/effects/words.h"
 
 namespace engine {
@@ -75,7 +77,10 @@ class ZeroCondition final : public Effect {
   static Finding look(const Model& model) { return look_for_zero_condition(model); }
 
   ZeroCondition(const World& world, int self)
-      : Effect(self), wheeled_(wheeled_pairs(world.model)), first_touch_(reach_of(world.model).first_touch) {
+      : Effect(self),
+        wheeled_(wheeled_pairs(world.model)),
+        underfoot_(world.model),
+        first_touch_(reach_of(world.model).first_touch) {
     walkers_.reserve(world.model.persons.size());
   }
 
@@ -107,10 +112,11 @@ class ZeroCondition final : public Effect {
 
   /// Walks, or rides, on as one.
   void after_step(StepContext& step) override {
-    const World& world = step.world;
+    World& world = step.world;
     State& state = step.state;
     if (std::exchange(listed_, world.still.changes) != world.still.changes) list_walkers(world, state);
     for (const int p : walkers_) {
+      if (!underfoot_.level() && !climb(step, p)) continue;
       const int mount = world.model.persons[p].mount;
       if (mount >= 0 && !world.awake[mount]) {
         ride(step, p, self_);
@@ -135,7 +141,32 @@ class ZeroCondition final : public Effect {
       if (!state.released[p] && !stands(world, state, world.model.persons[p])) walkers_.push_back(p);
   }
 
+  /// Has who walks or rides go up and down with the ground; false where it falls off an edge, or over one.
+  bool climb(StepContext& step, int p) {
+    World& world = step.world;
+    State& state = step.state;
+    const Person& person = world.model.persons[p];
+    const auto rise = underfoot_.rise(world.model, state, p);
+    if (!rise) {
+      release(world, state, person.hips, -1, state.X_WB[person.hips].p);
+      return false;
+    }
+    const Vec3 v = state.V_WB[person.hips].v;
+    const double up = *rise * v.head<2>().norm();
+    double given = 0;
+    const auto lift = [&](int b) {
+      const double mass = world.model.bodies[b].mass;
+      given += mass * (0.5 * (up * up - v.z() * v.z()) - world.model.settings.gravity.z() * up * step.length);
+      state.V_WB[b].v.z() = up;
+    };
+    for (const int b : person.bodies) lift(b);
+    if (person.mount >= 0) lift(person.mount);
+    (given < 0 ? state.energy.dissipated[self_] : state.energy.added) += std::abs(given);
+    return true;
+  }
+
   const std::vector<BodyPair> wheeled_;
+  const Underfoot underfoot_;
   const double first_touch_;  // [s] proved
   std::vector<int> walkers_;  // who waits and moves on
   long listed_ = 0;           // StillBodies::changes when they were

@@ -1,0 +1,103 @@
+// Who walks, before anything touches: up and down with the ground, and off its edge.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/engine/experiment.h"
+#include "tests/engine/hand_made_runs.h"
+
+namespace engine::test {
+namespace {
+
+constexpr double kPace = 1.5, kMiddle = 0.9, kStride = 0.7;  // [m/s], [m], [m]
+
+/// Somebody of one part who walks along x from -1 m, feet at `height` [m].
+Model walker(double height, double duration) {
+  Model model = on_ground(duration);
+  Body body = solid({{0.15, 0.2, kMiddle}, 2}, 70, {-1, 0, height + kMiddle});
+  body.person = 0;
+  body.V_WB.v.x() = kPace;
+  model.bodies = {body};
+  Person person;
+  person.bodies = {0};
+  person.head = person.hips = 0;
+  model.persons = {person};
+  return model;
+}
+
+const Vec3& place(const Snapshot& s) {
+  return s.bodies[0].X_WB.p;
+}
+
+double residual(const Recording& run) {
+  return std::abs(run.snapshots.back().energies.residual);
+}
+
+/// Over a kerb the height is the mean of the ground over a stride: a ramp 70 cm long.
+TEST(Walker, GoesDownAndUpAKerbWithinAStride) {
+  for (const double kerb : {0.15, -0.12}) {  // of the side it comes from
+    Model model = walker(std::max(0.0, kerb), 1.4);
+    model.ground.terrain = kerb > 0 ? box({-5, -5, -1}, {0, 5, kerb}) : box({0, -5, -1}, {5, 5, -kerb});
+    const Recording run = simulate(model);
+    for (const Snapshot& s : run.snapshots) {
+      const double passed = std::clamp(place(s).x() / kStride + 0.5, 0.0, 1.0);
+      const double expected = std::max(0.0, kerb) - kerb * passed;
+      EXPECT_NEAR(place(s).z() - kMiddle, expected, 2e-3) << place(s).x() << ": a step of 1.5 mm";
+    }
+    EXPECT_NEAR(place(run.snapshots.back()).x(), -1 + 1.4 * kPace, 1e-9);
+    EXPECT_TRUE(run.events.empty());
+    EXPECT_LT(residual(run), 1e-6);
+  }
+}
+
+TEST(Walker, KeepsToASlopeAndHasItsSpeed) {
+  constexpr double kSlope = 0.1;
+  Model model = walker(0, 2);
+  model.ground.plane = false;
+  const Vec3 far(20, 5, 2), near(-20, -5, -2);
+  model.ground.terrain = std::make_shared<TriangleMesh>(
+      std::vector<Vec3>{{near.x(), near.y(), near.z()}, {far.x(), near.y(), far.z()}, far, {near.x(), far.y(), near.z()}},
+      std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
+  const Recording run = simulate(model);
+  const Snapshot &first = run.snapshots.front(), &last = run.snapshots.back();
+  EXPECT_NEAR(place(last).z() - place(first).z(), kSlope * kPace * 2, 1e-9);
+  EXPECT_NEAR(last.bodies[0].V_WB.v.z(), kSlope * kPace, 1e-12);
+  EXPECT_LT(residual(run), 1e-6);
+}
+
+/// Off a quay it falls as a thrown body does, and not before its middle has passed the edge.
+TEST(Walker, FallsOffAnEdge) {
+  constexpr double kDrop = 3;
+  Model model = walker(kDrop, 1.3);
+  model.ground.terrain = box({-5, -5, 1}, {0, 5, kDrop});
+  const Recording run = simulate(model);
+  const auto released = std::find_if(run.events.begin(), run.events.end(), [](const Event& e) { return e.kind == "release"; });
+  ASSERT_NE(released, run.events.end());
+  EXPECT_EQ(released->body_b, -1);
+  EXPECT_NEAR(released->time, 1 / kPace, 2e-3);
+  for (const Snapshot& s : run.snapshots) {
+    const double since = s.time - released->time;
+    const double z = kDrop + kMiddle - (since > 0 ? 0.5 * kGravity * since * since : 0);
+    if (z < kMiddle + 0.05) break;
+    EXPECT_NEAR(place(s).z(), z, 0.02) << s.time << ": its foot slips off the edge";
+  }
+}
+
+TEST(Walker, IsStoppedByAWall) {
+  Model model = walker(0, 1.3);
+  model.ground.terrain = box({0, -5, -1}, {5, 5, 2});
+  const Recording run = simulate(model);
+  EXPECT_LT(place(run.snapshots.back()).x(), 0) << "not in it";
+}
+
+/// A deck that it rides on at the speed of the lorry is not what it stands on: it goes up and down with the road.
+TEST(Walker, OnSomethingThatMovesStaysOnIt) {
+  Model model = walker(1.2, 1.4);
+  model.ground.terrain = box({-5, -5, -1}, {0, 5, 0.1});
+  const Recording run = simulate(model);
+  EXPECT_TRUE(run.events.empty());
+  EXPECT_NEAR(place(run.snapshots.back()).z() - kMiddle, 1.1, 2e-3);
+}
+
+}  // namespace
+}  // namespace engine::test
