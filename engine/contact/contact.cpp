@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "engine/contact/ploughing.h"
+#include "engine/contact/round_tyre.h"
 #include "engine/laws/compliant_contact.h"
 #include "engine/world.h"
 
@@ -125,10 +126,23 @@ std::uint64_t key_of(const SurfaceContact& touch, int a, int b, int effect) {
          (static_cast<std::uint64_t>(b & 0xffff) << 24) | (touch.key & 0xffffffu);
 }
 
+/// The tread of a wheel that turns runs down in front of it, and pulls what it meets beneath it. What that asks of the wheel the
+/// road gives back, by the same rows.
+void set_rim(Constraint& c, const ContactSearch& search, const TyrePair& pair) {
+  if (is_part(search.world.model, c.a.record))  // clothes hold rubber as they hold a road; bodywork they slide on
+    c.surface.friction = search.world.model.bodies[c.a.record].surface.friction_ground.at(search.at.time);
+  if (search.state.wheels[pair.wheel].locked || c.b.body < 0) return;
+  const RollingRim rim = rim_at(search, pair, c.point);
+  for (int k = 1; k < 3; ++k) c.b.J.row(k) -= c.frame.col(k).dot(rim.way) * rim.roll;
+  c.surface.held = rim.grip;
+  c.surface.friction = std::min(c.surface.friction, rim.grip);
+}
+
 /// The contact at one point.
-void add_contact(ContactSearch& search, const PairKind& kind, const SurfaceContact& touch, int a, int with, int effect) {
+void add_contact(ContactSearch& search, const PairKind& kind, const SurfaceContact& touch, const ContactPair& pair, int effect) {
   const World& world = search.world;
-  const int b = std::max(with, -1);
+  const int a = pair.a, b = std::max(pair.b, -1);
+  const bool on_tyre = kind.shapes.a == ShapeKind::round && kind.shapes.b == ShapeKind::tyre;
   const SurfacePairing surfaces = mixed_surfaces(world.model, a, b, touch.p_b, search.at.time);
   Constraint c;
   c.kind = ConstraintKind::contact;
@@ -147,6 +161,7 @@ void add_contact(ContactSearch& search, const PairKind& kind, const SurfaceConta
   c.frame << touch.normal, t1, touch.normal.cross(t1);
   if (c.a.body >= 0) c.a.J = contact_rows(c, search.at.X_WB[c.a.body], 1);
   if (c.b.body >= 0) c.b.J = contact_rows(c, search.at.X_WB[c.b.body], -1);
+  if (on_tyre) set_rim(c, search, world.pairs.tyres[pair.at]);
   set_responses(c, world);
   // rigid, what rests would sink by as much before its corners carried; what yields sinks by its load
   c.gap = compliant ? touch.gap : touch.gap - touch.lifted;
@@ -187,7 +202,7 @@ void add_contacts(ContactSearch& search, const PairKind& kind, const ContactPair
   const auto frozen = [&world](int body) { return body >= 0 && !world.awake[body] && !world.model.bodies[body].fixed; };
   if (frozen(pair.a) || frozen(pair.b)) return;
   const std::size_t first = search.found.size();
-  for (const SurfaceContact& touch : kind.touches(search, pair)) add_contact(search, kind, touch, pair.a, pair.b, effect);
+  for (const SurfaceContact& touch : kind.touches(search, pair)) add_contact(search, kind, touch, pair, effect);
   if (kind.one_patch) share_stiffness(search, first);
 }
 

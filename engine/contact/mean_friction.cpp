@@ -49,6 +49,12 @@ Vec3 place_at(const StepWay& way, double time) {
 
 }  // namespace
 
+double mean_friction(const Schedule& friction, const StepWay& way) {
+  Cuts cuts;
+  cut_at_knots(cuts, friction, way);
+  return mean_between(cuts, way, [&](double t) { return friction.at(t); });
+}
+
 double mean_friction(const Ground& ground, const StepWay& way) {
   Cuts cuts;
   cut_at_edges(cuts, ground, way);

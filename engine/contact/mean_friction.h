@@ -13,6 +13,8 @@ struct StepWay {
   double time = 0, length = 0;   // [s]
 };
 
+/// [-] of a coefficient alone, of which only the time of the way counts.
+double mean_friction(const Schedule&, const StepWay&);
 /// [-] of the ground alone.
 double mean_friction(const Ground&, const StepWay&);
 /// [-] of a body on it: the smaller of both at any time.

@@ -61,6 +61,20 @@ std::optional<TyreTouch> stands_on(const Outlook& outlook, const TyrePair& pair,
   return touch;
 }
 
+RollingRim rim_at(const Outlook& outlook, const TyrePair& pair, const Vec3& p) {
+  const Pose& X = outlook.at.X_WB[pair.vehicle_body];
+  const WheelState& state = outlook.state.wheels[pair.wheel];
+  const Wheel& spec = wheel_of(outlook.world, pair);
+  const Tyre tyre = tyre_of(outlook, pair.wheel, state.lift);
+  const Vec3 forward = tyre.axle.cross(X.q * Vec3::UnitZ());
+  RollingRim out;
+  out.roll << forward.transpose(), (tyre.centre - X.p).cross(forward).transpose();
+  out.way = tyre.axle.cross(p - tyre.centre) / tyre.radius;
+  if (state.static_load + spec.spring * state.compression > 0)
+    out.grip = std::min(spec.friction, outlook.world.model.ground.friction_at(state.contact, outlook.at.time));
+  return out;
+}
+
 bool yields_as_rubber(const Model& model, int body) {
   const Body& round = model.bodies[body];
   return round.person >= 0 && !round.fixed && !yields(model.settings.contact_law, true);

@@ -17,6 +17,15 @@ std::vector<TyrePair> tyre_pairs(const Model&);
 /// The tyre of a wheel of State::wheels, its strut `lift` [m] up from static ride.
 Tyre tyre_of(const Outlook&, int wheel, double lift);
 
+/// How the rim of a wheel that turns freely moves at a point besides its vehicle's motion: (roll V) way, with V the vehicle's
+/// twist.
+struct RollingRim {
+  Eigen::Matrix<double, 1, 6> roll;  // speed of the hub along the wheel, by the vehicle's twist
+  Vec3 way = Vec3::Zero();           // axle x (p - hub) / R
+  double grip = 0;                   // [-] friction at the road; none in the air
+};
+RollingRim rim_at(const Outlook&, const TyrePair&, const Vec3& p);
+
 /// [m] by which rubber gives where it is pinched: 200 kN/m (vertical stiffness of a passenger car's tyre) under its 3.7 kN by
 /// 19 mm, in a blow by more.
 constexpr double kTyreGives = 0.03;

@@ -118,7 +118,9 @@ void add_wheel(StepContext& step, const WheelState& wheel, const Footing& footin
     const Vec3 r_b = c.point - state.X_WB[footing.body].p;
     for (int k = 0; k < 3; ++k) c.b.J.row(k) << -c.frame.col(k).transpose(), -r_b.cross(c.frame.col(k)).transpose();
     v -= state.V_WB[footing.body].v + state.V_WB[footing.body].w.cross(r_b);
-    under = world.model.bodies[footing.body].surface.friction_body.at(state.time);
+    const Body& body = world.model.bodies[footing.body];
+    // clothes hold rubber as they hold a road; bodywork they slide on
+    under = (body.person >= 0 ? body.surface.friction_ground : body.surface.friction_body).at(state.time);
   }
   c.response.free = free_response(world.model, state.X_WB, c, 0);
   const double mu = std::min(spec.friction, under);

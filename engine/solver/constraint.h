@@ -24,10 +24,11 @@ struct ConstraintSide {
 
 /// Of the two surfaces of a contact.
 struct TouchingSurfaces {
-  double friction = 0;     // [-] with what ploughing adds
-  double ploughing = 0;    // [-] share of it: of a part that lies in a dent of a panel
-  double restitution = 0;  // [-]
-  bool rolls = false;      // a wheel on its tread, without friction
+  double friction = 0;                                    // [-] with what ploughing adds
+  double ploughing = 0;                                   // [-] share of it: of a part that lies in a dent of a panel
+  double restitution = 0;                                 // [-]
+  bool rolls = false;                                     // a wheel on its tread, without friction
+  double held = std::numeric_limits<double>::infinity();  // [-] friction at most: a wheel that turns holds what the road gives it
 };
 
 /// Of a contact or stop whose depth is a deformation.
@@ -88,9 +89,9 @@ struct Constraint {
   template <class S>
   static auto fields(S& s) {
     return std::tie(s.kind, s.rows, s.slides, s.surface.rolls, s.a.body, s.b.body, s.a.J, s.b.J, s.point, s.frame, s.gap,
-                    s.surface.friction, s.surface.ploughing, s.surface.restitution, s.spring.stiffness, s.spring.hysteresis,
-                    s.spring.room, s.spring.struck_mass, s.spring.share_a, s.spring.thickness, s.response.free, s.response.whole,
-                    s.key, s.effect, s.shapes, s.a.record, s.b.record);
+                    s.surface.friction, s.surface.ploughing, s.surface.restitution, s.surface.held, s.spring.stiffness,
+                    s.spring.hysteresis, s.spring.room, s.spring.struck_mass, s.spring.share_a, s.spring.thickness, s.response.free,
+                    s.response.whole, s.key, s.effect, s.shapes, s.a.record, s.b.record);
   }
 };
 

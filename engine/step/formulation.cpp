@@ -168,8 +168,11 @@ void take_mean_friction(StepContext& s) {
     const Twist& V = s.state.V_WB[c.a.record];
     const StepWay way{c.point, V.v + V.w.cross(c.point - s.state.X_WB[c.a.record].p), s.state.time, s.length};
     const Body& body = model.bodies[c.a.record];
-    c.surface.friction =
-        c.b.record < 0 ? mean_friction(body, model.ground, way) : mean_friction(body, model.bodies[c.b.record], way);
+    const bool on_tyre = c.shapes.b == ShapeKind::tyre && is_part(model, c.a.record);
+    const double friction = on_tyre          ? mean_friction(body.surface.friction_ground, way)
+                            : c.b.record < 0 ? mean_friction(body, model.ground, way)
+                                             : mean_friction(body, model.bodies[c.b.record], way);
+    c.surface.friction = std::min(friction, c.surface.held);
     c.surface.friction += c.surface.ploughing;
   }
 }

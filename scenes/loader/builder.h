@@ -98,7 +98,8 @@ inline constexpr Key kSurfaceStiffness =
 inline constexpr Key kSurfaceFrictionBody = bound<&engine::SurfaceProperties::friction_body>(
     {"friction_body", Type::schedule, Dimension::none, "", "Coulomb coefficient against every other object.", kNotNegative});
 inline constexpr Key kSurfaceFrictionGround = bound<&engine::SurfaceProperties::friction_ground>(
-    {"friction_ground", Type::schedule, Dimension::none, "", "Coulomb coefficient against the ground.", kNotNegative});
+    {"friction_ground", Type::schedule, Dimension::none, "",
+     "Coulomb coefficient against the ground; a person's against tyres too.", kNotNegative});
 inline constexpr Key kSurfaceRestitution =
     bound_to_both<&engine::SurfaceProperties::restitution_body, &engine::SurfaceProperties::restitution_ground>(
         {"restitution", Type::schedule, Dimension::none, "",

@@ -253,6 +253,43 @@ TEST(Wheel, BesideAnotherCarsWheelPushesItAwayAndKeepsTheMomentumOfBoth) {
   EXPECT_STREQ(name_of(ShapePair{ShapeKind::tyre, ShapeKind::tyre}), "vehicle_pair");
 }
 
+/// What the tread meets straight ahead at hub height it drives forward, and down as fast: there its rim moves by v and -v. A locked
+/// wheel has no rim that moves, and one in the air nothing to pull against.
+TEST(Wheel, ThatTurnsPullsDownWhatItMeetsInFront) {
+  constexpr double kSpeed = 4;  // [m/s]
+  enum Wheels { turn, locked, in_the_air };
+  for (const Wheels wheels : {turn, locked, in_the_air}) {
+    Model model = car_on_road(kSpeed, 0.1);
+    model.settings.record_interval = 1e-3;
+    model.vehicles[0].brake = wheels == locked ? 1.0 : 0.0;
+    if (wheels == in_the_air) model.bodies[0].X_WB.p.z() += 1;
+    Body part = ball(0.12, 0.5, {-3 + 1.3 + 0.3 + 0.12 + 0.05, 0.75, model.bodies[0].X_WB.p.z() - 0.25});
+    part.person = 0;
+    part.surface.friction_ground = 5;
+    part.surface.friction_body = 0;
+    model.bodies.push_back(part);
+    Person person;
+    person.bodies = {1};
+    person.head = 1;
+    person.zero_condition = false;
+    model.persons = {person};
+    const Recording run = simulate(model);
+    // pressed into the rubber until it goes as fast as the car, or is pushed off below a wheel that hangs from its strut
+    const auto struck = std::find_if(run.snapshots.begin(), run.snapshots.end(),
+                                     [](const Snapshot& s) { return s.bodies[1].V_WB.v.x() > 0.85 * s.bodies[0].V_WB.v.x(); });
+    ASSERT_NE(struck, run.snapshots.end());
+    const Twist& V = struck->bodies[1].V_WB;
+    if (wheels == in_the_air) {
+      EXPECT_LT(V.w.norm() * 0.12, 1e-6) << "the normal of a torus by iteration";
+      continue;
+    }
+    // a ball that is rubbed at its side takes 2/7 of the speed it is rubbed with, and turns by the rest
+    const double falls = -kGravity * struck->time, rubbed = wheels == turn ? -kSpeed : 0;
+    EXPECT_NEAR(V.v.z(), falls + rubbed * 2 / 7, 0.05 * kSpeed) << wheels;
+    EXPECT_NEAR(V.w.y() * 0.12, rubbed * 5 / 7, 0.05 * kSpeed) << wheels;
+  }
+}
+
 /// A limb that flies into the front of a tyre at hub height presses it in as a mass does a spring: v sqrt(m / k), and nothing else
 /// yields by this law. What passes in the free 3 cm is no depth, and neither is what the rubber gives.
 TEST(Wheel, YieldsToALimbUnderALawByWhichNothingDoes) {

@@ -22,7 +22,7 @@ double deepest_in_road(const Outcome& it) {
   return deepest;
 }
 
-constexpr double kOverLeg = 1.43, kOverTrunk = -1.07;  // [m] where the car drives, aside of the hips: trunk, and the arm beside it
+constexpr double kOverLeg = 1.43, kOverTrunk = -1.2;  // [m] where the car drives, aside of the hips: trunk, and the arm beside it
 
 class RunOverLying : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(At, RunOverLying, testing::Values(kOverLeg, kOverTrunk));
@@ -39,7 +39,8 @@ TEST_P(RunOverLying, IsPressedInAsFarAsTheLawSaysAtAnyStep) {
     // by the law what rests is in by no more than 2 F/S: of a front wheel's 4 kN and, where it comes down on the trunk, twice that,
     // on 400 kN/m
     EXPECT_LT(deepest, GetParam() == kOverLeg ? 0.020 : 0.040);
-    EXPECT_LT(d.max_unexplained, 1e-4 * d.energy_turned_over);
+    // the friction of a rim that pulls and of a limb beneath it is of a step's order: 1.5 J at 2 ms, 0.3 J at 0.5 ms
+    EXPECT_LT(d.max_unexplained, 2e-4 * d.energy_turned_over);
     EXPECT_LT(d.max_solver_residual, 1e-4);
     for (const std::string& warning : d.warnings) ADD_FAILURE() << warning;
     double touched = 2;  // [s] the end
