@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
+
+#include "engine/math/functions.h"
 
 namespace engine {
 // C. Ericson, Real-Time Collision Detection, 2005, section 5.1.5
@@ -27,26 +30,76 @@ Vec3 nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
   return a + vb / sum * ab + vc / sum * ac;
 }
 
+namespace {
+
+constexpr double kOn = 1e-6;    // [m] a point so near lies on the surface
+constexpr double kSame = 1e-9;  // [m] as near
+
+/// Angle [rad] that a triangle has at a point of it: of a corner, half a turn of an edge, a whole one within.
+double angle_at(const Vec3& p, const Triangle& v, const std::vector<Vec3>& vertices) {
+  double angle = 2 * std::numbers::pi;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 &a = vertices[v[i]], &b = vertices[v[(i + 1) % 3]], &c = vertices[v[(i + 2) % 3]];
+    const Vec3 ab = b - a, ac = c - a;
+    if ((p - a).norm() < kOn) return math::atan2(ab.cross(ac).norm(), ab.dot(ac));
+    if ((p - a).cross(ab).norm() < kOn * ab.norm()) angle = std::numbers::pi;
+  }
+  return angle;
+}
+
+/// A triangle that was as near to a point as any looked at before.
+struct AsNear {
+  int triangle = -1;
+  Vec3 normal, at;
+  double distance = 0, along = 0;  // [m] of the point, and by the face's normal
+};
+
+/// Where several faces are as near, on an edge, a corner or in the middle between two sides: the mean of their normals, each
+/// weighted by the angle its face has there (Thuermer and Wuethrich 1998). It hangs neither on the order of the triangles nor on
+/// how they cut a flat face.
+void take_the_mean(const TriangleMesh& mesh, const std::vector<AsNear>& all, const Vec3& p, NearestSurface& best, double facing) {
+  Vec3 sum = Vec3::Zero();
+  bool one = true;
+  const double least = std::abs(best.gap);
+  for (const AsNear& as : all) {
+    const bool same_side = (as.along < 0) == (facing < 0) && std::abs(as.along) > std::abs(facing) - kSame;
+    if (least > kOn ? as.distance > least + kSame || !same_side : as.distance > kOn) continue;
+    one = one && (as.normal - best.normal).squaredNorm() < kSame * kSame;
+    sum += angle_at(as.at, mesh.triangles()[as.triangle], mesh.vertices()) * as.normal;
+  }
+  if (one || sum.norm() < kOn) return;
+  best.normal = sum.normalized();
+  best.point = p - best.gap * best.normal;
+}
+
+}  // namespace
+
 std::optional<NearestSurface> nearest_surface(const TriangleMesh& mesh, const Vec3& p, double reach, std::vector<int>& scratch) {
   scratch.clear();
   mesh.query({p.array() - reach, p.array() + reach}, scratch);
   std::optional<NearestSurface> best;
   double least = reach, facing = 0;
+  thread_local std::vector<AsNear> as_near;
+  as_near.reserve(64);
+  as_near.clear();
   for (const int t : scratch) {
     const Triangle& v = mesh.triangles()[t];
     const Vec3 q = nearest_in_triangle(p, mesh.vertices()[v[0]], mesh.vertices()[v[1]], mesh.vertices()[v[2]]);
     const double distance = (p - q).norm();
     const double along = mesh.face_normals()[t].dot(p - q);
-    constexpr double kSame = 1e-9;  // [m]
+    if (distance >= std::max(least + kSame, kOn) || distance >= reach) continue;
+    // beside an edge or a corner the normal points from it to the point
+    const bool beside = distance > kOn && std::abs(along) < 0.999 * distance;
+    as_near.push_back(
+        {t, beside ? Vec3((along < 0 ? -1.0 : 1.0) / distance * (p - q)) : mesh.face_normals()[t], q, distance, along});
     const bool nearer = distance < least - kSame;
     const bool same_but_facing = best && distance < least + kSame && std::abs(along) > std::abs(facing);
     if (!nearer && !same_but_facing) continue;
     least = std::min(least, distance);
     facing = along;
-    best = NearestSurface{q, mesh.face_normals()[t], along < 0 ? -distance : distance, t};
-    // beside an edge or a corner the normal points from it to the point
-    if (distance > 1e-6 && std::abs(along) < 0.999 * distance) best->normal = (along < 0 ? -1.0 : 1.0) / distance * (p - q);
+    best = NearestSurface{q, as_near.back().normal, along < 0 ? -distance : distance, t};
   }
+  if (best && as_near.size() > 1) take_the_mean(mesh, as_near, p, *best, facing);
   return best;
 }
 

@@ -8,6 +8,8 @@
 #include "engine/geometry/hyper_ellipsoid_mesh.h"
 #include "engine/geometry/hyper_ellipsoid_pair.h"
 #include "engine/geometry/hyper_ellipsoid_plane.h"
+#include "engine/geometry/point_mesh.h"
+#include "tests/engine/hand_made_runs.h"
 
 namespace engine {
 namespace {
@@ -422,6 +424,21 @@ TEST(Mesh, RayMeetsTheNearestTriangle) {
   EXPECT_NEAR(s, 4, 1e-12);
   EXPECT_GT(mesh.face_normals()[triangle].z(), 0.99);
   EXPECT_FALSE(mesh.raycast({3, 0, 5}, {0, 0, -1}, 10, s, triangle));
+}
+
+/// On an edge, on a corner, and in the middle between two sides no triangle comes first: the normal is that of the form.
+TEST(PointMesh, NormalsWhereSeveralFacesAreAsNearAreThoseOfTheForm) {
+  const auto cube = box({-1, -1, -1}, {1, 1, 1});
+  std::vector<int> scratch;
+  const auto normal_at = [&](const Vec3& p) { return nearest_surface(*cube, p, 1.5, scratch)->normal; };
+  const Vec3 of_edge = Vec3(1, 1, 0).normalized(), of_corner = Vec3(1, 1, 1).normalized();
+  for (const double off : {0.0, 3e-9, -3e-9}) {
+    EXPECT_LT((normal_at({1 + off, 1, 0.3}) - of_edge).norm(), 1e-6) << off;
+    EXPECT_LT((normal_at({1, 1 + off, 1}) - of_corner).norm(), 1e-6) << off;
+  }
+  EXPECT_LT((normal_at({0.9, 0.9, 0.3}) - of_edge).norm(), 1e-9) << "inside, as near to both";
+  EXPECT_LT((normal_at({0.9, 0.8, 0.3}) - Vec3::UnitX()).norm(), 1e-9);
+  EXPECT_LT((normal_at({1, 0.3, 0.3}) - Vec3::UnitX()).norm(), 1e-9);
 }
 
 }  // namespace
