@@ -282,6 +282,23 @@ TEST(KudlichSlibarRun, InLineCollisionSharesMomentumAfterThePenetrationTime) {
   EXPECT_NEAR(e.residual, 0, 1e-9 * 0.5 * 1496 * 100);
 }
 
+/// A car that clips the tail of one that crosses is past it within 22 ms of the touch: it gives its impulse halfway.
+TEST(KudlichSlibarRun, ACollisionShorterThanThePenetrationTimeIsNotDropped) {
+  constexpr double kSpeed = 25, kOverlap = 0.55;  // [m/s], [m] of the tail still in the way as the front comes
+  Model model = free_space(0.4);
+  add_vehicle(model, car("a", {-5, 0, 0}, 0, {kSpeed, 0, 0}));
+  const double meets = (5 - 2.375 - 0.889) / kSpeed;  // [s]
+  const double tail = 0.889 - kOverlap;               // [m] y of the tail then
+  add_vehicle(model, car("b", {0, tail + 2.375 - kSpeed * meets, 0}, std::numbers::pi / 2, {0, kSpeed, 0}));
+  const Recording run = simulate(model);
+  const auto impact = std::find_if(run.events.begin(), run.events.end(), [](const Event& e) { return e.kind == "impact"; });
+  ASSERT_NE(impact, run.events.end());
+  EXPECT_GT(impact->time, meets);
+  EXPECT_LT(impact->time, meets + kOverlap / kSpeed);
+  EXPECT_GT(metric(model, run, "delta_v_mps", "a"), 1);
+  EXPECT_TRUE(run.diagnostics.warnings.empty());
+}
+
 TEST(KudlichSlibarRun, ObliqueCollisionKeepsMomentum) {
   Model model = free_space(0.4);
   add_vehicle(model, car("a", {-6, 0, 0}, 0, {14, 0, 0}));
