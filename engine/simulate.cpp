@@ -100,6 +100,12 @@ void tell_what_is_left_out(const Model& model, Recording& recording) {
 }  // namespace
 
 Recording simulate(const Model& model, const Plan& plan, const RunOptions& options) {
+  const auto forced = model.settings.effects.find("gravity");
+  if (forced != model.settings.effects.end() && forced->second == Force::off && !model.settings.gravity.isZero(0)) {
+    Model weightless = model;  // in loads, energies and bounds too
+    weightless.settings.gravity.setZero();
+    return simulate(weightless, plan, options);
+  }
   const LocalFrame frame(model);
   Recording recording = run(frame.inwards(model), plan, options);
   frame.outwards(model, recording);
