@@ -139,7 +139,7 @@ void find_reasons(const Prior& prior, const std::vector<Evidence>& evidence, Fit
           fmt::format("{} is likeliest at the {} end of what was held possible: the range decides the answer, not the "
                       "evidence. Widen it, or say why nothing lies beyond",
                       input.key, fit.ends[i] < 0 ? "lower" : "upper"));
-    if (fit.modes[i].size() > 1)
+    if (fit.modes[i].size() > 1 && fit.posterior.effective >= kEnoughRuns)
       fit.reasons.push_back(
           fmt::format("{} has {} ranges apart from each other that explain the evidence", input.key, fit.modes[i].size()));
   }

@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "engine/measure/definitions.h"
+
 namespace cli::inference {
 namespace {
 
@@ -58,7 +60,8 @@ Vec3 centre(const Model& model, const std::vector<int>& bodies, const Snapshot& 
 Prediction metric(const Evidence& e, const std::vector<engine::Metric>& metrics) {
   std::vector<double> found;
   for (const engine::Metric& m : metrics)
-    if (m.key == e.metric && m.text.empty() && (e.of.empty() || m.object == e.of)) found.push_back(m.value);
+    if (m.key == e.metric && m.text.empty() && (e.of.empty() || m.object == e.of))
+      found.push_back(engine::turned_to(m.key, m.value, e.value.front()));
   if (found.size() != 1) return std::nullopt;
   return found;
 }

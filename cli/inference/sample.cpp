@@ -12,6 +12,7 @@
 #include "cli/exit.h"
 #include "cli/inference/sequence.h"
 #include "cli/study/statistics.h"
+#include "engine/measure/definitions.h"
 
 namespace cli::inference {
 namespace {
@@ -124,7 +125,7 @@ Sample summarise(const scenes::Scene&, const Prior& prior, Table table, std::uin
     const std::vector<double> all = column(table, name);
     std::vector<double> values;
     for (const double x : all)
-      if (std::isfinite(x)) values.push_back(x);
+      if (std::isfinite(x)) values.push_back(engine::turned_to(name, x, values.empty() ? x : values.front()));
     if (values.empty()) continue;
     Output o;
     o.name = name;

@@ -54,7 +54,7 @@ Search search(const scenes::Scene& scene, const Prior& prior, Ensemble& ensemble
     const std::vector<double> logs = likelihoods(out.table);
     const Weighted now = normalised(tempered(out.log_ratios, logs, 0));
     const int left = wish.runs - static_cast<int>(out.table.rows.size());
-    if (left <= 0 || now.effective >= kWell * wish.runs) break;
+    if (left <= 0 || now.effective >= std::max(kWell * wish.runs, kEnoughRuns)) break;
     const double wanted = kFewest + kPerInput * prior.size();
     const Weighted wide =
         normalised(tempered(out.log_ratios, logs, std::min(wanted, 0.3 * static_cast<double>(out.table.rows.size()))));

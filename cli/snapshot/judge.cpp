@@ -7,6 +7,7 @@
 #include "cli/output/difference.h"
 #include "cli/output/json.h"
 #include "cli/output/whole_file.h"
+#include "engine/measure/definitions.h"
 #include "render/error.h"
 #include "render/image/compare.h"
 #include "render/image/png.h"
@@ -116,7 +117,7 @@ Json judge_measure(const scenes::Expectation& expected, const std::vector<engine
                     known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")));
     return out;
   }
-  const double value = found.front()->value, off = value - expected.value;
+  const double value = engine::turned_to(expected.metric, found.front()->value, expected.value), off = value - expected.value;
   // the tolerance as written: a value on its edge is within, whatever the last bit of the difference
   const bool same = std::abs(off) <= expected.tolerance * (1 + 1e-12);
   out["found"] = value;

@@ -6,6 +6,7 @@
 
 #include "cli/study/perturb.h"
 #include "cli/study/statistics.h"
+#include "engine/measure/definitions.h"
 
 namespace cli::study {
 namespace {
@@ -210,7 +211,8 @@ SettingResult summarise(const Setting& setting, const std::vector<Outcome>& outc
   for (const Quantity& q : plain.quantities) {
     std::vector<double> sample;
     for (const Outcome& outcome : outcomes)
-      if (const Quantity* found = find_quantity(outcome, q.name); found && outcome.failure.empty()) sample.push_back(found->value);
+      if (const Quantity* found = find_quantity(outcome, q.name); found && outcome.failure.empty())
+        sample.push_back(engine::turned_to(q.name, found->value, q.value));
     if (sample.empty()) sample.push_back(q.value);
     out.answers[q.name] = {true, q.value, percentile(sample, 0.05), percentile(sample, 0.95), median(sample), 0, 0};
   }

@@ -1,6 +1,7 @@
 #include "engine/measure/definitions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace engine {
@@ -147,7 +148,7 @@ constexpr Definition kDefinitions[] = {
     {"pdof_deg", "deg", "PDOF",
      "Direction in the plane of the road that delta-v's force came from, against the vehicle's heading just before the phase: 0 "
      "from the front, 90 from the right, -90 from the left, 180 from behind.",
-     "as delta_v_mps; or the vehicle leant by 45 degrees or more: on its side or roof", "with delta-v", true},
+     "as delta_v_mps; or the vehicle leant by 45 degrees or more: on its side or roof", "with delta-v", true, true},
     {"ees_mps", "m/s", "EES",
      "Energy equivalent speed: speed at which the vehicle has as much kinetic energy as its share of the energy lost in that "
      "phase. Two under the same force share it in inverse proportion to stiffness where the scene tells the stiffnesses apart, "
@@ -160,7 +161,7 @@ constexpr Definition kDefinitions[] = {
     {"rest_y_m", "m", "rest y", "The same, world y.", kMoving, "to the recorded interval", true},
     {"rest_heading_deg", "deg", "rest heading",
      "Direction of the vehicle's x axis at rest, counter-clockwise from world x, -180 to 180.", kMoving, "to the recorded interval",
-     true},
+     true, true},
     {"path_m", "m", "path", "Length of the level path of the vehicle's centre of mass over the run.", "never",
      "to the recorded interval"},
     {"quarter_turns", "", "quarter turns",
@@ -211,6 +212,11 @@ std::span<const Definition> definitions() {
 const Definition* definition_of(const std::string& key) {
   const auto at = std::find_if(std::begin(kDefinitions), std::end(kDefinitions), [&](const Definition& d) { return d.key == key; });
   return at == std::end(kDefinitions) ? nullptr : &*at;
+}
+
+double turned_to(const std::string& key, double value, double near) {
+  const Definition* known = definition_of(key.substr(0, key.find(' ')));
+  return known && known->direction ? near + std::remainder(value - near, 360.0) : value;
 }
 
 }  // namespace engine

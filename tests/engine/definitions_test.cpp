@@ -55,6 +55,14 @@ TEST(AbsentMetrics, WhoStandsIsNotSaidToMove) {
   EXPECT_EQ(reason(), "still moving when the run ends");
 }
 
+TEST(Definitions, ADirectionIsTheSameAWholeTurnFarther) {
+  EXPECT_NEAR(turned_to("pdof_deg", -179.5, 180), 180.5, 1e-12);
+  EXPECT_NEAR(turned_to("pdof_deg car", 179, -170), -181, 1e-12);
+  EXPECT_NEAR(turned_to("rest_heading_deg", 0.1, 360), 360.1, 1e-12);
+  EXPECT_EQ(turned_to("turned_deg", 10, 360), 10) << "no direction";
+  EXPECT_EQ(turned_to("throw_distance_m", 500, 0), 500);
+}
+
 TEST(Definitions, EveryMeasureIsDefinedOnceWithItsUnitInItsName) {
   std::set<std::string> keys;
   for (const Definition& d : definitions()) {

@@ -50,6 +50,20 @@ struct Slide {
   }
 };
 
+TEST(MeasureAsEvidence, ADirectionIsSeenAWholeTurnFarther) {
+  scenes::Evidence e;
+  e.seen = scenes::Seen::metric;
+  e.metric = "pdof_deg";
+  e.value = {180};
+  e.tolerance = 5;
+  engine::Metric pdof;
+  pdof.key = e.metric;
+  pdof.value = -179;
+  const auto predicted = observe(e, {}, {}, {pdof});
+  EXPECT_NEAR(predicted.value().front(), 181, 1e-9);
+  EXPECT_NEAR(misfit(e, predicted), 0.2, 1e-9);
+}
+
 TEST(MarkAsEvidence, OfOneSideIsHeldAgainstTheWheelsOfThatSide) {
   const Slide slide;
   EXPECT_NEAR(slide.off({{0, 0.7, 0}, {10, 0.7, 0}}), 0, 1e-9);
