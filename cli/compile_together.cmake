@@ -4,11 +4,13 @@
 set(compiled_alone "/(effects|overlays)/table.cpp|/solver/wide_products.cpp|/sliding_joint_test.cpp|/generate/(truck|van).cpp|/render/(gl_painter|gl_picture|mark_picture)_test.cpp|/scenes/(person|joint|skin)_test.cpp")
 # Dense algebra of any size takes the longest, wherever it is: once.
 set(dense_algebra "/inference/(prior|proposal|sensitivity).cpp")
-# The more in one, the less is compiled twice: of sixteen, the program takes a tenth less processor time than of eight. Pictures have
-# many constants of one name.
+# The more in one, the less is compiled twice: of sixteen, the program takes a tenth less processor time than of eight. What only
+# arranges is compiled briefly and may have more. Tests of pictures and loader have many constants of one name.
 function(compile_together target)
   set(most 16)
-  if(target MATCHES "^(test_)?(render|scenes)$|^generate_assets$")
+  if(target STREQUAL cli)
+    set(most 32)
+  elseif(target MATCHES "^test_(render|scenes)$|^generate_assets$")
     set(most 8)
   endif()
   get_target_property(sources ${target} SOURCES)

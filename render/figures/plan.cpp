@@ -32,7 +32,9 @@ Plan plan_for(const Point2& lower, const Point2& upper, double top) {
   plan.top = top;
   for (const int scale : kScales) {
     plan.denominator = scale;
-    if (1000 * (upper.x() - lower.x()) / scale <= kRight - kLeft && 1000 * (upper.y() - lower.y()) / scale <= kBottom - top) break;
+    if (1000 * (upper.x() - lower.x()) / scale <= kPlanRight - kPlanLeft &&
+        1000 * (upper.y() - lower.y()) / scale <= kPlanBottom - top)
+      break;
   }
   return plan;
 }
@@ -44,12 +46,12 @@ void draw_road(cairo_t* c, const Stage& stage, const Plan& plan) {
   for (int lane = 0; lane <= road.lanes; ++lane) {
     const bool edge = lane == 0 || lane == road.lanes;
     const double y = plan.y(lower + lane * road.width / road.lanes);
-    if (y < plan.top || y > kBottom) continue;
+    if (y < plan.top || y > kPlanBottom) continue;
     grey(c, 0.55);
     cairo_set_line_width(c, edge ? 0.5 : 0.35);
     const double dash[] = {1000 * 3 / plan.denominator, 1000 * 6 / plan.denominator};
     cairo_set_dash(c, dash, edge ? 0 : 2, 0);
-    draw_line(c, kLeft, y, kRight, y);
+    draw_line(c, kPlanLeft, y, kPlanRight, y);
   }
   cairo_set_dash(c, nullptr, 0, 0);
 }

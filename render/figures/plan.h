@@ -8,24 +8,25 @@
 
 namespace render {
 
-constexpr double kLeft = kMargin, kTop = 28, kRight = kSheetWidth - kMargin, kBottom = kSheetHeight - 22;  // [mm] of the plan
+constexpr double kPlanLeft = kMargin, kPlanTop = 28, kPlanRight = kSheetWidth - kMargin,
+                 kPlanBottom = kSheetHeight - 22;  // [mm] of the plan
 
 /// World to paper: x right, y up, one scale.
 struct Plan {
   double denominator = 100;  // of the scale
   Point2 middle{0, 0};
-  double top = kTop;  // [mm] below what is written above it
-  double x(double wx) const { return (kLeft + kRight) / 2 + 1000 * (wx - middle.x()) / denominator; }
-  double y(double wy) const { return (top + kBottom) / 2 - 1000 * (wy - middle.y()) / denominator; }
+  double top = kPlanTop;  // [mm] below what is written above it
+  double x(double wx) const { return (kPlanLeft + kPlanRight) / 2 + 1000 * (wx - middle.x()) / denominator; }
+  double y(double wy) const { return (top + kPlanBottom) / 2 - 1000 * (wy - middle.y()) / denominator; }
   Point2 at(const Vec3& p) const { return {x(p.x()), y(p.y())}; }
   /// The place in the world of a point of the paper [mm].
   Point2 back(const Point2& p) const {
-    return middle + denominator / 1000 * Point2(p.x() - (kLeft + kRight) / 2, (top + kBottom) / 2 - p.y());
+    return middle + denominator / 1000 * Point2(p.x() - (kPlanLeft + kPlanRight) / 2, (top + kPlanBottom) / 2 - p.y());
   }
 };
 
 /// The largest usual scale at which the box [m] fits the sheet below `top` [mm].
-Plan plan_for(const Point2& lower, const Point2& upper, double top = kTop);
+Plan plan_for(const Point2& lower, const Point2& upper, double top = kPlanTop);
 
 /// How an outline is filled and edged.
 struct Tint {

@@ -103,7 +103,7 @@ std::vector<std::string> rest_cloud(const Stage& stage, const engine::Recording&
   return write_sheets(job.folder, "rest_cloud", "Rest places of many runs: " + stage.title, [&](cairo_t* c) {
     draw_frame_of_sheet(c, stage, "Rest places of many runs");
     cairo_save(c);
-    cairo_rectangle(c, kLeft, kTop, kRight - kLeft, kBottom - kTop);
+    cairo_rectangle(c, kPlanLeft, kPlanTop, kPlanRight - kPlanLeft, kPlanBottom - kPlanTop);
     cairo_clip(c);
     draw_road(c, stage, plan);
     draw_figures(c, stage, plan, end, figure);

@@ -225,7 +225,7 @@ Plan plan_with_writing(cairo_t* c, const Site& site, Point2 lower, Point2 upper,
     tried.plan = plan_for(lower, upper, top);
     bool fits = true;
     for (const Point2& p : written_into(c, tried)) {
-      const bool inside = p.x() >= kLeft && p.x() <= kRight && p.y() >= top && p.y() <= kBottom;
+      const bool inside = p.x() >= kPlanLeft && p.x() <= kPlanRight && p.y() >= top && p.y() <= kPlanBottom;
       if (inside) continue;
       fits = false;
       lower = lower.cwiseMin(tried.plan.back(p));
@@ -338,11 +338,12 @@ std::vector<std::string> site_diagram(const Stage& stage, const engine::Recordin
   key.push_back(fmt::format("dashed: {:.3f} s, solid: {:.3f} s", hit, recording.end_time()));
   return write_sheets(job.folder, "site_diagram", "Site diagram: " + stage.title, [&](cairo_t* c) {
     draw_frame_of_sheet(c, stage, "Site diagram");
-    const double key_top = top_of_key(c, stage, key), below = std::max(kTop, key_top + kKeyLine * static_cast<double>(key.size()));
+    const double key_top = top_of_key(c, stage, key),
+                 below = std::max(kPlanTop, key_top + kKeyLine * static_cast<double>(key.size()));
     Site site{stage, recording, job, {}};
     site.plan = plan_with_writing(c, site, lower - around, upper + around, below);
     cairo_save(c);
-    cairo_rectangle(c, kLeft, below, kRight - kLeft, kBottom - below);
+    cairo_rectangle(c, kPlanLeft, below, kPlanRight - kPlanLeft, kPlanBottom - below);
     cairo_clip(c);
     draw_road(c, stage, site.plan);
     draw_skids(c, site);

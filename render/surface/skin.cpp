@@ -224,12 +224,12 @@ Net surface_net(const SkinField& field) {
           ++q[static_cast<std::size_t>(axis)];
           if (!grid.cut(p, q)) continue;
           std::array<std::uint32_t, 4> corner{};
-          constexpr std::array<std::array<int, 2>, 4> kAround{{{0, 0}, {-1, 0}, {-1, -1}, {0, -1}}};
+          constexpr std::array<std::array<int, 2>, 4> kCellsAround{{{0, 0}, {-1, 0}, {-1, -1}, {0, -1}}};
           for (std::size_t c = 0; c < 4; ++c) {
             Grid::Node cell = p;
-            cell[static_cast<std::size_t>((axis + 1) % 3)] += kAround[c][0];
-            cell[static_cast<std::size_t>((axis + 2) % 3)] += kAround[c][1];
-            corner[c] = vertex(cell, edge_of_cell(axis, -kAround[c][0], -kAround[c][1]));
+            cell[static_cast<std::size_t>((axis + 1) % 3)] += kCellsAround[c][0];
+            cell[static_cast<std::size_t>((axis + 2) % 3)] += kCellsAround[c][1];
+            corner[c] = vertex(cell, edge_of_cell(axis, -kCellsAround[c][0], -kCellsAround[c][1]));
           }
           if (!grid.inside(p)) std::swap(corner[1], corner[3]);
           net.triangles.push_back({corner[0], corner[1], corner[2]});

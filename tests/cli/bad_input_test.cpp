@@ -61,7 +61,7 @@ TEST_P(BadSceneIsRefused, WithItsPlaceAndARemedyAndExitCode2) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, BadSceneIsRefused,
-    testing::Values(
+    testing::ValuesIn(std::vector<BadScene>{
         BadScene{"broken_toml", "title = \"Ball\"\n[simulation\n",
                  "case.toml:2:12: the section's bracket is not closed; write [simulation]\n"},
         BadScene{"negative_mass", ball_with("\"2 kg\"", "\"-2 kg\""),
@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{
             "missing_mesh", ball_with("axes = \"0.1 0.1 0.1 m\"", "mesh = \"none.obj\""),
             "case.toml:10:8: body.ball.mesh is \"none.obj\": must be a mesh file; there is no none.obj and no " CRASHREEL_SOURCE_DIR
-            "/none.obj\n"}),
+            "/none.obj\n"}}),
     [](const auto& scene) { return scene.param.name; });
 
 TEST(BadInput, SeveralErrorsAreToldAtOnce) {
@@ -146,7 +146,7 @@ TEST_P(BadCommandIsRefused, WithItsMessageAndExitCode) {
 
 INSTANTIATE_TEST_SUITE_P(
     Commands, BadCommandIsRefused,
-    testing::Values(
+    testing::ValuesIn(std::vector<BadCommand>{
         BadCommand{"no_command",
                    {},
                    kAuthor,
@@ -239,7 +239,7 @@ INSTANTIATE_TEST_SUITE_P(
                    {"render", "ball.toml", "--frames", "9:3"},
                    kAuthor,
                    ": --frames is \"9:3\": must be frames counted from 0: 7, 10-20, 10-20x5 (every fifth), 10-, -20, or a list of "
-                   "these with commas"}),
+                   "these with commas"}}),
     [](const auto& command) { return command.param.name; });
 
 TEST(BadInput, ExistingResultsAreLeftAloneWithoutOverwrite) {

@@ -31,7 +31,7 @@ TEST_P(SectionsAndFiles, AreToldWithLineMarkAndRemedy) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, SectionsAndFiles,
-    testing::Values(
+    testing::ValuesIn(std::vector<Slip>{
         Slip{"a_section_mistyped", "[simulaton]\nstep = \"1 ms\"\n" + kPerson,
              "a.toml:1:2: simulaton is not a known key; did you mean \"simulation\"?\n    1 | [simulaton]\n      |  ^\n"},
         Slip{"one_bracket_for_two", "[person]\nname = \"p\"\n",
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"a_driver_who_stops_before_he_begins",
              kCar + "[[vehicle.driver]]\nfrom = \"2 s\"\nuntil = \"1 s\"\nlevel = \"6 m/s^2\"\n",
              "a.toml:8:9: vehicle.car.driver.0.until is \"1 s\": must not be earlier than the first force\n    8 | until = \"1 "
-             "s\"\n      |         ^\n"}),
+             "s\"\n      |         ^\n"}}),
     [](const auto& slip) { return slip.param.name; });
 
 TEST(ExactTexts, FiveErrorsOfAFileComeInItsOrder) {

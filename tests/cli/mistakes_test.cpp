@@ -25,7 +25,7 @@ TEST_P(SlipIsTold, WithItsLineAndTheRemedy) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, SlipIsTold,
-    testing::Values(
+    testing::ValuesIn(std::vector<Slip>{
         Slip{"forgotten_quotes", kPerson + "speed = 40 km/h\n",
              "a.toml:3:12: 40 km/h needs quotes; write speed = \"40 km/h\"\n    3 | speed = 40 km/h\n      |            ^\n"},
         Slip{"forgotten_quotes_of_a_word", kPerson + "pose = standing\n",
@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"a_pose_nobody_has", kPerson + "pose = \"standin\"\n",
              "a.toml:3:8: person.p.pose is \"standin\": there is no such pose; did you mean \"standing\"? available: cat, cyclist, "
              "leaning, lying_prone, lying_supine, motorcyclist, prayer, running, sitting, sitting_upright, standing, walking_left, "
-             "walking_right\n    3 | pose = \"standin\"\n      |        ^\n"}),
+             "walking_right\n    3 | pose = \"standin\"\n      |        ^\n"}}),
     [](const auto& slip) { return slip.param.name; });
 
 TEST(Mistakes, ASceneFileThatIsNotThere) {
