@@ -8,6 +8,7 @@ namespace engine {
 namespace {
 
 constexpr double kStride = 0.7;  // [m] of a pedestrian who walks at 1.4 m/s with two steps a second
+constexpr double kTrunk = 0.2;   // [m] from the middle of the hips to what they walk into
 constexpr double kStep = 0.4;    // [m] that nobody takes up or down without a stumble: two stairs
 
 }  // namespace
@@ -54,6 +55,13 @@ double Underfoot::clearance(const Model& model, const std::vector<Pose>& X_WB, c
   return lowest - height_below(model.ground, X_WB[person.hips].p);
 }
 
+bool Underfoot::carries(const Model& model, const State& state, int p, int mesh_body, const Vec3& point) const {
+  const int hips = model.persons[p].hips;
+  const auto is_it = [mesh_body](const Road& road) { return road.body == mesh_body; };
+  if (std::none_of(roads_.begin(), roads_.end(), is_it) || state.V_WB[hips].v.head<2>().isZero(0)) return false;
+  return point.z() < height_below(model.ground, state.X_WB[hips].p) + kStep;
+}
+
 std::optional<double> Underfoot::rise(const Model& model, const State& state, int p) const {
   const Person& person = model.persons[p];
   const Vec3 hips = state.X_WB[person.hips].p, v = state.V_WB[person.hips].v;
@@ -62,7 +70,8 @@ std::optional<double> Underfoot::rise(const Model& model, const State& state, in
   const Vec3 ahead = 0.5 * kStride / speed * Vec3(v.x(), v.y(), 0);
   const double here = height_below(model.ground, hips), front = height_below(model.ground, hips + ahead),
                back = height_below(model.ground, hips - ahead);
-  if (is_blocked(hips, ahead) || front - here > kStep || clearance(model, state.X_WB, person) > clearance_[p] + kStep)
+  if (is_blocked(hips, kTrunk * ahead.normalized()) || front - here > kStep ||
+      clearance(model, state.X_WB, person) > clearance_[p] + kStep)
     return std::nullopt;
   const auto on = [here](double height) { return std::abs(height - here) <= kStep ? height : here; };
   return (on(front) - on(back)) / kStride;

@@ -20,6 +20,8 @@ class Underfoot {
   /// Metres up by metre of the person's level way. A stride spans a kerb or a stair: the height is the mean over one, so that it
   /// rises by (h(ahead) - h(behind)) / stride. Nothing where the person has walked off an edge or into what is too high to mount.
   std::optional<double> rise(const Model&, const State&, int person) const;
+  /// Is a point of a fixed mesh what a person who moves goes over: no higher than a step from the ground under it?
+  bool carries(const Model&, const State&, int person, int mesh_body, const Vec3& point) const;
 
  private:
   /// Of the highest surface below a point [m]; far below where there is none.

@@ -52,8 +52,9 @@ bool closes(const Outlook& outlook, const SurfaceContact& touch, int a, int b) {
   return touch.gap - closing * outlook.within <= 0 && closing > 0;
 }
 
-/// Sets free who of a pair waits and is touched; what already overlaps is told of where `warn` asks for it.
-void watch(const Outlook& outlook, const PairKind& kind, const ContactPair& pair, bool warn) {
+/// Sets free who of a pair waits and is touched; what already overlaps is told of where `warn` asks for it. What somebody goes over
+/// is no touch.
+void watch(const Outlook& outlook, const PairKind& kind, const ContactPair& pair, bool warn, const Underfoot* underfoot = nullptr) {
   World& world = outlook.world;
   State& state = outlook.state;
   const int person = world.model.bodies[pair.a].person;
@@ -64,6 +65,7 @@ void watch(const Outlook& outlook, const PairKind& kind, const ContactPair& pair
       if (warn) warn_of_overlap(world, pair.a, pair.b, touch.gap);
       continue;
     }
+    if (underfoot && person >= 0 && underfoot->carries(world.model, state, person, pair.b, touch.p_b)) continue;
     if (waits(world, state, pair.a)) release(world, state, pair.a, pair.b, touch.p_a);
     if (waits(world, state, pair.b)) release(world, state, pair.b, pair.a, touch.p_b);
   }
@@ -98,7 +100,7 @@ class ZeroCondition final : public Effect {
     }
     for (const std::size_t r : pairs.in_reach.mesh)
       for (std::size_t i = pairs.mesh_runs[r].begin; i < pairs.mesh_runs[r].end; ++i)
-        watch(outlook, on_mesh_, {pairs.mesh[i].body, pairs.mesh[i].mesh_body, i}, warn);
+        watch(outlook, on_mesh_, {pairs.mesh[i].body, pairs.mesh[i].mesh_body, i}, warn, &underfoot_);
     if (!state.wheels.empty())
       for (const std::size_t i : pairs.in_reach.tyres)
         watch(outlook, on_tyre_, {pairs.tyres[i].body, pairs.tyres[i].vehicle_body, i}, false);

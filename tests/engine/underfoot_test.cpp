@@ -50,6 +50,28 @@ TEST(Walker, GoesDownAndUpAKerbWithinAStride) {
   }
 }
 
+/// The same of a pavement that is a fixed body: its edge under a foot is no touch. A bollard is.
+TEST(Walker, StepsOffAFixedPavementAndIsReleasedByABollard) {
+  for (const bool bollard : {false, true}) {
+    Model model = walker(0.12, 1.4);
+    Body fixed;
+    fixed.name = "street";
+    fixed.fixed = true;
+    fixed.shape = MeshShape{box({-5, -5, -1}, {0, 5, 0.12}), {}};
+    model.bodies.push_back(fixed);
+    fixed.shape = MeshShape{box({0.8, -0.1, -1}, {0.9, 0.1, 1}), {}};
+    if (bollard) model.bodies.push_back(fixed);
+    const Recording run = simulate(model);
+    const auto released = std::find_if(run.events.begin(), run.events.end(), [](const Event& e) { return e.kind == "release"; });
+    EXPECT_EQ(released != run.events.end(), bollard);
+    if (bollard) {
+      EXPECT_GT(released->time, 1.55 / kPace) << "as it comes to it";
+    } else {
+      EXPECT_NEAR(place(run.snapshots.back()).z() - kMiddle, 0, 2e-3);
+    }
+  }
+}
+
 TEST(Walker, KeepsToASlopeAndHasItsSpeed) {
   constexpr double kSlope = 0.1;
   Model model = walker(0, 2);
