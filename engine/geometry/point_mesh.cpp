@@ -47,25 +47,38 @@ double angle_at(const Vec3& p, const Triangle& v, const std::vector<Vec3>& verti
   return angle;
 }
 
-/// A triangle that was as near to a point as any looked at before.
-struct AsNear {
-  int triangle = -1;
-  Vec3 normal, at;
+/// A triangle and a point beside it.
+struct Beside {
+  Vec3 nearest, normal;
   double distance = 0, along = 0;  // [m] of the point, and by the face's normal
 };
+
+Beside beside(const TriangleMesh& mesh, int t, const Vec3& p) {
+  const Triangle& v = mesh.triangles()[t];
+  Beside out;
+  out.nearest = nearest_in_triangle(p, mesh.vertices()[v[0]], mesh.vertices()[v[1]], mesh.vertices()[v[2]]);
+  out.normal = mesh.face_normals()[t];
+  out.distance = (p - out.nearest).norm();
+  out.along = out.normal.dot(p - out.nearest);
+  // beside an edge or a corner the normal points from it to the point
+  if (out.distance > kOn && std::abs(out.along) < 0.999 * out.distance)
+    out.normal = (out.along < 0 ? -1.0 : 1.0) / out.distance * (p - out.nearest);
+  return out;
+}
 
 /// Where several faces are as near, on an edge, a corner or in the middle between two sides: the mean of their normals, each
 /// weighted by the angle its face has there (Thuermer and Wuethrich 1998). It hangs neither on the order of the triangles nor on
 /// how they cut a flat face.
-void take_the_mean(const TriangleMesh& mesh, const std::vector<AsNear>& all, const Vec3& p, NearestSurface& best, double facing) {
+void take_the_mean(const TriangleMesh& mesh, const std::vector<int>& near, const Vec3& p, NearestSurface& best, double facing) {
   Vec3 sum = Vec3::Zero();
   bool one = true;
   const double least = std::abs(best.gap);
-  for (const AsNear& as : all) {
+  for (const int t : near) {
+    const Beside as = beside(mesh, t, p);
     const bool same_side = (as.along < 0) == (facing < 0) && std::abs(as.along) > std::abs(facing) - kSame;
     if (least > kOn ? as.distance > least + kSame || !same_side : as.distance > kOn) continue;
     one = one && (as.normal - best.normal).squaredNorm() < kSame * kSame;
-    sum += angle_at(as.at, mesh.triangles()[as.triangle], mesh.vertices()) * as.normal;
+    sum += angle_at(as.nearest, mesh.triangles()[t], mesh.vertices()) * as.normal;
   }
   if (one || sum.norm() < kOn) return;
   best.normal = sum.normalized();
@@ -79,27 +92,19 @@ std::optional<NearestSurface> nearest_surface(const TriangleMesh& mesh, const Ve
   mesh.query({p.array() - reach, p.array() + reach}, scratch);
   std::optional<NearestSurface> best;
   double least = reach, facing = 0;
-  thread_local std::vector<AsNear> as_near;
-  as_near.reserve(64);
-  as_near.clear();
+  bool tied = false;
   for (const int t : scratch) {
-    const Triangle& v = mesh.triangles()[t];
-    const Vec3 q = nearest_in_triangle(p, mesh.vertices()[v[0]], mesh.vertices()[v[1]], mesh.vertices()[v[2]]);
-    const double distance = (p - q).norm();
-    const double along = mesh.face_normals()[t].dot(p - q);
-    if (distance >= std::max(least + kSame, kOn) || distance >= reach) continue;
-    // beside an edge or a corner the normal points from it to the point
-    const bool beside = distance > kOn && std::abs(along) < 0.999 * distance;
-    as_near.push_back(
-        {t, beside ? Vec3((along < 0 ? -1.0 : 1.0) / distance * (p - q)) : mesh.face_normals()[t], q, distance, along});
-    const bool nearer = distance < least - kSame;
-    const bool same_but_facing = best && distance < least + kSame && std::abs(along) > std::abs(facing);
-    if (!nearer && !same_but_facing) continue;
-    least = std::min(least, distance);
-    facing = along;
-    best = NearestSurface{q, as_near.back().normal, along < 0 ? -distance : distance, t};
+    const Beside it = beside(mesh, t, p);
+    const bool nearer = it.distance < least - kSame;
+    const bool same = best && it.distance < least + kSame;
+    const bool on_too = best && least <= kOn && it.distance <= kOn;
+    tied = nearer ? on_too : tied || same || on_too;
+    if (!nearer && !(same && std::abs(it.along) > std::abs(facing))) continue;
+    least = std::min(least, it.distance);
+    facing = it.along;
+    best = NearestSurface{it.nearest, it.normal, it.along < 0 ? -it.distance : it.distance, t};
   }
-  if (best && as_near.size() > 1) take_the_mean(mesh, as_near, p, *best, facing);
+  if (tied) take_the_mean(mesh, scratch, p, *best, facing);
   return best;
 }
 
