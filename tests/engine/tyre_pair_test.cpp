@@ -253,6 +253,17 @@ TEST(Wheel, BesideAnotherCarsWheelPushesItAwayAndKeepsTheMomentumOfBoth) {
   EXPECT_STREQ(name_of(ShapePair{ShapeKind::tyre, ShapeKind::tyre}), "vehicle_pair");
 }
 
+/// Somebody of one part, as the second body.
+void add_person(Model& model, Body part) {
+  part.person = 0;
+  model.bodies.push_back(part);
+  Person person;
+  person.bodies = {1};
+  person.head = 1;
+  person.zero_condition = false;
+  model.persons = {person};
+}
+
 /// What the tread meets straight ahead at hub height it drives forward, and down as fast: there its rim moves by v and -v. A locked
 /// wheel has no rim that moves, and one in the air nothing to pull against.
 TEST(Wheel, ThatTurnsPullsDownWhatItMeetsInFront) {
@@ -264,15 +275,9 @@ TEST(Wheel, ThatTurnsPullsDownWhatItMeetsInFront) {
     model.vehicles[0].brake = wheels == locked ? 1.0 : 0.0;
     if (wheels == in_the_air) model.bodies[0].X_WB.p.z() += 1;
     Body part = ball(0.12, 0.5, {-3 + 1.3 + 0.3 + 0.12 + 0.05, 0.75, model.bodies[0].X_WB.p.z() - 0.25});
-    part.person = 0;
     part.surface.friction_ground = 5;
     part.surface.friction_body = 0;
-    model.bodies.push_back(part);
-    Person person;
-    person.bodies = {1};
-    person.head = 1;
-    person.zero_condition = false;
-    model.persons = {person};
+    add_person(model, part);
     const Recording run = simulate(model);
     // pressed into the rubber until it goes as fast as the car, or is pushed off below a wheel that hangs from its strut
     const auto struck = std::find_if(run.snapshots.begin(), run.snapshots.end(),
@@ -298,13 +303,7 @@ TEST(Wheel, YieldsToALimbUnderALawByWhichNothingDoes) {
   model.settings.contact_law = ContactLaw::default_auto;
   Body limb = solid({{0.08, 0.5, 0.08}, 2}, kLimb, {-3 + 1.3 + 0.3 + 0.08, 0.75, 0.3});
   limb.V_WB.v.x() = -kSpeed;
-  limb.person = 0;
-  model.bodies.push_back(limb);
-  Person person;
-  person.bodies = {1};
-  person.head = 1;
-  person.zero_condition = false;
-  model.persons = {person};
+  add_person(model, limb);
   const Recording run = simulate(model);
   const double reduced = kLimb * 1200 / (kLimb + 1200), pressed = kSpeed * std::sqrt(reduced / 2e5);
   EXPECT_NEAR(run.diagnostics.max_compression, pressed, 0.1 * pressed) << "a step is an eighth of the way in";
