@@ -333,10 +333,14 @@ std::vector<std::string> inside_vehicles(const engine::Model& model) {
 
 bool nothing_touched(const engine::Model& model, const engine::Recording& recording) {
   if (!could_meet(model)) return false;
-  return std::none_of(recording.snapshots.begin(), recording.snapshots.end(), [&](const engine::Snapshot& snapshot) {
+  const auto touches = [&](const engine::Snapshot& snapshot) {
     return std::any_of(snapshot.contacts.begin(), snapshot.contacts.end(),
                        [&](const engine::ContactRecord& contact) { return is_touch(model, contact); });
-  });
+  };
+  if (std::any_of(recording.snapshots.begin(), recording.snapshots.end(), touches)) return false;
+  // two that an impulse model had overlap and part without one
+  const auto nearest = engine::nearest_approach(model, recording);
+  return !nearest || nearest->distance > 0;
 }
 
 std::vector<std::string> foresee(const scenes::Scene& scene, const std::string& output) {
