@@ -166,4 +166,18 @@ TEST(StepWatch, NeedsClocks) {
   EXPECT_FALSE(simulate(experiment()).longest_step.has_value());
 }
 
+/// What is thrown up and has no weight goes on, and gains nothing by the height it gets.
+TEST(Energy, GravityThatIsOffIsNoWeightInItEither) {
+  Model model = free_space(1);
+  model.settings.gravity = {0, 0, -kGravity};
+  model.settings.effects["gravity"] = Force::off;
+  model.bodies = {ball(0.1, 10, {0, 0, 2})};
+  model.bodies[0].V_WB.v.z() = 10;
+  const Recording run = simulate(model);
+  ASSERT_FALSE(run.failure);
+  EXPECT_NEAR(run.snapshots.back().bodies[0].X_WB.p.z(), 12, 1e-9);
+  EXPECT_EQ(run.snapshots.back().energies.residual, 0);
+  EXPECT_EQ(run.snapshots.back().energies.potential, 0);
+}
+
 }  // namespace
