@@ -122,10 +122,9 @@ Sample summarise(const scenes::Scene&, const Prior& prior, Table table, std::uin
     for (const double z : row.scores) shares.back().push_back(normal_share(z));
   }
   for (const std::string& name : outputs_of(table)) {
-    const std::vector<double> all = column(table, name);
-    std::vector<double> values;
-    for (const double x : all)
-      if (std::isfinite(x)) values.push_back(engine::turned_to(name, x, values.empty() ? x : values.front()));
+    std::vector<double> all = column(table, name), values;
+    for (double& x : all)
+      if (std::isfinite(x)) values.push_back(x = engine::turned_to(name, x, values.empty() ? x : values.front()));
     if (values.empty()) continue;
     Output o;
     o.name = name;

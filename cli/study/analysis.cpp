@@ -219,7 +219,27 @@ SettingResult summarise(const Setting& setting, const std::vector<Outcome>& outc
   return out;
 }
 
+namespace {
+
+/// Directions of all settings within half a turn of those of the first.
+void turn_together(Study& study) {
+  if (study.series.front().settings.empty()) return;
+  const std::map<std::string, Answer> first = study.series.front().settings.front().answers;
+  for (SeriesResult& series : study.series)
+    for (SettingResult& setting : series.settings)
+      for (auto& [name, answer] : setting.answers) {
+        const auto other = first.find(name);
+        if (other == first.end()) continue;
+        const double turned = engine::turned_to(name, answer.value, other->second.value) - answer.value;
+        if (!(std::abs(turned) > 0)) continue;
+        for (double* of : {&answer.value, &answer.low, &answer.high, &answer.middle}) *of += turned;
+      }
+}
+
+}  // namespace
+
 void judge(Study& study, const std::map<std::string, double>& closed_form) {
+  turn_together(study);
   const SeriesResult& ladder = study.series.front();
   std::vector<std::string> names;
   for (auto result = ladder.settings.rbegin(); result != ladder.settings.rend(); ++result)
