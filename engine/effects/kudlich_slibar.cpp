@@ -83,7 +83,7 @@ std::optional<MeshOverlap> overlap_at(const World& world, const State& state, co
 }
 
 /// When [s] from now the meshes of a pair begin to share space, which they do after `until` in `region`.
-double touch_before(const World& world, const State& state, const ImpactPair& pair, double until, const Aabb& region) {
+double touch_before(const World& world, const State& state, const ImpactPair& pair, double until, const PlanBox& region) {
   const auto touch = [&](double ahead) {
     return share_space(*mesh_of(world, pair.a).mesh, mesh_pose(world, state, pair.a, ahead), *mesh_of(world, pair.b).mesh,
                        mesh_pose(world, state, pair.b, ahead), region);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+
+#include "engine/math/functions.h"
 
 namespace engine {
 namespace {
@@ -9,6 +12,7 @@ namespace {
 constexpr int kCells = 64;          // along each side
 constexpr int kSide = kCells + 2;   // with one cell of margin, so that the grid can be shifted by one
 constexpr double kThinnest = 1e-6;  // [m] overlap along a line that counts
+constexpr double kApart = 1e-6;     // [-] headings 45 degrees apart have no mean by quarter turns
 
 using Span = OverlapScratch::Span;
 
@@ -82,6 +86,26 @@ bool tighten(const OverlapScratch& s, Grid& grid) {
   return true;
 }
 
+/// Heading of a body as a unit number to the fourth power, in which quarter turns are the same; 0 of one that stands on end.
+std::complex<double> quarter_turns(const Quat& q_WB) {
+  const Vec3 forward = q_WB * Vec3::UnitX();
+  const double length = math::hypot(forward.x(), forward.y());
+  if (length < kApart) return 0;
+  const std::complex<double> heading(forward.x() / length, forward.y() / length);
+  return heading * heading * heading * heading;
+}
+
+/// Plan axes along the two, or half-way between where they stand askew to each other.
+Quat plan_axes(const Quat& q_WA, const Quat& q_WB) {
+  const std::complex<double> a = quarter_turns(q_WA), both = a + quarter_turns(q_WB);
+  const std::complex<double> mean = std::norm(both) > kApart ? both : a;
+  return math::rotation(0.25 * math::atan2(mean.imag(), mean.real()), Vec3::UnitZ());
+}
+
+Pose seen_from(const Quat& q_WP, const Pose& X_WB) {
+  return Pose{Vec3::Zero(), q_WP.conjugate()} * X_WB;
+}
+
 }  // namespace
 
 void reserve(OverlapScratch& scratch) {
@@ -96,11 +120,13 @@ Aabb world_bounds(const TriangleMesh& mesh, const Pose& X_WM) {
 
 std::optional<MeshOverlap> overlap_of(const TriangleMesh& a, const Pose& X_WA, const TriangleMesh& b, const Pose& X_WB,
                                       OverlapScratch& s) {
-  const Aabb box_a = world_bounds(a, X_WA), box_b = world_bounds(b, X_WB);
+  const Quat q_WP = plan_axes(X_WA.q, X_WB.q);
+  const Pose X_PA = seen_from(q_WP, X_WA), X_PB = seen_from(q_WP, X_WB);
+  const Aabb box_a = world_bounds(a, X_PA), box_b = world_bounds(b, X_PB);
   const Vec3 low = box_a.lower.cwiseMax(box_b.lower), high = box_a.upper.cwiseMin(box_b.upper);
   if ((low.array() >= high.array()).any()) return std::nullopt;
   Grid grid = over(low.x(), high.x(), low.y(), high.y());
-  const Columns columns_a(a, X_WA), columns_b(b, X_WB);
+  const Columns columns_a(a, X_PA), columns_b(b, X_PB);
   reserve(s);
   for (int pass = 0; pass < 2; ++pass) {
     cast(columns_a, grid, s.a);
@@ -119,20 +145,23 @@ std::optional<MeshOverlap> overlap_of(const TriangleMesh& a, const Pose& X_WA, c
       out.volume += part;
     }
   if (out.volume <= 0) return std::nullopt;
-  out.centroid = moment / out.volume;
-  out.region.lower = Vec3(grid.x, grid.y, low.z());
-  out.region.upper = Vec3(grid.x + kCells * grid.dx, grid.y + kCells * grid.dy, high.z());
+  out.centroid = q_WP * Vec3(moment / out.volume);
+  out.region.q_WP = q_WP;
+  out.region.box_P.lower = Vec3(grid.x, grid.y, low.z());
+  out.region.box_P.upper = Vec3(grid.x + kCells * grid.dx, grid.y + kCells * grid.dy, high.z());
   const Vec3 growth((volume(s, grid, 1, 0) - volume(s, grid, -1, 0)) / (2 * grid.dx),
                     (volume(s, grid, 0, 1) - volume(s, grid, 0, -1)) / (2 * grid.dy), 0);
   // one body wholly inside the other in plan: no side to speak of, the line of centres is what is left
   const Vec3 apart = Vec3(0.5 * (box_a.lower + box_a.upper - box_b.lower - box_b.upper)).cwiseProduct(Vec3(1, 1, 0));
-  out.normal_W = growth.norm() > 1e-9 ? Vec3(-growth.normalized()) : (apart.norm() > 0 ? apart.normalized() : Vec3::UnitX());
+  const Vec3 normal_P = growth.norm() > 1e-9 ? Vec3(-growth.normalized()) : (apart.norm() > 0 ? apart.normalized() : Vec3::UnitX());
+  out.normal_W = q_WP * normal_P;
   return out;
 }
 
-bool share_space(const TriangleMesh& a, const Pose& X_WA, const TriangleMesh& b, const Pose& X_WB, const Aabb& region) {
-  const Columns columns_a(a, X_WA), columns_b(b, X_WB);
-  const Grid grid = over(region.lower.x(), region.upper.x(), region.lower.y(), region.upper.y());
+bool share_space(const TriangleMesh& a, const Pose& X_WA, const TriangleMesh& b, const Pose& X_WB, const PlanBox& region) {
+  const Columns columns_a(a, seen_from(region.q_WP, X_WA)), columns_b(b, seen_from(region.q_WP, X_WB));
+  const Vec3 low = region.box_P.lower, high = region.box_P.upper;
+  const Grid grid = over(low.x(), high.x(), low.y(), high.y());
   for (int i = 0; i < kSide; ++i)
     for (int k = 0; k < kSide; ++k) {
       const double x = grid.x + (i - 0.5) * grid.dx, y = grid.y + (k - 0.5) * grid.dy;

@@ -345,6 +345,21 @@ TEST(Simulate, ARunWithoutATouchSaysSo) {
   EXPECT_EQ(result.err, "crashreel: note: nothing touched: no vehicle or person met anything but the ground in this run\n");
 }
 
+/// Corners that pass through each other within milliseconds: Kudlich-Slibar finds no impulse, but they did touch.
+TEST(Simulate, AnOverlapWithoutAnImpactIsWarnedOfAndIsNoMiss) {
+  const Folder folder;
+  const auto sedan = [](const std::string& name, const std::string& motion) {
+    return "[[vehicle]]\nmodel = \"sedan\"\ncollision = \"kudlich_slibar\"\nname = \"" + name + "\"\n" + motion;
+  };
+  folder.write("a.toml", "[simulation]\nduration = \"0.5 s\"\n" + sedan("a", "position = \"-10 0 m\"\nspeed = \"100 km/h\"\n") +
+                             sedan("b", "position = \"0 -1.6 m\"\nheading = \"90 deg\"\nspeed = \"60 km/h\"\n"));
+  const Result result = run(folder, {"simulate", "a.toml", "-o", "out"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.err,
+            "crashreel: warning: a and b touched and parted before kudlich_slibar exchanged an impulse; collision = "
+            "\"default_auto\" has their contact\n");
+}
+
 TEST(Simulate, AThrowThatIsNotOverSaysSo) {
   const Folder folder;
   folder.write("a.toml",

@@ -223,6 +223,24 @@ TEST(Overlap, OfTwoBlocksIsTheirCommonBlock) {
   EXPECT_LT((turned->normal_W + got->normal_W).norm(), 1e-12) << "swapped bodies have the opposite normal";
 }
 
+/// A graze at a small angle, whose overlap is centimetres wide: a grid that stood still would see another in every turned scene.
+TEST(Overlap, TurnsWithTheWholeScene) {
+  const auto mesh = block({2.3, 0.9, 0.7});
+  const auto heading = [](double degrees) { return math::rotation(degrees * std::numbers::pi / 180, Vec3::UnitZ()); };
+  OverlapScratch scratch;
+  const Pose X_WA{{0, 0, 0.7}, heading(0)}, X_WB{{1.5, 1.75, 0.7}, heading(185)};
+  const auto straight = overlap_of(*mesh, X_WA, *mesh, X_WB, scratch);
+  ASSERT_TRUE(straight);
+  for (const double turn : {17.0, 45.0, 90.0, 131.0, 180.0, -77.0}) {
+    const Quat q = heading(turn);
+    const auto got = overlap_of(*mesh, {q * X_WA.p, q * X_WA.q}, *mesh, {q * X_WB.p, q * X_WB.q}, scratch);
+    ASSERT_TRUE(got) << turn;
+    EXPECT_NEAR(got->volume, straight->volume, 1e-9) << turn;  // rounding only: lines meet the same faces
+    EXPECT_LT((got->centroid - q * straight->centroid).norm(), 1e-9) << turn;
+    EXPECT_LT((got->normal_W - q * straight->normal_W).norm(), 1e-9) << turn;
+  }
+}
+
 TEST(KudlichSlibarRun, GivesThePublishedNumbersHoweverTheWorldIsTurnedAndTheBodiesOrdered) {
   // both bodies stand in each other when the run begins, and no time passes from touch to exchange: the levers are the published
   // ones

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "cli/study/analysis.h"
 #include "cli/study/statistics.h"
 
 namespace cli::study {
@@ -102,6 +103,30 @@ TEST(Statistics, PercentilesAreLinearBetweenMembers) {
   EXPECT_DOUBLE_EQ(median({4, 1, 2, 3}), 2.5);
   EXPECT_DOUBLE_EQ(percentile({0, 10}, 0.05), 0.5);
   EXPECT_TRUE(std::isnan(median({})));
+}
+
+/// A direction straight back lies on both sides of 180 degrees; the study of it may not tell a whole turn of error.
+TEST(Judge, TakesDirectionsOnTheCircle) {
+  Study study;
+  SeriesResult ladder;
+  ladder.series.steps = true;
+  const double direction[] = {179.6, -179.9, 179.95, -179.99, 179.99};
+  for (int k = 0; k < 5; ++k) {
+    SettingResult result;
+    result.setting.fineness = 4e-3 / std::pow(2.0, k);
+    Answer answer{true, direction[k], direction[k] - 0.02, direction[k] + 0.02, direction[k], 0, 0};
+    result.answers["pdof_deg car"] = answer;
+    ladder.settings.push_back(result);
+  }
+  study.series.push_back(ladder);
+  judge(study, {});
+  ASSERT_NE(study.find("pdof_deg car"), nullptr);
+  for (const SettingResult& setting : study.series.front().settings) {
+    const Answer& answer = setting.answers.at("pdof_deg car");
+    EXPECT_LT(std::abs(answer.error), 0.5) << setting.setting.fineness;
+    EXPECT_LT(answer.high - answer.low, 0.05);
+    EXPECT_NEAR(answer.middle, answer.value, 1e-9);
+  }
 }
 
 }  // namespace
