@@ -15,7 +15,7 @@
 #include "engine/simulate.h"
 #include "engine/state.h"
 #include "render/cameras.h"
-#include "render/frames.h"
+#include "render/matrix.h"
 
 namespace cli {
 namespace {
@@ -352,6 +352,30 @@ std::vector<std::string> foresee(const scenes::Scene& scene, const std::string& 
         inside || !far.empty() ? Sentences() : misses(scene), blind_cameras(scene), room_on_disk(scene, output)})
     out.insert(out.end(), more.begin(), more.end());
   return out;
+}
+
+bool is_empty_picture(const engine::Model& model, const render::Stage& stage, const engine::Recording& recording,
+                      const render::Moment& moment, double aspect) {
+  const auto camera = std::find_if(stage.cameras.begin(), stage.cameras.end(),
+                                   [&](const render::Camera& candidate) { return candidate.name == moment.camera; });
+  if (camera == stage.cameras.end() || moment.layout != render::Layout::single) return false;
+  const render::View view = render::view_of(*camera, recording, moment.time, aspect);
+  const Eigen::Matrix4d to_eye = render::from_gl(view.world_to_eye), to_clip = render::from_gl(view.eye_to_clip);
+  const engine::Snapshot now = recording.at(moment.time);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Eigen::Vector4d eye = to_eye * now.bodies[b].X_WB.p.homogeneous();
+    const Eigen::Vector4d clip = to_clip * eye;
+    const double radius = radius_of(model.bodies[b]);
+    if (!view.orthographic && eye.z() > radius) continue;  // behind
+    // a plane of the frustum leans: at most its own length of coefficients times the radius nearer
+    bool inside = true;
+    for (int side = 0; side < 2; ++side) {
+      const double reach = radius * std::hypot(to_clip(side, side), view.orthographic ? 0 : 1);
+      inside = inside && std::abs(clip[side]) <= clip.w() + reach;
+    }
+    if (inside) return false;
+  }
+  return true;
 }
 
 }  // namespace cli

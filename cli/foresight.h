@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/recording.h"
+#include "render/frames.h"
 #include "scenes/scene.h"
 
 namespace cli {
@@ -19,5 +20,8 @@ std::vector<std::string> inside_vehicles(const engine::Model&);
 
 /// Whether a run that could have held a collision held none: no vehicle or person touched anything but the ground and itself.
 bool nothing_touched(const engine::Model&, const engine::Recording&);
+
+/// Whether the moment's picture, width / height = `aspect`, shows nothing of any vehicle, person or body.
+bool is_empty_picture(const engine::Model&, const render::Stage&, const engine::Recording&, const render::Moment&, double aspect);
 
 }  // namespace cli

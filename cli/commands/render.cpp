@@ -12,6 +12,7 @@
 #include "cli/estimate.h"
 #include "cli/exit.h"
 #include "cli/film_plan.h"
+#include "cli/foresight.h"
 #include "cli/output/fingerprint.h"
 #include "cli/output/json.h"
 #include "cli/output/lock.h"
@@ -84,7 +85,9 @@ int tell_estimates(const scenes::Scene& scene, const std::vector<View>& views, b
   return kDone;
 }
 
-Drawn draw_stills(const FilmPlan& plan, const render::Stage& stage, const engine::Recording& recording) {
+Drawn draw_stills(const FilmPlan& plan, const engine::Model& model, const render::Stage& stage, const engine::Recording& recording,
+                  ShowProgress show) {
+  const double aspect = static_cast<double>(plan.job.width) / plan.job.height;
   Drawn drawn;
   if (std::any_of(plan.stills.begin(), plan.stills.end(), [&](double time) { return time > recording.end_time() + 5e-4; }))
     fmt::print(stderr, "crashreel: warning: the run ends at {:.3f} s; a picture of a later time shows its end\n",
@@ -93,6 +96,8 @@ Drawn draw_stills(const FilmPlan& plan, const render::Stage& stage, const engine
     render::FilmJob job = plan.job;
     job.output = still_file(plan, time);
     const render::Moment moment = still_of(plan, stage, time);
+    if (show != ShowProgress::never && is_empty_picture(model, stage, recording, moment, aspect))
+      fmt::print(stderr, "crashreel: warning: at {:.3f} s camera {} shows no vehicle, person or body\n", time, moment.camera);
     if (!plan.resume || !is_finished(job.output, moment, job))
       add(render::make_film(stage, recording, render::Film({moment}), job), drawn.cost);
     drawn.files.push_back(job.output.string());
@@ -203,13 +208,14 @@ void mark_with_fingerprints(std::vector<View>& views, const scenes::Scene& scene
 }
 
 /// All views of one recording, one after the other.
-Drawn draw_views(const std::vector<View>& views, const engine::Recording& recording, ShowProgress show) {
+Drawn draw_views(const std::vector<View>& views, const engine::Model& model, const engine::Recording& recording,
+                 ShowProgress show) {
   Drawn all;
   for (const View& view : views) {
     render::Stage stage = view.stage;
     if (recording.failure) stage.warnings.push_back(fmt::format("the model diverged at {:.3f} s", recording.failure->time));
-    const Drawn drawn =
-        view.plan.stills.empty() ? draw_film(view.plan, stage, recording, show) : draw_stills(view.plan, stage, recording);
+    const Drawn drawn = view.plan.stills.empty() ? draw_film(view.plan, stage, recording, show)
+                                                 : draw_stills(view.plan, model, stage, recording, show);
     all.files.insert(all.files.end(), drawn.files.begin(), drawn.files.end());
     all.frames += drawn.frames;
     add(drawn.cost, all.cost);
@@ -258,7 +264,7 @@ int render_scene(const RenderWish& wish, const Arguments& arguments) {
   engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
   recording.events = engine::told_events(scene.model, recording);
   mark_with_fingerprints(views, scene, arguments, recording);
-  const Drawn drawn = draw_views(views, recording, progress_of(wish.scene));
+  const Drawn drawn = draw_views(views, scene.model, recording, progress_of(wish.scene));
   tell_drawn(wish, views.front().plan.job, drawn, recording, clock_seconds() - start);
   return exit_code_of(recording);
 }

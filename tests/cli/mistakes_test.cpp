@@ -345,6 +345,19 @@ TEST(Simulate, ARunWithoutATouchSaysSo) {
   EXPECT_EQ(result.err, "crashreel: note: nothing touched: no vehicle or person met anything but the ground in this run\n");
 }
 
+TEST(Render, AStillThatShowsNothingSaysSo) {
+  const Folder folder;
+  folder.write("a.toml",
+               "[simulation]\nduration = \"2 s\"\n[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\nspeed = \"20 m/s\"\n"
+               "[[camera]]\nname = \"side\"\nposition = \"0 -12 2 m\"\ntarget = \"0 0 1 m\"\n");
+  const std::vector<std::string> at = {"--at", "0", "--at", "2", "--size", "160x90", "-o", "a.png"};
+  std::vector<std::string> fixed = {"render", "a.toml", "--camera", "side"}, follows = {"render", "a.toml", "--camera", "follow"};
+  for (auto* command : {&fixed, &follows}) command->insert(command->end(), at.begin(), at.end());
+  EXPECT_EQ(run(folder, fixed).err, "crashreel: warning: at 2.000 s camera side shows no vehicle, person or body\n");
+  follows.back() = "b.png";
+  EXPECT_EQ(run(folder, follows).err, "") << "the car is in both pictures";
+}
+
 /// Corners that pass through each other within milliseconds: Kudlich-Slibar finds no impulse, but they did touch.
 TEST(Simulate, AnOverlapWithoutAnImpactIsWarnedOfAndIsNoMiss) {
   const Folder folder;
