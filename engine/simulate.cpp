@@ -71,7 +71,7 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
     recorder.sample(world, state, recording);
     if ((k + 1) % per_snapshot == 0 || k + 1 == steps) {
       recorder.snapshot(world, state, recording);
-      if (model.settings.stop_at_rest && recorder.all_at_rest(state)) break;
+      if (model.settings.stop_at_rest && recorder.all_at_rest(world, state, recording)) break;
     }
     if (options.progress && (k + 1) % kAskEvery == 0 && !options.progress(state.time)) break;
   }

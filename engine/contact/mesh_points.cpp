@@ -50,6 +50,12 @@ std::vector<SurfacePoint> points_of(const Model& model, const Body& body, int fi
   return out;
 }
 
+/// What stands on the ground has nothing under it: the underside of a ramp's thin end would press down what comes over its top.
+bool faces_ground(const Ground& ground, const SurfaceContact& c) {
+  constexpr double kDown = -0.5, kStands = 5e-3;  // [-], [m]
+  return ground.plane && c.normal.z() < kDown && c.p_b.z() < ground.height + kStands;
+}
+
 void reserve_scratch(const Model& model, ContactPairs& pairs) {
   std::size_t triangles = model.ground.terrain ? model.ground.terrain->triangles().size() : 0;
   for (const Body& body : model.bodies)
@@ -171,6 +177,7 @@ void touch_with_points(const Outlook& outlook, int body, const std::vector<Surfa
       c.p_b = target.X_WM * surface->point;
       c.normal = target.X_WM.q * surface->normal;
       c.gap = surface->gap;
+      if (faces_ground(world.model.ground, c)) continue;
     } else {
       c.gap = p.z() - target.height;
       if (c.gap >= margin) continue;

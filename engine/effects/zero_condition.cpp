@@ -25,9 +25,25 @@ Finding look_for_zero_condition(const Model& model) {
           "until then gravity, joints, support and the air, which are taken to be in balance: who walks or rides keeps its speed"};
 }
 
+/// Whose a body is: a person's own, or joined to one, a pram or a bag.
+int person_of(const World& world, int body) {
+  const int own = world.model.bodies[body].person, tree = world.topology.tree_of_body[body];
+  return own >= 0 || tree < 0 ? own : world.topology.trees[tree].person;
+}
+
 bool waits(const World& world, const State& state, int body) {
-  const int person = world.model.bodies[body].person;
+  const int person = person_of(world, body);
   return person >= 0 && !state.released[person];
+}
+
+/// What is joined to each person, parts and mount left out.
+std::vector<std::vector<int>> held_by(const World& world) {
+  std::vector<std::vector<int>> held(world.model.persons.size());
+  for (const Topology::Tree& tree : world.topology.trees)
+    for (int l = tree.begin; l < tree.end; ++l)
+      if (const int b = world.topology.links[l].body; tree.person >= 0 && world.model.bodies[b].person < 0)
+        held[tree.person].push_back(b);
+  return held;
 }
 
 /// Stands where it is while it waits.
@@ -37,7 +53,7 @@ bool stands(const World& world, const State& state, const Person& person) {
 }
 
 void release(World& world, State& state, int body, int by, const Vec3& point) {
-  const int person = world.model.bodies[body].person;
+  const int person = person_of(world, body);
   if (state.released[person]) return;
   state.released[person] = 1;
   world.log.events.push_back({state.time, "release", body, by, point, 0});
@@ -57,8 +73,8 @@ bool closes(const Outlook& outlook, const SurfaceContact& touch, int a, int b) {
 void watch(const Outlook& outlook, const PairKind& kind, const ContactPair& pair, bool warn, const Underfoot* underfoot = nullptr) {
   World& world = outlook.world;
   State& state = outlook.state;
-  const int person = world.model.bodies[pair.a].person;
-  if (person >= 0 && person == world.model.bodies[pair.b].person) return;  // itself, or what it rides
+  const int person = person_of(world, pair.a);
+  if (person >= 0 && person == person_of(world, pair.b)) return;  // itself, what it rides, and what it holds
   if (!waits(world, state, pair.a) && !waits(world, state, pair.b)) return;
   for (const SurfaceContact& touch : kind.touches(outlook, pair)) {
     if (!closes(outlook, touch, pair.a, pair.b)) {
@@ -82,8 +98,25 @@ class ZeroCondition final : public Effect {
       : Effect(self),
         wheeled_(wheeled_pairs(world.model)),
         underfoot_(world.model),
+        held_(held_by(world)),
         first_touch_(reach_of(world.model).first_touch) {
     walkers_.reserve(world.model.persons.size());
+  }
+
+  /// What is joined to somebody waits with them if it moves as they do. Else it pulls, and so does a vehicle that is no mount.
+  void begin(World& world, State& state) override {
+    constexpr double kSame = 1e-6;  // [m/s] and [rad/s]
+    for (std::size_t p = 0; p < held_.size(); ++p) {
+      const int hips = world.model.persons[p].hips;
+      for (const int b : held_[p]) {
+        const Twist& V = state.V_WB[b];
+        const bool along = (V.v - state.V_WB[hips].v).norm() < kSame && V.w.norm() < kSame;
+        if (state.released[p] || (along && world.model.bodies[b].vehicle < 0)) continue;
+        release(world, state, hips, b, state.X_WB[b].p);
+        world.log.diagnostics.warnings.push_back(world.model.persons[p].name + " does not wait to be touched: " +
+                                                 world.model.bodies[b].name + ", which is joined, pulls from the start");
+      }
+    }
   }
 
   void before_step(World& world, State& state, double step) override {
@@ -124,10 +157,9 @@ class ZeroCondition final : public Effect {
         ride(step, p, self_);
         continue;
       }
-      for (const int b : world.model.persons[p].bodies) {
-        if (world.awake[b]) continue;
-        state.X_WB[b].p += step.length * state.V_WB[b].v;
-      }
+      for (const auto* bodies : {&world.model.persons[p].bodies, &held_[p]})
+        for (const int b : *bodies)
+          if (!world.awake[b]) state.X_WB[b].p += step.length * state.V_WB[b].v;
     }
   }
 
@@ -162,6 +194,7 @@ class ZeroCondition final : public Effect {
       state.V_WB[b].v.z() = up;
     };
     for (const int b : person.bodies) lift(b);
+    for (const int b : held_[p]) lift(b);
     if (person.mount >= 0) lift(person.mount);
     (given < 0 ? state.energy.dissipated[self_] : state.energy.added) += std::abs(given);
     return true;
@@ -169,9 +202,10 @@ class ZeroCondition final : public Effect {
 
   const std::vector<BodyPair> wheeled_;
   const Underfoot underfoot_;
-  const double first_touch_;  // [s] proved
-  std::vector<int> walkers_;  // who waits and moves on
-  long listed_ = 0;           // StillBodies::changes when they were
+  const std::vector<std::vector<int>> held_;  // by persons
+  const double first_touch_;                  // [s] proved
+  std::vector<int> walkers_;                  // who waits and moves on
+  long listed_ = 0;                           // StillBodies::changes when they were
 };
 template struct Registered<ZeroCondition>;
 

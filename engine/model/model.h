@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,18 @@ struct Ground {
       if (((point - patch->lower).head<2>().array() >= 0).all() && ((patch->upper - point).head<2>().array() >= 0).all())
         return patch->friction.at(time);
     return surface.friction_ground.at(time);
+  }
+
+  /// Of the plane or the terrain [m], whichever is first met straight down from a point; nothing over a hole.
+  std::optional<double> height_below(const Vec3& from) const {
+    constexpr double kDeepest = 1e6;  // [m]
+    std::optional<double> highest;
+    if (plane && height <= from.z()) highest = height;
+    double way = 0;
+    int triangle = -1;
+    if (terrain && terrain->raycast(from, -Vec3::UnitZ(), highest ? from.z() - *highest : kDeepest, way, triangle))
+      highest = from.z() - way;
+    return highest;
   }
 };
 

@@ -8,6 +8,7 @@ namespace engine {
 namespace {
 
 constexpr double kAirborne = 0.05;  // [s] who lay there is off the ground after that long
+constexpr double kLies = 0.02;      // [m] over the ground at the start
 
 }  // namespace
 
@@ -28,7 +29,8 @@ EventWatch::EventWatch(const World& world, const State& state)
     if (!of_trunk_[b] || !shape) continue;
     const int p = world.model.bodies[b].person;
     const double lowest = state.X_WB[b].p.z() - aabb_half_widths(*shape, state.X_WB[b].q).z();
-    lying_[p] = lying_[p] || lowest - world.model.ground.height < 0.02;
+    const auto ground = world.model.ground.height_below(state.X_WB[b].p);
+    lying_[p] = lying_[p] || (ground && lowest - *ground < kLies);
     if (lying_[p]) last_trunk_[p] = 0;
   }
 }

@@ -30,7 +30,9 @@ class Recorder {
   /// Events that only the whole run tells (who came to rest when), and the closing diagnostics.
   void finish(const World&, const State&, Recording&);
 
-  bool all_at_rest(const State& state) const { return rest_.all_at_rest(state); }
+  bool all_at_rest(const World& world, const State& state, const Recording& recording) const {
+    return rest_.all_at_rest(world, state, recording);
+  }
 
  private:
   struct Tally {

@@ -11,6 +11,8 @@ namespace {
 constexpr double kStillSpeed = 0.05;  // [m/s]
 constexpr double kStillTurn = 0.3;    // [rad/s]
 constexpr double kStillTime = 0.25;   // [s] that long below both: at rest
+constexpr double kBegins = 3e-3;      // [-] of these, a mean motion that is none of the solver's
+constexpr double kHolds = 0.1;        // [-] one that creeps
 
 /// How fast a body of that motion is, by what counts as still.
 double pace_of(const Twist& V) {
@@ -87,7 +89,7 @@ Twist travel_of(const Model& model, int b, const Pose& X, const Twist& V) {
   constexpr double kUpright = 0.7;                // [-] cosine: leaning by 45 deg it is about to fall on its side
   constexpr double kRocks = 0.5, kBounces = 0.3;  // [rad/s], [m/s] more is no rocking on springs
   const int v = model.bodies[b].vehicle;
-  if (v < 0 || model.vehicles[v].body != b || model.vehicles[v].wheels.empty()) return V;
+  if (v < 0 || model.vehicles[v].body != b || !has_track(model.vehicles[v])) return V;  // a two-wheeler topples from its wheels
   const Vec3 up = X.q * Vec3::UnitZ();
   const double yaw = up.dot(V.w);
   if (up.z() < kUpright || (V.w - yaw * up).norm() > kRocks || std::abs(up.dot(V.v)) > kBounces) return V;
@@ -118,7 +120,7 @@ double RestWatch::travel_of_tree(const World& world, const State& state, std::si
   double motion = 0;
   for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
     const int b = world.topology.links[l].body;
-    if (has_trunk_[tree] && !of_trunk_[b]) continue;
+    if (!tells_of(b, tree)) continue;
     motion = std::max(motion, pace_of(travel_of(world.model, b, state.X_WB[b], state.V_WB[b])));
   }
   return motion;
@@ -170,10 +172,56 @@ void RestWatch::watch_snapshot(const World& world, const State& state, double si
   }
 }
 
-bool RestWatch::all_at_rest(const State& state) const {
+bool RestWatch::Halves::grows() const {
+  return after > kBegins && after > 1.5 * before;
+}
+
+/// Means, as what rattles is gone from them.
+RestWatch::Halves RestWatch::halves_of(const World& world, const State& state, const Recording& recording, std::size_t tree) const {
+  const auto& all = recording.snapshots;
+  const double middle = state.time - 0.5 * kStillTime, first = state.time - kStillTime;
+  Halves out;
+  for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
+    const int b = world.topology.links[l].body;
+    if (!tells_of(b, tree)) continue;
+    Twist mean[2];
+    int count[2] = {0, 0};
+    for (auto s = all.rbegin(); s != all.rend() && (s->time >= first || count[0] == 0); ++s) {
+      const BodyState& body = s->bodies[static_cast<std::size_t>(b)];
+      const Twist V = travel_of(world.model, b, body.X_WB, body.V_WB);
+      const int half = s->time > middle;
+      mean[half].v += V.v, mean[half].w += V.w;
+      ++count[half];
+    }
+    if (count[0] == 0 || count[1] == 0) return {};
+    for (const int half : {0, 1}) mean[half].v /= count[half], mean[half].w /= count[half];
+    out.before = std::max(out.before, pace_of(mean[0]));
+    out.after = std::max(out.after, pace_of(mean[1]));
+    out.change = std::max(out.change, pace_of({.v = mean[1].v - mean[0].v, .w = mean[1].w - mean[0].w}));
+  }
+  return out;
+}
+
+/// Whether what is slow is so for a moment only: at the start on a road that falls, in a wind, by a small drive, upright on an
+/// edge, at the top of its way, or because it creeps.
+bool RestWatch::goes_on(const World& world, const State& state, const Recording& recording, std::size_t tree) const {
+  const Halves halves = halves_of(world, state, recording, tree);
+  const int person = world.model.bodies[world.topology.links[world.topology.trees[tree].end - 1].body].person;
+  if (person >= 0 && !state.released[person]) return halves.after > kBegins;  // goes its way until it is touched
+  // who lies there settles for long
+  return halves.grows() || (!has_trunk_[tree] && std::max(halves.after, halves.change) > kHolds);
+}
+
+bool RestWatch::all_at_rest(const World& world, const State& state, const Recording& recording) const {
   const auto long_enough = [&](double since) { return since >= 0 && state.time - since >= kStillTime; };
-  return state.time >= quiet_from_ && !still_since_.empty() && std::all_of(still_since_.begin(), still_since_.end(), long_enough) &&
-         std::all_of(rest_since_.begin(), rest_since_.end(), long_enough);
+  if (state.time < quiet_from_ || still_since_.empty()) return false;
+  for (const double since : still_since_)
+    if (!long_enough(since)) return false;
+  for (const double since : rest_since_)
+    if (!long_enough(since)) return false;
+  for (std::size_t t = 0; t < still_since_.size(); ++t)
+    if (goes_on(world, state, recording, t)) return false;
+  return true;
 }
 
 void RestWatch::tell(const World& world, const State& state, const Recording& recording, std::vector<Event>& events) const {
@@ -186,6 +234,8 @@ void RestWatch::tell(const World& world, const State& state, const Recording& re
     const int ridden = mount >= 0 ? world.topology.tree_of_body[mount] : -1;
     const std::size_t as = ridden >= 0 ? static_cast<std::size_t>(ridden) : t;  // rider and mount are one until they are touched
     if (rest_since_[as] < 0 || state.time - rest_since_[as] < 0.9 * kStillTime) continue;
+    const Halves halves = halves_of(world, state, recording, as);
+    if (halves.grows() || (!has_trunk_[as] && std::min(halves.before, halves.after) > kHolds)) continue;
     const double time = halts(world, recording, t, halted_[as]) ? halted_[as] : rest_since_[as];
     events.push_back({time, "rest", root, -1, recording.at(time).bodies[root].X_WB.p, 0});
   }

@@ -21,14 +21,24 @@ class RestWatch {
   /// At every snapshot, `since` [s] after the one before.
   void watch_snapshot(const World&, const State&, double since);
 
-  /// True once everything that can move has been still for a while, and nothing by the clock will set it in motion.
-  bool all_at_rest(const State&) const;
+  /// True once everything that can move has been still for a while, and neither the clock nor what acts on it sets it in motion.
+  bool all_at_rest(const World&, const State&, const Recording&) const;
 
   /// Appends who came to rest and when, at the end of the run.
   void tell(const World&, const State&, const Recording&, std::vector<Event>&) const;
 
  private:
   double travel_of_tree(const World&, const State&, std::size_t tree) const;
+  bool tells_of(int body, std::size_t tree) const { return !has_trunk_[tree] || of_trunk_[body]; }
+
+  /// Mean motions [-], by what counts as still, of the two halves of the last while, and how far they differ.
+  struct Halves {
+    double before = 0, after = 0, change = 0;
+    /// Pulled from rest it has the threefold in the second half.
+    bool grows() const;
+  };
+  Halves halves_of(const World&, const State&, const Recording&, std::size_t tree) const;
+  bool goes_on(const World&, const State&, const Recording&, std::size_t tree) const;
   void list_stirring(const World&);
 
   std::vector<char> of_trunk_;       // per body

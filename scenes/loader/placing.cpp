@@ -4,16 +4,10 @@
 namespace scenes {
 namespace {
 
-/// Height of what carries a person at x, y.
+/// Height of what carries a person at x, y; 0 over a hole.
 double ground_height(const engine::Ground& ground, double x, double y) {
-  double height = ground.plane ? ground.height : (ground.terrain ? -1e9 : 0);
-  if (ground.terrain) {
-    const double top = ground.terrain->bounds().upper.z() + 1;
-    double s = 0;
-    int triangle = -1;
-    if (ground.terrain->raycast({x, y, top}, -engine::Vec3::UnitZ(), 1e6, s, triangle)) height = std::max(height, top - s);
-  }
-  return height > -1e8 ? height : 0;
+  const double top = std::max(ground.height, ground.terrain ? ground.terrain->bounds().upper.z() : 0) + 1;
+  return ground.height_below({x, y, top}).value_or(0);
 }
 
 /// How far the lowest support point stands above the ground.

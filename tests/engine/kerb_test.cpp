@@ -150,5 +150,27 @@ TEST(Deck, OfWhateverItIsMadeIsRoad) {
   }
 }
 
+/// A wedge that stands on the road: where the springs give way at its thin end, its underside is no wall.
+TEST(Ramp, OfAThinEndIsDrivenUpAtAnySpeed) {
+  constexpr double kLength = 8, kRise = 1.41;
+  const auto wedge = std::make_shared<TriangleMesh>(
+      std::vector<Vec3>{{0, -2, 0}, {kLength, -2, kRise}, {kLength, -2, 0}, {0, 2, 0}, {kLength, 2, kRise}, {kLength, 2, 0}},
+      std::vector<Triangle>{{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {2, 5, 4}, {2, 4, 1}, {0, 3, 5}, {0, 5, 2}});
+  for (const double speed : {15.0, 20.0, 30.0, 40.0}) {
+    Model model = on_ground(0.9 * (5 + kLength) / speed);
+    add_reference_car(model, -5, speed);
+    Body ramp;
+    ramp.name = "ramp";
+    ramp.fixed = true;
+    ramp.shape = MeshShape{wedge, {}};
+    model.bodies.push_back(ramp);
+    const Recording run = simulate(model);
+    // of height and of what the kink takes: its dampers, at a tenth and a half of the speed
+    const double kept = std::sqrt(speed * speed - 2 * kGravity * kRise);
+    EXPECT_GT(run.snapshots.back().bodies[0].V_WB.v.norm(), 0.93 * kept) << speed;
+    EXPECT_LT(run.snapshots.back().bodies[0].V_WB.v.norm(), speed) << speed;
+  }
+}
+
 }  // namespace
 }  // namespace engine::test

@@ -1,4 +1,5 @@
 // Who walks, before anything touches: up and down with the ground, and off its edge.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -119,6 +120,63 @@ TEST(Walker, OnSomethingThatMovesStaysOnIt) {
   const Recording run = simulate(model);
   EXPECT_TRUE(run.events.empty());
   EXPECT_NEAR(place(run.snapshots.back()).z() - kMiddle, 1.1, 2e-3);
+}
+
+/// Something of 15 kg joined to the walker, ahead of them.
+Model pushing(const Vec3& velocity) {
+  Model model = walker(0, 1);
+  Body pram = ball(0.2, 15, {-0.3, 0, 0.5});
+  pram.name = "pram";
+  pram.V_WB.v = velocity;
+  model.bodies.push_back(pram);
+  model.joints.push_back(joint_at(model, JointKind::fixed, 0, 1, {-0.5, 0, 0.5}));
+  return model;
+}
+
+TEST(Walker, TakesAlongWhatIsJoined) {
+  const Recording run = simulate(pushing({kPace, 0, 0}));
+  EXPECT_TRUE(run.events.empty()) << "their own pram is no touch";
+  for (const Snapshot& s : run.snapshots) {
+    EXPECT_NEAR(place(s).x(), -1 + kPace * s.time, 1e-9);
+    EXPECT_NEAR(s.bodies[1].X_WB.p.x(), -0.3 + kPace * s.time, 1e-9);
+  }
+}
+
+TEST(Walker, IsReleasedByATouchOfWhatIsJoined) {
+  Model model = pushing({kPace, 0, 0});
+  Body bollard = ball(0.1, 50, {0.5, 0, 0.5});
+  bollard.fixed = true;
+  model.bodies.push_back(bollard);
+  const Recording run = simulate(model);
+  const auto released = std::find_if(run.events.begin(), run.events.end(), [](const Event& e) { return e.kind == "release"; });
+  ASSERT_NE(released, run.events.end());
+  EXPECT_NEAR(released->time, (0.8 - 0.3) / kPace, 2e-3);
+}
+
+TEST(Walker, DoesNotWaitWhereWhatIsJoinedPulls) {
+  Model model = pushing({kPace, 0, 0});
+  model.joints[0] = joint_at(model, JointKind::spherical, 0, 1, {-0.5, 0, 0.5});
+  model.bodies[1].V_WB.w.z() = 3;  // about the joint, which the start makes consistent
+  model.bodies[1].V_WB.v.y() = 3;
+  const Recording run = simulate(model);
+  ASSERT_FALSE(run.events.empty());
+  EXPECT_EQ(run.events.front().kind, "release");
+  EXPECT_EQ(run.events.front().time, 0);
+  EXPECT_THAT(run.diagnostics.warnings, testing::Contains(testing::HasSubstr("pram, which is joined, pulls from the start")));
+}
+
+/// Who lies there from the start does not come down, on a hill as on a plane.
+TEST(LyingPerson, HasNoLandingOfItsOwnAtTheStart) {
+  for (const double height : {0.0, 1.0}) {
+    Model model = walker(0, 0.3);
+    model.persons[0].zero_condition = false;
+    model.bodies[0] = solid({{0.9, 0.2, 0.15}, 4}, 70, {0, 0, height + 0.15});
+    model.bodies[0].person = 0;
+    if (height > 0) model.ground.terrain = box({-5, -5, -1}, {5, 5, height});
+    const Recording run = simulate(model);
+    EXPECT_TRUE(std::none_of(run.events.begin(), run.events.end(), [](const Event& e) { return e.kind == "ground_contact"; }))
+        << height;
+  }
 }
 
 }  // namespace
