@@ -22,7 +22,8 @@ Finding look_for_zero_condition(const Model& model) {
   if (waiting.empty()) return {false, "zero_condition = false for " + counted(model.persons.size(), "person"), ""};
   const std::string keep = waiting.size() == 1 ? " keeps pose and speed" : " keep pose and speed";
   return {true, listed(waiting) + keep + " until something other than the support touches",
-          "until then gravity, joints, support and the air, which are taken to be in balance: who walks or rides keeps its speed"};
+          "until then gravity, joints, support and the air, which are taken to be in balance: who walks or rides keeps its speed, "
+          "on slopes too, but where a driver brakes, drives or steers"};
 }
 
 /// Whose a body is: a person's own, or joined to one, a pram or a bag.
@@ -157,9 +158,15 @@ class ZeroCondition final : public Effect {
         ride(step, p, self_);
         continue;
       }
+      double fallen = 0;  // [J] what gravity would have given: whoever walks keeps their speed
       for (const auto* bodies : {&world.model.persons[p].bodies, &held_[p]})
-        for (const int b : *bodies)
-          if (!world.awake[b]) state.X_WB[b].p += step.length * state.V_WB[b].v;
+        for (const int b : *bodies) {
+          if (world.awake[b]) continue;
+          const Vec3 way = step.length * state.V_WB[b].v;
+          state.X_WB[b].p += way;
+          fallen += world.model.bodies[b].mass * world.model.settings.gravity.dot(way);
+        }
+      book(state, self_, -fallen);
     }
   }
 
@@ -189,14 +196,13 @@ class ZeroCondition final : public Effect {
     const double up = *rise * v.head<2>().norm();
     double given = 0;
     const auto lift = [&](int b) {
-      const double mass = world.model.bodies[b].mass;
-      given += mass * (0.5 * (up * up - v.z() * v.z()) - world.model.settings.gravity.z() * up * step.length);
+      given += 0.5 * world.model.bodies[b].mass * (up * up - v.z() * v.z());
       state.V_WB[b].v.z() = up;
     };
     for (const int b : person.bodies) lift(b);
     for (const int b : held_[p]) lift(b);
     if (person.mount >= 0) lift(person.mount);
-    (given < 0 ? state.energy.dissipated[self_] : state.energy.added) += std::abs(given);
+    book(state, self_, given);
     return true;
   }
 

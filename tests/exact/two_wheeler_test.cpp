@@ -113,6 +113,82 @@ TEST(RiddenMount, BrakesBeforeTheFirstTouchWithItsRider) {
   EXPECT_LT(std::abs(end.energies.residual), 1e-3 * end.energies.kinetic);
 }
 
+struct Stop {
+  engine::Model model;
+  engine::Recording run;
+
+  double weight() const {
+    double mass = 0;
+    for (const engine::Body& body : model.bodies) mass += body.mass;
+    return 9.81 * mass;
+  }
+  /// Of rider and mount, from the rear axle's place on the road.
+  engine::Vec3 centre() const {
+    engine::Vec3 sum = engine::Vec3::Zero();
+    for (const engine::Body& body : model.bodies) sum += 9.81 / weight() * body.mass * body.X_WB.p;
+    return sum - run.snapshots.front().wheels[1].contact;
+  }
+};
+
+/// A motorcycle with its rider at 60 km/h on a road that falls along the way by so many degrees.
+Stop stopping(double grade, const std::string& act, const std::string& wheels = "", const std::string& road = "") {
+  const scenes::testing::SceneFolder folder;
+  Stop out{folder
+               .load("title = \"stop\"\n[simulation]\nduration = \"6 s\"\nslope = \"" + std::to_string(grade) + " deg\"\n" + road +
+                     "[[vehicle]]\nname = \"moto\"\nmodel = \"motorcycle\"\nspeed = \"60 km/h\"\n" + act + wheels +
+                     "[[person]]\nname = \"rider\"\npose = \"motorcyclist\"\nrides = \"moto\"\n")
+               .model,
+           {}};
+  out.run = engine::simulate(out.model);
+  return out;
+}
+
+double slowing(const Stop& stop, double until) {
+  return (60 / 3.6 - stop.run.at(until).bodies[0].V_WB.v.norm()) / until;
+}
+
+/// v^2 / (2 g (a - sin(grade))), a what is asked or, with both wheels at their limit, friction: the driver's hands follow the
+/// loads.
+TEST(RiddenMount, StopsInTheWayThatGradeAndGripGive) {
+  const double v = 60 / 3.6, g = 9.81, mu = 0.8;
+  for (const double grade : {-6.0, 0.0, 6.0})
+    for (const double asked : {0.5, 0.7, 2.0}) {
+      const Stop stop = stopping(
+          grade, "[vehicle.brake]\nfrom = \"0 s\"\nbuild_up = \"0 s\"\ndeceleration = \"" + std::to_string(asked) + " g\"\n");
+      const auto &first = stop.run.snapshots.front(), &last = stop.run.snapshots.back();
+      const double upright = std::cos(grade * M_PI / 180), held = std::min(asked, mu * upright);
+      const double formula = v * v / (2 * g * (held - std::sin(grade * M_PI / 180)));
+      const double way = (last.bodies[0].X_WB.p - first.bodies[0].X_WB.p).norm();
+      EXPECT_NEAR(way, formula, 0.005 * formula) << asked << " g at " << grade;
+      EXPECT_LT(std::abs(last.energies.residual), 1e-6 * first.energies.kinetic) << "brakes and gravity stand in the books";
+      const auto wheels = stop.run.at(0.5).wheels;
+      EXPECT_NEAR(wheels[0].load + wheels[1].load, stop.weight() * upright, 1);
+      EXPECT_EQ(wheels[1].slip > 0, asked > 1) << "with its load, a mark is drawn of it";
+    }
+}
+
+/// The front brake alone: the load that slowing brings to its wheel lets it hold more, a = g mu s / (1 - mu h / base).
+TEST(RiddenMount, HoldsMoreInFrontAsItSlows) {
+  const double mu = 0.8, base = 1.44;
+  const Stop stop = stopping(0, "[[vehicle.driver]]\nfrom = \"0 s\"\nbuild_up = \"0 s\"\nlevel = \"1.25 g\"\nwheels = [1, 0]\n");
+  const engine::Vec3 centre = stop.centre();
+  const double formula = 9.81 * mu * centre.x() / base / (1 - mu * centre.z() / base);
+  EXPECT_NEAR(slowing(stop, 0.5), formula, 0.005 * formula);
+}
+
+/// On rubber that holds more than its lever the rear wheel would leave the road: a = g (base - s) / h, and no more.
+TEST(RiddenMount, HoldsBackWhereItWouldPitchOver) {
+  const auto wheel = [](const std::string& name, const std::string& x, const std::string& more) {
+    return "[[vehicle.wheel]]\nname = \"" + name + "\"\nat = \"" + x + " 0 0.31 m\"\nradius = \"0.31 m\"\nwidth = \"0.12 m\"\n" +
+           "spring = \"20 kN/m\"\ndamper = \"0.8 kN s/m\"\ntravel = \"0.05 m\"\nfriction = 1.5\n" + more;
+  };
+  const Stop stop = stopping(0, "[[vehicle.driver]]\nfrom = \"0 s\"\nbuild_up = \"0 s\"\nlevel = \"1.25 g\"\nwheels = [1, 0]\n",
+                             wheel("front", "0.72", "steered = true\n") + wheel("rear", "-0.72", ""), "[ground]\nfriction = 1.5\n");
+  const engine::Vec3 centre = stop.centre();
+  EXPECT_NEAR(slowing(stop, 0.5), 9.81 * (1.44 - centre.x()) / centre.z(), 0.05);
+  EXPECT_NEAR(stop.run.at(0.5).wheels[1].load, 0, 1e-6 * stop.weight());
+}
+
 TEST(RiddenMount, GoesRoundTheCircleOfItsWheelAngle) {
   const engine::Recording run = ridden({"vehicle.motorcycle.steer=[[\"0 s\", \"2 deg\"]]"});
   const auto& end = run.snapshots.back().bodies[static_cast<std::size_t>(body_of(run, "motorcycle"))];
