@@ -54,10 +54,14 @@ bool stands(const World& world, const State& state, const Person& person) {
 }
 
 void release(World& world, State& state, int body, int by, const Vec3& point) {
-  const int person = person_of(world, body);
-  if (state.released[person]) return;
-  state.released[person] = 1;
-  world.log.events.push_back({state.time, "release", body, by, point, 0});
+  const std::vector<int>& tree = world.topology.tree_of_body;
+  for (int p = 0; p < static_cast<int>(state.released.size()); ++p) {
+    const bool own = p == person_of(world, body);
+    const bool joined = tree[body] >= 0 && tree[world.model.persons[p].hips] == tree[body];  // a child in arms
+    if (state.released[p] || !(own || joined)) continue;
+    state.released[p] = 1;
+    world.log.events.push_back({state.time, "release", own ? body : world.model.persons[p].hips, by, point, 0});
+  }
 }
 
 /// Would the two close their gap within this step?

@@ -153,6 +153,22 @@ TEST(Walker, IsReleasedByATouchOfWhatIsJoined) {
   EXPECT_NEAR(released->time, (0.8 - 0.3) / kPace, 2e-3);
 }
 
+/// A child in arms, which is touched first: who carries it is free with it.
+TEST(Walker, IsReleasedWithThePersonTheyCarry) {
+  Model model = pushing({kPace, 0, 0});
+  model.bodies[1].person = 1;
+  Person child;
+  child.bodies = {1};
+  child.head = child.hips = 1;
+  model.persons.push_back(child);
+  Body bollard = ball(0.1, 50, {0.5, 0, 0.5});
+  bollard.fixed = true;
+  model.bodies.push_back(bollard);
+  const Recording run = simulate(model);
+  EXPECT_EQ(std::count_if(run.events.begin(), run.events.end(), [](const Event& e) { return e.kind == "release"; }), 2);
+  EXPECT_LT(run.snapshots.back().bodies[0].V_WB.v.x(), 0.9 * kPace) << "its bollard stops them both";
+}
+
 TEST(Walker, DoesNotWaitWhereWhatIsJoinedPulls) {
   Model model = pushing({kPace, 0, 0});
   model.joints[0] = joint_at(model, JointKind::spherical, 0, 1, {-0.5, 0, 0.5});
