@@ -73,9 +73,9 @@ const Key kSimulationKeys[] = {
     bound<&engine::Settings::sleep>(
         {"sleep", Type::boolean, Dimension::none, "false",
          "What moves less than 0.02 mm in a second is left alone until something comes near: long waits cost little."}),
-    bound<&engine::Settings::stop_at_rest>(
-        {"stop_at_rest", Type::boolean, Dimension::none, "true",
-         "End the run when everything has come to rest and no driver, brake or friction that changes later can set it in motion."}),
+    bound<&engine::Settings::stop_at_rest>({"stop_at_rest", Type::boolean, Dimension::none, "true",
+                                            "End the run when all rests, and neither a grade or wind nor a driver, brake or "
+                                            "friction that changes later sets it in motion."}),
     {"effects", Type::table, Dimension::none, "", "Effects forced on or off.", kAny, {}, &kEffectsSection},
 };
 
