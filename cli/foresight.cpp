@@ -15,7 +15,9 @@
 #include "engine/simulate.h"
 #include "engine/state.h"
 #include "render/cameras.h"
+#include "render/card.h"
 #include "render/matrix.h"
+#include "render/text/fonts.h"
 
 namespace cli {
 namespace {
@@ -333,6 +335,19 @@ std::vector<std::string> inside_vehicles(const engine::Model& model) {
 
 bool nothing_touched(const engine::Model& model, const engine::Recording& recording) {
   if (!could_meet(model)) return false;
+std::vector<std::string> crowded_cards(const render::Stage& stage, int width, int height) {
+  Sentences out;
+  for (std::size_t i = 0; i < stage.cards.size(); ++i) {
+    const std::size_t lines = stage.cards[i].lines.size(),
+                      fitting = render::card_page(stage, stage.cards[i], width, height).fitting;
+    if (fitting < lines)
+      out.push_back(
+          fmt::format("card {} has {} lines, of which {} fit on {}x{} in letters that can be read; the others are left out", i + 1,
+                      lines, fitting, width, height));
+  }
+  return out;
+}
+
   const auto touches = [&](const engine::Snapshot& snapshot) {
     return std::any_of(snapshot.contacts.begin(), snapshot.contacts.end(),
                        [&](const engine::ContactRecord& contact) { return is_touch(model, contact); });
@@ -345,11 +360,40 @@ bool nothing_touched(const engine::Model& model, const engine::Recording& record
 
 std::vector<std::string> foresee(const scenes::Scene& scene, const std::string& output) {
   Sentences out = inside_vehicles(scene.model);  // first: why the first steps find what they find
+namespace {
+
+/// Of the film, and of snapshots that show cards.
+Sentences crowded_pages(const scenes::Scene& scene) {
+  Sentences out = crowded_cards(scene.stage, scene.output.width, scene.output.height);
+  const auto& stills = scene.output.stills;
+  if (std::none_of(stills.begin(), stills.end(), [](const auto& still) { return still.card >= 0; })) return out;
+  for (std::string& crowded : crowded_cards(scene.stage, scene.snapshot.width, scene.snapshot.height))
+    if (std::find(out.begin(), out.end(), crowded) == out.end()) out.push_back(std::move(crowded));
+  return out;
+}
+
+/// Titles, names and cards with letters that pictures show as boxes.
+Sentences letters_without_glyph(const scenes::Scene& scene) {
+  std::string all = scene.stage.title;
+  for (const Thing& thing : things_of(scene.model)) all += thing.name;
+  for (const render::Shot& shot : scene.stage.shots) all += shot.title;
+  for (const render::Card& card : scene.stage.cards) {
+    all += card.title;
+    for (const std::string& line : card.lines) all += line;
+  }
+  const std::string lacking = render::without_glyph(all);
+  if (lacking.empty()) return {};
+  return {fmt::format("the font of pictures, {}, has no glyph for {}: they may show as boxes", render::kFont, lacking)};
+}
+
+}  // namespace
+
   const bool inside = !out.empty();
   const Sentences far = out_of_reach(scene.model);
   for (const Sentences& more :
        {first_steps(scene), unlikely_speeds(scene.model), unlikely_figures(scene.model), unlikely_ground(scene.model), far,
-        inside || !far.empty() ? Sentences() : misses(scene), blind_cameras(scene), room_on_disk(scene, output)})
+        inside || !far.empty() ? Sentences() : misses(scene), blind_cameras(scene), crowded_pages(scene),
+        letters_without_glyph(scene), room_on_disk(scene, output)})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }

@@ -18,6 +18,9 @@ std::vector<std::string> foresee(const scenes::Scene&, const std::string& output
 /// Who stands inside a vehicle's shell touches nothing there, and a run of it begins without a word.
 std::vector<std::string> inside_vehicles(const engine::Model&);
 
+/// Cards with more lines than a picture of that size has room for in letters that can be read.
+std::vector<std::string> crowded_cards(const render::Stage&, int width, int height);
+
 /// Whether a run that could have held a collision held none: no vehicle or person touched anything but the ground and itself.
 bool nothing_touched(const engine::Model&, const engine::Recording&);
 

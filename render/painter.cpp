@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/card.h"
 #include "render/text/charts.h"
 #include "render/text/labels.h"
 
@@ -74,32 +75,6 @@ std::vector<Pane> panes_of(Layout layout, int width, int height) {
   return {whole};
 }
 
-DrawList card_list(const Stage& stage, const Card& card) {
-  DrawList list;
-  LabelItem label;
-  label.plate = false;
-  label.anchor = {0.10f, 0.44f};
-  label.pivot = {0, 0.5f};
-  auto line = [&label](const std::string& text, float size, const Float4& colour) {
-    label.lines.push_back(text);
-    label.sizes.push_back(size);
-    label.colours.push_back(colour);
-  };
-  line(card.title, 58, kWhiteText);
-  if (!card.lines.empty()) line(" ", 26, kWhiteText);
-  for (const std::string& text : card.lines) line(text, 30, kPaleText);
-  list.labels.push_back(label);
-  LabelItem foot = label;
-  foot.lines = {"Simulation, not footage"};
-  if (!stage.provenance.empty()) foot.lines.push_back(stage.provenance);
-  foot.sizes.assign(foot.lines.size(), 17);
-  foot.colours.assign(foot.lines.size(), kPaleText);
-  foot.anchor = {0.988f, 0.985f};
-  foot.pivot = {1, 1};
-  list.labels.push_back(foot);
-  return list;
-}
-
 Renderer& Painter::renderer(int width, int height) {
   std::unique_ptr<Renderer>& r = renderers_[{width, height}];
   if (!r) r = std::make_unique<Renderer>(width, height, quality_);
@@ -111,7 +86,7 @@ void Painter::paint(const Stage& stage, const engine::Recording& recording, cons
   Stopwatch watch(cost_);
   if (moment.card >= 0) {
     out = blank(width_, height_);
-    draw_labels(card_list(stage, stage.cards[static_cast<std::size_t>(moment.card)]), out);
+    draw_labels(card_page(stage, stage.cards[static_cast<std::size_t>(moment.card)], width_, height_).list, out);
     watch.lap(Pass::labels);
   } else if (moment.layout == Layout::single) {
     const DrawList list = arrange(stage, recording, moment, static_cast<double>(width_) / height_);

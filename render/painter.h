@@ -20,9 +20,6 @@ struct Pane {
 /// The first camera's pane and the second's; the second may lie upon the first. One pane for Layout::single.
 std::vector<Pane> panes_of(Layout, int width, int height);
 
-/// A card's text, to be drawn on a dark page.
-DrawList card_list(const Stage&, const Card&);
-
 class Painter {
  public:
   Painter(int width, int height, Quality quality) : width_(width), height_(height), quality_(quality) {}

@@ -185,6 +185,14 @@ void tell_room(const std::vector<View>& views, double duration) {
   }
 }
 
+/// Of films: stills show no cards.
+void tell_crowded_cards(const std::vector<View>& views) {
+  for (const View& view : views)
+    if (view.plan.stills.empty())
+      for (const std::string& crowded : crowded_cards(view.stage, view.plan.job.width, view.plan.job.height))
+        fmt::print(stderr, "crashreel: warning: {}\n", crowded);
+}
+
 /// Folders made and held against other runs.
 std::vector<std::unique_ptr<OutputLock>> held(const std::vector<View>& views) {
   std::vector<std::unique_ptr<OutputLock>> locks;
@@ -259,7 +267,10 @@ int render_scene(const RenderWish& wish, const Arguments& arguments) {
   if (ceiling > 0) hold_to_memory(views, ceiling, scene, wish.scene.quiet);
   const auto locks = held(views);
   tell_when_stopped(kept_of(views.front().plan));
-  if (!wish.scene.quiet) tell_room(views, scene.model.settings.duration);
+  if (!wish.scene.quiet) {
+    tell_room(views, scene.model.settings.duration);
+    tell_crowded_cards(views);
+  }
 
   engine::Recording recording = run_scene(scene, plan_of(scene), wish.scene);
   recording.events = engine::told_events(scene.model, recording);

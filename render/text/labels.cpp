@@ -200,6 +200,23 @@ std::vector<PanelBox> place_labels(const DrawList& list, int width, int height) 
   return boxes;
 }
 
+std::vector<std::string> broken_at_words(const std::string& text, double pixels, double width) {
+  const CairoPtr cairo = scratch();
+  const std::string shown = drawable(text);
+  const Line line(cairo.get(), shown, pixels);
+  if (line.width() <= width) return {text};
+  pango_layout_set_width(line.layout(), static_cast<int>(width * PANGO_SCALE));
+  pango_layout_set_wrap(line.layout(), PANGO_WRAP_WORD_CHAR);
+  std::vector<std::string> out;
+  for (int i = 0; i < pango_layout_get_line_count(line.layout()); ++i) {
+    const PangoLayoutLine* piece = pango_layout_get_line_readonly(line.layout(), i);
+    std::string words = shown.substr(static_cast<std::size_t>(piece->start_index), static_cast<std::size_t>(piece->length));
+    while (words.ends_with(' ')) words.pop_back();
+    out.push_back(std::move(words));
+  }
+  return out;
+}
+
 void draw_labels(const DrawList& list, Image& image) {
   if (list.labels.empty() && list.charts.empty()) return;
   require_font();

@@ -1,6 +1,7 @@
 // Text panels on the finished picture.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "render/draw_list.h"
@@ -18,6 +19,9 @@ struct PanelBox {
 /// Where every label goes: kept inside the frame, moved aside from those before it, left out if there is no room; one with a leader
 /// keeps off persons too where it can. Pure numbers.
 std::vector<PanelBox> place_labels(const DrawList&, int width, int height);
+
+/// The text in lines no wider than `width` [pixels], in letters of so many pixels: broken between words, within one that is wider.
+std::vector<std::string> broken_at_words(const std::string& text, double pixels, double width);
 
 /// Draws them, on translucent plates where they want one.
 void draw_labels(const DrawList&, Image&);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "render/card.h"
+
 namespace render {
 namespace {
 
@@ -83,7 +85,7 @@ TEST(PaintedCard, IsAPageOfTextThatSaysItIsASimulation) {
   int light = 0;
   for (std::size_t i = 0; i < image.rgba.size(); i += 4) light += image.rgba[i] > 150;
   EXPECT_GT(light, 40) << "letters";
-  EXPECT_EQ(card_list(s, s.cards[0]).labels.back().lines[0], "Simulation, not footage");
+  EXPECT_EQ(card_page(s, s.cards[0], kPageWidth, kPageHeight).list.labels.back().lines[0], "Simulation, not footage");
 }
 
 }  // namespace
