@@ -95,6 +95,20 @@ void draw_text(cairo_t* c, double x, double y, const std::string& text, double s
   cairo_new_path(c);
 }
 
+std::string shortened(cairo_t* c, const std::string& text, double size, double width) {
+  if (text_width(c, text, size) <= width) return text;
+  std::vector<std::size_t> begins;  // of the letters, in UTF-8
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) begins.push_back(i);
+  std::string out = "\u2026";
+  for (std::size_t kept = begins.size() - 1; kept > 1; --kept) {
+    const std::size_t head = begins[(kept + 1) / 2], tail = begins[begins.size() - kept / 2];
+    out = text.substr(0, head) + "\u2026" + text.substr(tail);
+    if (text_width(c, out, size) <= width) break;
+  }
+  return out;
+}
+
 void draw_line(cairo_t* c, double x0, double y0, double x1, double y1) {
   cairo_move_to(c, x0, y0);
   cairo_line_to(c, x1, y1);
@@ -139,7 +153,7 @@ void draw_mark(cairo_t* c, int shape, double x, double y, double s) {
 }
 
 void set_dashes(cairo_t* c, int style) {
-  static const std::array<std::vector<double>, 6> kStyles{
+  static const std::array<std::vector<double>, kLineStyles> kStyles{
       {{}, {3, 1.4}, {0.8, 1.0}, {4, 1.2, 0.8, 1.2}, {1.8, 0.8}, {5, 1, 0.8, 1, 0.8, 1}}};
   const std::vector<double>& dashes = kStyles[static_cast<std::size_t>(style) % kStyles.size()];
   cairo_set_dash(c, dashes.data(), static_cast<int>(dashes.size()), 0);

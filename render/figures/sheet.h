@@ -28,11 +28,14 @@ enum class Align { left, centre, right };
 /// `size` [mm]; the point is the base line's left, middle or right end.
 void draw_text(cairo_t*, double x, double y, const std::string&, double size, Align = Align::left);
 double text_width(cairo_t*, const std::string&, double size);
+/// The text if it is no wider than that [mm], else with an ellipsis in place of its middle: names may differ at either end.
+std::string shortened(cairo_t*, const std::string&, double size, double width);
 void draw_line(cairo_t*, double x0, double y0, double x1, double y1);
 void grey(cairo_t*, double lightness);
 /// One of six marks that differ in shape: disc, square, triangle, diamond, cross, ring.
 void draw_mark(cairo_t*, int shape, double x, double y, double size);
 /// One of six line styles: full, dashed, dotted, dash-dotted ...
+constexpr int kLineStyles = 6;
 void set_dashes(cairo_t*, int style);
 
 /// A part of the body by its name, for marks and legends: 0 head, 1 trunk, 2 arm, 3 thigh, 4 lower leg, 5 other.

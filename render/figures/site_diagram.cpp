@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -136,11 +137,14 @@ std::vector<LengthShown> dimensions_of(const Site& site, const PersonFacts& fact
   if (!facts.hit) return out;
   const auto com = [&](double t) { return centre_of_mass(facts, site.recording, t); };
   const auto on_paper = [&](const Vec3& from, const Vec3& to) { return (site.plan.at(to) - site.plan.at(from)).norm(); };
-  const auto text = [](const std::string& label, double length) { return fmt::format("{} {:.2f} m", label, length); };
+  const bool alone = site.job.persons.size() == 1;  // of several the key has the parts
+  const std::string whose = alone ? "" : facts.name + ": ";
+  const auto text = [&](const std::string& label, double length) { return fmt::format("{}{} {:.2f} m", whose, label, length); };
   // the parts above, the whole below them; side by side where each number has room over its own line, else one below the other
   double row = 16;  // [mm] below the path
   bool crowded = false;
   for (const PhaseFacts& phase : facts.phases) {
+    if (!alone) break;
     if (phase.name != "flight" && phase.name != "fall" && phase.name != "landing" && phase.name != "slide") continue;
     const Vec3 from = com(phase.from), to = com(phase.to);
     const double line = on_paper(from, to);
@@ -156,38 +160,71 @@ std::vector<LengthShown> dimensions_of(const Site& site, const PersonFacts& fact
   return out;
 }
 
+/// Around a number on the paper [mm].
+std::array<Point2, 2> place_of(cairo_t* c, const Plan& plan, const LengthShown& d) {
+  const DimensionLine line = line_of(plan, d);
+  const double half = text_width(c, d.text, kNumber) / 2 + 0.8;
+  const Point2 reach = half * line.along.cwiseAbs() + 2.4 * line.down.cwiseAbs();
+  const Point2 middle = 0.5 * (line.p + line.q);
+  return {middle - reach, middle + reach};
+}
+
+/// Of all persons: a number that would cover one before it moves down.
+std::vector<LengthShown> all_dimensions(cairo_t* c, const Site& site) {
+  constexpr int kMostRows = 40;
+  constexpr double kRow = 2;  // [mm]
+  std::vector<LengthShown> out;
+  std::vector<std::array<Point2, 2>> taken;
+  for (const PersonFacts& facts : site.job.persons)
+    for (LengthShown& d : dimensions_of(site, facts)) {
+      const auto covers = [&](const std::array<Point2, 2>& other) {
+        const auto [from, to] = place_of(c, site.plan, d);
+        return (from.array() < other[1].array()).all() && (other[0].array() < to.array()).all();
+      };
+      for (int row = 0; row < kMostRows && std::any_of(taken.begin(), taken.end(), covers); ++row) d.offset += kRow;
+      taken.push_back(place_of(c, site.plan, d));
+      out.push_back(std::move(d));
+    }
+  return out;
+}
+
 constexpr double kKeyLine = 4.4, kKeyLetters = 2.9;  // [mm]
 constexpr double kDisc = 2.6;                        // [mm] radius of a number's circle
 
-/// A circle's number and its middle [mm].
+/// A circle's number and its middle [mm], and how far to the right of the circle the name reaches.
 struct Numbered {
   const PersonFacts* person;
   int number;
   Point2 at;
+  double name = 0;
 };
 
-/// A number in a circle beside each place of each person, explained in the key; a circle makes room for those before it.
-std::vector<Numbered> numbers_of(const Site& site) {
+/// A number in a circle beside each place of each person, explained in the key; a circle makes room for those before it. Of several
+/// persons each says whose it is.
+std::vector<Numbered> numbers_of(cairo_t* c, const Site& site) {
   std::vector<Numbered> out;
   for (const PersonFacts& facts : site.job.persons) {
+    const double name = site.job.persons.size() > 1 ? text_width(c, facts.name, kKeyLetters) + 1.6 : 0;
     int number = 0;
     for (const double t : times_of_interest(facts, site.recording)) {
       Point2 p = site.plan.at(centre_of_mass(facts, site.recording, t)) + Point2(0, -11);
-      const auto taken = [&](const Numbered& other) { return (other.at - p).norm() < 2 * kDisc + 0.4; };
+      const auto taken = [&](const Numbered& other) {
+        if (name <= 0) return (other.at - p).norm() < 2 * kDisc + 0.4;
+        const bool beside = p.x() + name > other.at.x() - 2 * kDisc && other.at.x() + other.name > p.x() - 2 * kDisc;
+        return beside && std::abs(other.at.y() - p.y()) < 2 * kDisc + 0.4;
+      };
       while (std::any_of(out.begin(), out.end(), taken)) p.y() -= 1;
-      out.push_back({&facts, ++number, p});
+      out.push_back({&facts, ++number, p, name});
     }
   }
   return out;
 }
 
-/// Of several persons each circle says whose it is.
 void draw_numbers(cairo_t* c, const Site& site) {
-  for (const auto& [facts, number, p] : numbers_of(site)) {
-    if (site.job.persons.size() > 1) {
-      const double width = text_width(c, facts->name, kKeyLetters);
+  for (const auto& [facts, number, p, name] : numbers_of(c, site)) {
+    if (name > 0) {
       cairo_set_source_rgb(c, 1, 1, 1);
-      cairo_rectangle(c, p.x() + kDisc, p.y() - 1.6, width + 1.6, 3.4);
+      cairo_rectangle(c, p.x() + kDisc, p.y() - 1.6, name, 3.4);
       cairo_fill(c);
       grey(c, 0);
       draw_text(c, p.x() + kDisc + 0.8, p.y() + 1.0, facts->name, kKeyLetters);
@@ -205,14 +242,14 @@ void draw_numbers(cairo_t* c, const Site& site) {
 /// What is written into the plan and has its size on the paper [mm], not in the world.
 std::vector<Point2> written_into(cairo_t* c, const Site& site) {
   std::vector<Point2> out;
-  for (const Numbered& n : numbers_of(site))
-    for (const double side : {-1.0, 1.0}) out.push_back(n.at + side * Point2(kDisc + 0.5, kDisc + 0.5));
-  for (const PersonFacts& facts : site.job.persons) {
-    for (const LengthShown& d : dimensions_of(site, facts)) {
-      const DimensionLine line = line_of(site.plan, d);
-      const double half = std::max(text_width(c, d.text, kNumber), (line.q - line.p).norm()) / 2 + 1.5;
-      for (const double side : {-1.0, 1.0}) out.push_back(0.5 * (line.p + line.q) + side * half * line.along + 2 * line.down);
-    }
+  for (const Numbered& n : numbers_of(c, site)) {
+    out.push_back(n.at - Point2(kDisc + 0.5, kDisc + 0.5));
+    out.push_back(n.at + Point2(kDisc + 0.5 + n.name, kDisc + 0.5));
+  }
+  for (const LengthShown& d : all_dimensions(c, site)) {
+    const DimensionLine line = line_of(site.plan, d);
+    const double half = std::max(text_width(c, d.text, kNumber), (line.q - line.p).norm()) / 2 + 1.5;
+    for (const double side : {-1.0, 1.0}) out.push_back(0.5 * (line.p + line.q) + side * half * line.along + 2 * line.down);
   }
   return out;
 }
@@ -358,8 +395,8 @@ std::vector<std::string> site_diagram(const Stage& stage, const engine::Recordin
         draw_person(c, stage, site.plan, p.name, recording.at(times[i]),
                     {0.92 - 0.42 * static_cast<double>(i + 1) / static_cast<double>(times.size()), 0});
       draw_path(c, site, p);
-      for (const LengthShown& d : dimensions_of(site, p)) draw_dimension(c, site, d);
     }
+    for (const LengthShown& d : all_dimensions(c, site)) draw_dimension(c, site, d);
     draw_numbers(c, site);
     cairo_restore(c);
     draw_key(c, key, key_top);

@@ -16,7 +16,9 @@ namespace {
 
 constexpr double kLeft = 30, kRight = 222, kTop = 30, kBottom = kSheetHeight - 24, kGap = 9;  // [mm]
 
-constexpr double kEventLine = 3.8;  // [mm]
+constexpr double kEventLine = 3.8;                                                   // [mm]
+constexpr double kKeyLetters = 2.8, kKeyRoom = kSheetWidth - kMargin - kRight - 19;  // [mm] of a curve's name
+constexpr double kMarkEvery = 14, kMarkSize = 0.9;  // [mm] on curves beyond the line styles there are
 
 struct Curve {
   std::string name;
@@ -174,7 +176,19 @@ void draw_panel(cairo_t* c, const Panel& panel, const Box& box, const engine::Re
     draw_line(c, kRight + 5, key - 1, kRight + 17, key - 1);
     set_dashes(c, 0);
     grey(c, 0);
-    draw_text(c, kRight + 19, key, panel.curves[i].name, 2.8);
+    if (style >= kLineStyles) {
+      const int shape = style / kLineStyles - 1;
+      draw_mark(c, shape, kRight + 11, key - 1, kMarkSize);
+      // those of two such curves stand apart
+      double next = kLeft + kMarkEvery * (0.3 + 0.25 * (style % kLineStyles));
+      for (std::size_t k = 0; k < panel.curves[i].values.size(); ++k) {
+        const double x = box.x(recording.snapshots[k].time);
+        if (x < next) continue;
+        draw_mark(c, shape, x, box.y(std::clamp(panel.curves[i].values[k], box.floor, box.ceiling)), kMarkSize);
+        next += kMarkEvery;
+      }
+    }
+    draw_text(c, kRight + 19, key, shortened(c, panel.curves[i].name, kKeyLetters, kKeyRoom), kKeyLetters);
     key += 5;
   }
 }
@@ -185,6 +199,7 @@ std::vector<std::string> broken(cairo_t* c, const std::string& text) {
   std::vector<std::string> out{""};
   std::istringstream words(text);
   for (std::string word; words >> word;) {
+    word = shortened(c, word, 2.5, kRoom - text_width(c, "     ", 2.5));
     // a number at the start keeps its two spaces; what goes on stands to the right of it
     const std::string longer = out.back() +
                                (out.back().empty()                         ? ""
@@ -217,7 +232,7 @@ void draw_events(cairo_t* c, const engine::Recording& recording, double end, std
       rooms.erase(rooms.begin());
     if (rooms.empty()) {
       grey(c, 0);
-      draw_text(c, kRight + 5, kBottom + kEventLine, "and later ones: summary.json", 2.5);
+      draw_text(c, kRight + 5, kBottom + 1.5 * kEventLine, "and later ones: summary.json", 2.5);
       break;
     }
     grey(c, 0.45);
@@ -261,7 +276,8 @@ std::vector<std::string> sheet_of(std::vector<Panel> panels, const std::string& 
     std::vector<Room> rooms;
     for (std::size_t i = 0; i < panels.size(); ++i) {
       const double top = kTop + static_cast<double>(i) * (height + kGap);
-      rooms.push_back({top + 3 + 5 * static_cast<double>(panels[i].curves.size()) + 4, top + height + kGap - 3});
+      // below the last one stands that there are more
+      rooms.push_back({top + 3 + 5 * static_cast<double>(panels[i].curves.size()) + 4, std::min(top + height + kGap - 3, kBottom)});
     }
     draw_events(c, recording, end, rooms);
   });
