@@ -184,11 +184,7 @@ engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan
 
   // a run that left something out says so wherever its results go
   std::vector<std::string>& warnings = recording.diagnostics.warnings;
-  std::vector<std::string> seen = scene.stage.warnings;
-  for (const std::string& inside : inside_vehicles(scene.model)) seen.push_back(inside);
-  for (const std::string& warning : seen) {
-    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
-  }
+  warnings = warnings_of(scene, recording);
   if (!wish.quiet && nothing_touched(scene.model, recording))
     fmt::print(stderr, "crashreel: note: nothing touched: no vehicle or person met anything but the ground in this run\n");
   if (!wish.quiet) {
@@ -200,6 +196,14 @@ engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan
                failure->time, failure->body, failure->effect, failure->message);
   }
   return recording;
+}
+
+std::vector<std::string> warnings_of(const scenes::Scene& scene, const engine::Recording& recording) {
+  std::vector<std::string> out = recording.diagnostics.warnings, seen = scene.stage.warnings;
+  for (const std::string& inside : inside_vehicles(scene.model)) seen.push_back(inside);
+  for (const std::string& warning : seen)
+    if (std::find(out.begin(), out.end(), warning) == out.end()) out.push_back(warning);
+  return out;
 }
 
 int exit_code_of(const engine::Recording& recording) {

@@ -52,4 +52,7 @@ enum class Costs { counted, timed };
 engine::Recording run_scene(const scenes::Scene&, const engine::Plan&, const SceneArguments&, Costs = Costs::counted);
 int exit_code_of(const engine::Recording&);
 
+/// What is odd about the run: what it told itself, what the scene leaves out, and who stands inside a vehicle as it begins.
+std::vector<std::string> warnings_of(const scenes::Scene&, const engine::Recording&);
+
 }  // namespace cli

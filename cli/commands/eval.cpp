@@ -31,12 +31,23 @@ std::string text_of(const std::string& file) {
   return text.str();
 }
 
+/// Several names in one argument stand between commas, as values of --grid do.
+std::vector<std::string> separated(const std::vector<std::string>& arguments) {
+  std::vector<std::string> out;
+  for (const std::string& argument : arguments) {
+    std::istringstream names(argument);
+    for (std::string name; std::getline(names >> std::ws, name, ',');)
+      if (!name.empty()) out.push_back(name);
+  }
+  return out;
+}
+
 int evaluate(const EvalWish& wish) {
   const int jobs = wish.jobs.empty() ? study::available_cores() : parse_integer("--jobs", wish.jobs, 1, 1024);
   const scenes::Scene scene = load_scene(wish.scene);
   plan_of(scene);  // refuses effects that do not exist
   inference::Request request = inference::read_request(scene, text_of(wish.parameters));
-  if (!wish.measures.empty()) request.measures = wish.measures;
+  if (!wish.measures.empty()) request.measures = separated(wish.measures);
   std::vector<inference::Answer> answers(request.values.size());
   const auto work = [&](std::size_t k) {
     return inference::as_line("", inference::answer(scene, inference::overrides_of(request, k)));
@@ -51,6 +62,10 @@ int evaluate(const EvalWish& wish) {
   const int failed = inference::failed(request, answers);
   if (failed > 0 && !wish.scene.quiet)
     fmt::print(stderr, "crashreel: {} of {} runs failed; {} says why\n", failed, answers.size(), wish.results);
+  Notices notices;
+  for (const inference::Answer& a : answers) notices.add(a.notes);
+  for (const std::string& notice : wish.scene.quiet ? std::vector<std::string>() : in_words(notices))
+    fmt::print(stderr, "crashreel: warning: {}\n", notice);
   return failed > 0 ? kModelDiverged : kDone;
 }
 
@@ -74,7 +89,7 @@ std::function<int()> declare_eval(Arguments& arguments) {
   arguments.positional("RESULTS", wish->results,
                        "results: always written, begins with \"fail\" where there are none; replaced if it exists");
   arguments.repeatable("--measure", wish->measures, "NAME",
-                       "only these measures, in this order (default: those PARAMS asks for, else all)");
+                       "only these measures, in this order, repeated or A,B (default: those PARAMS asks for, else all)");
   arguments.option("--jobs", wish->jobs, "N", "runs side by side (default: every core)");
   return [wish] { return run(*wish); };
 }

@@ -6,6 +6,7 @@
 #include "cli/inference/ensemble.h"
 #include "cli/inference/observe.h"
 #include "cli/output/json.h"
+#include "cli/scene_run.h"
 #include "cli/study/quantities.h"
 #include "engine/plan.h"
 #include "engine/simulate.h"
@@ -43,10 +44,14 @@ Answer answer(const scenes::Scene& scene, const std::vector<std::string>& overri
       return out;
     }
     const std::vector<engine::Metric> metrics = engine::measure(variant.model, recording);
-    for (const study::Quantity& q : study::quantities_of(variant.model, recording, metrics)) out.outputs[q.name] = q.value;
+    for (const study::Quantity& q : study::quantities_of(variant.model, recording, metrics)) {
+      out.outputs[q.name] = q.value;
+      if (q.so_far) out.notes.so_far.push_back(q.name);
+    }
+    out.notes.warnings = warnings_of(variant, recording);
     for (const scenes::Evidence& e : scene.inference.evidence)
       out.predicted.push_back(observe(e, variant.model, recording, metrics));
-    out.rests = rest_places(variant.model, recording);
+    out.rests = rest_places(variant.model, recording, metrics);
     out.touched = std::any_of(recording.events.begin(), recording.events.end(), is_meeting);
   } catch (const scenes::SceneErrors& error) {
     out.status = "refused: " + first_line(error.what());
@@ -58,6 +63,8 @@ std::string as_line(const std::string& name, const Answer& a) {
   Json json = {{"run", name}, {"status", a.status}, {"touched", a.touched}, {"out", Json::object()}, {"predicted", Json::array()}};
   for (const auto& [key, value] : a.outputs) json["out"][key] = number_json(value);
   if (!a.rests.empty()) json["rests"] = a.rests;
+  if (!a.notes.so_far.empty()) json["so_far"] = a.notes.so_far;
+  if (!a.notes.warnings.empty()) json["warnings"] = a.notes.warnings;
   for (const auto& p : a.predicted) json["predicted"].push_back(p ? numbers_json(*p) : Json(nullptr));
   return json_text(json, -1) + "\n";
 }
@@ -70,7 +77,12 @@ std::optional<std::pair<std::string, Answer>> from_line(const std::string& line)
     out.status = json.at("status").get<std::string>();
     out.touched = json.at("touched").get<bool>();
     for (const auto& [key, value] : json.at("out").get_ref<const Json::object_t&>()) out.outputs[key] = number_of(value);
-    if (const auto rests = json.find("rests"); rests != json.end()) out.rests = rests->get<decltype(out.rests)>();
+    const auto read = [&json](const char* key, auto& into) {
+      if (const auto found = json.find(key); found != json.end()) found->get_to(into);
+    };
+    read("rests", out.rests);
+    read("so_far", out.notes.so_far);
+    read("warnings", out.notes.warnings);
     for (const Json& p : json.at("predicted").get_ref<const Json::array_t&>()) {
       if (p.is_null()) {
         out.predicted.emplace_back();

@@ -153,7 +153,7 @@ std::string results(const Request& request, const std::vector<Answer>& answers) 
       request.measures.empty() ? std::vector<std::string>(all.begin(), all.end()) : request.measures;
   std::string out = "row,status";
   for (const std::string& name : columns) out += "," + quoted(name);
-  out += "\n";
+  out += ",notes\n";
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const std::string reason = reason_of(request, answers[i]);
     out += fmt::format("{},{}", i + 1, quoted(reason == "ok" ? reason : "fail: " + reason));
@@ -162,7 +162,7 @@ std::string results(const Request& request, const std::vector<Answer>& answers) 
       const bool there = found != answers[i].outputs.end() && std::isfinite(found->second);
       out += "," + (there ? fmt::format("{}", found->second) : std::string());
     }
-    out += "\n";
+    out += "," + quoted(as_field(answers[i].notes)) + "\n";
   }
   // the first word says that not all is well
   return failed(request, answers) == static_cast<int>(answers.size()) ? "fail\n" + out : out;

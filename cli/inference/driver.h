@@ -24,7 +24,7 @@ Request read_request(const scenes::Scene&, const std::string& text);
 std::vector<std::string> overrides_of(const Request&, std::size_t run);
 
 /// Results as the caller expects them. Of Dakota's format "VALUE NAME" lines, or "fail" and the reason; of a table
-/// row,status,MEASURE... with a row a run, in order.
+/// row,status,MEASURE...,notes with a row a run, in order.
 std::string results(const Request&, const std::vector<Answer>&);
 /// How many answers lack what was asked for.
 int failed(const Request&, const std::vector<Answer>&);

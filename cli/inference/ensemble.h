@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cli/output/lock.h"
+#include "cli/output/notices.h"
 #include "cli/progress.h"
 #include "scenes/scene.h"
 
@@ -22,8 +23,9 @@ struct Answer {
   std::string status = "ok";                                  // else why there is none: "diverged at 0.431 s, body ..."
   std::map<std::string, double> outputs;                      // measures by name ("throw_distance_m", "delta_v_mps red")
   std::vector<std::optional<std::vector<double>>> predicted;  // of each piece of evidence
-  std::map<std::string, std::array<double, 2>> rests;         // [m] where each person, vehicle and free body was at the end
+  std::map<std::string, std::array<double, 2>> rests;         // [m] where each person, vehicle and free body came to rest
   bool touched = false;                                       // a person and a vehicle, or two vehicles, met
+  RunNotes notes;
   bool ok() const { return status == "ok"; }
 };
 

@@ -151,6 +151,7 @@ std::vector<std::string> sentences(const scenes::Scene& scene, const Prior& prio
                   seen, scene.inference.evidence.size() > 1 ? " independent" : "", assumed));
   int failed = 0;
   for (const auto& [reason, count] : fit.failures) failed += count;
+  for (std::string& notice : in_words(notices_of(fit.table))) out.push_back(std::move(notice));
   out.push_back(fmt::format("{} runs, of which {:.0f} effective; {} gave no answer and count as not explaining the evidence{}.",
                             fit.table.rows.size(), fit.posterior.effective, failed,
                             failed > 0 ? " (commonest reason: " + fit.failures.front().first + ")" : ""));
@@ -181,6 +182,7 @@ nlohmann::ordered_json fit_json(const scenes::Scene& scene, const Prior& prior, 
   out["runs"] = fit.table.rows.size();
   out["failed"] = Json::array();
   for (const auto& [reason, count] : fit.failures) out["failed"].push_back({{"reason", reason}, {"runs", count}});
+  add_notices(notices_of(fit.table), out);
   out["best"] = {{"misfit", number_json(fit.best_misfit)}, {"p_value", fit.best_p}, {"run", fit.best + 1}, {"file", "best.toml"}};
   if (!but_for.empty()) {
     out["but_for"] = Json::array();

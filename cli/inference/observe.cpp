@@ -191,12 +191,16 @@ Prediction observe(const Evidence& e, const Model& model, const Recording& recor
   return std::nullopt;
 }
 
-std::map<std::string, std::array<double, 2>> rest_places(const Model& model, const Recording& recording) {
+std::map<std::string, std::array<double, 2>> rest_places(const Model& model, const Recording& recording,
+                                                         const std::vector<engine::Metric>& metrics) {
+  constexpr double kWent = 1e-3;  // [m]
   std::map<std::string, std::array<double, 2>> out;
-  const Snapshot& end = recording.snapshots.back();
+  const Snapshot &start = recording.snapshots.front(), &end = recording.snapshots.back();
   const auto add = [&](const std::string& name, const std::vector<int>& bodies) {
     const Vec3 p = centre(model, bodies, end);
-    out[name] = {p.x(), p.y()};
+    const bool came_to_rest =
+        std::any_of(metrics.begin(), metrics.end(), [&](const engine::Metric& m) { return m.key == "rest_s" && m.object == name; });
+    if (came_to_rest || (p - centre(model, bodies, start)).norm() < kWent) out[name] = {p.x(), p.y()};
   };
   for (const auto& person : model.persons) add(person.name, person.bodies);
   for (const auto& vehicle : model.vehicles) add(vehicle.name, {vehicle.body});

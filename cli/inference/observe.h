@@ -20,8 +20,10 @@ namespace cli::inference {
 std::optional<std::vector<double>> observe(const scenes::Evidence&, const engine::Model&, const engine::Recording&,
                                            const std::vector<engine::Metric>& metrics);
 
-/// World x, y [m] of the centre of mass of every person, vehicle and free body at the end of the run.
-std::map<std::string, std::array<double, 2>> rest_places(const engine::Model&, const engine::Recording&);
+/// World x, y [m] of the centre of mass at the end of the run, of every person, vehicle and free body that rests then, or never
+/// moved.
+std::map<std::string, std::array<double, 2>> rest_places(const engine::Model&, const engine::Recording&,
+                                                         const std::vector<engine::Metric>& metrics);
 
 /// How far off a run is, in tolerances: the length of the vector of its components' residuals. What a run does not have at all is
 /// kMissing tolerances off; a touch that was or was not counts kWrong.

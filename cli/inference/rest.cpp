@@ -112,6 +112,7 @@ Repeated repeat(const scenes::Scene& scene, const Prior& prior, const Sample& sa
   out.recording = engine::simulate(out.scene.model, engine::compile(out.scene.model));
   out.label = fmt::format("run {} at {:g} % of the {}, {:.3g} {}", run + 1, 100 * p.share, study::words_of(sample.main),
                           values[run], study::unit_of(sample.main));
+  if (!sample.table.rows[run].answer.notes.so_far.empty()) out.label += ", still moving at the end";
   return out;
 }
 
@@ -160,15 +161,18 @@ bool holds(const render::RestRegion& region, const Point2& p) {
 
 std::vector<render::RestCloud> clouds_of(const Table& table) {
   std::map<std::string, std::vector<Point2>> places;
-  for (const Row& row : table.rows)
-    if (row.answer.ok())
-      for (const auto& [name, place] : row.answer.rests) places[name].emplace_back(place[0], place[1]);
+  std::size_t answered = 0;
+  for (const Row& row : table.rows) {
+    answered += row.answer.ok();
+    for (const auto& [name, place] : row.answer.rests) places[name].emplace_back(place[0], place[1]);
+  }
   std::vector<render::RestCloud> out;
   for (auto& [name, all] : places) {
     const auto far = [&first = all.front()](const Point2& p) { return (p - first).norm() > kSame; };
     if (std::none_of(all.begin(), all.end(), far)) continue;
     std::vector<render::RestRegion> regions{region_of(all, 0.5), region_of(all, 0.95)};
-    out.push_back({name, std::move(all), std::move(regions)});
+    const std::size_t moving = answered - all.size();
+    out.push_back({name, std::move(all), moving, std::move(regions)});
   }
   return out;
 }

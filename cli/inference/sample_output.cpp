@@ -208,7 +208,7 @@ std::string in_columns(const charts::Table& table) {
 }
 
 std::vector<std::string> findings(const Prior& prior, const Sample& sample, const Output* main) {
-  std::vector<std::string> out;
+  std::vector<std::string> out = in_words(notices_of(sample.table));
   if (main && main->runs > 0 && is_chosen(sample)) {
     std::vector<double> values = column(sample.table, main->name);
     std::erase_if(values, [](double v) { return !std::isfinite(v); });
@@ -284,6 +284,7 @@ nlohmann::ordered_json sample_json(const scenes::Scene& scene, const Prior& prio
   out["runs"] = sample.table.rows.size();
   out["failed"] = Json::array();
   for (const auto& [reason, count] : sample.failures) out["failed"].push_back({{"reason", reason}, {"runs", count}});
+  add_notices(notices_of(sample.table), out);
   out["inputs"] = Json::object();
   for (const auto& u : prior.inputs()) out["inputs"][u.key] = {{"unit", u.si_unit}, {"prior", in_words(u)}};
   out["outputs"] = Json::object();

@@ -56,7 +56,7 @@ std::string runs_csv(const Prior& prior, const std::vector<scenes::Evidence>& ev
   for (const auto& input : prior.inputs()) out += "," + quoted("in." + input.key);
   for (const std::string& name : outputs) out += "," + quoted("out." + name);
   for (const auto& e : evidence) out += "," + quoted("misfit." + e.name);
-  out += "\n";
+  out += ",notes\n";
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const Row& row = table.rows[i];
     out += fmt::format("{},{}", i + 1, quoted(row.answer.status));
@@ -71,8 +71,14 @@ std::string runs_csv(const Prior& prior, const std::vector<scenes::Evidence>& ev
       out += "," + (found == row.answer.outputs.end() ? "" : number(found->second));
     }
     for (std::size_t e = 0; e < evidence.size(); ++e) out += "," + (e < row.misfits.size() ? number(row.misfits[e]) : "");
-    out += "\n";
+    out += "," + quoted(as_field(row.answer.notes)) + "\n";
   }
+  return out;
+}
+
+Notices notices_of(const Table& table) {
+  Notices out;
+  for (const Row& row : table.rows) out.add(row.answer.notes);
   return out;
 }
 

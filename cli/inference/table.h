@@ -32,8 +32,11 @@ std::vector<std::string> outputs_of(const Table&);
 /// One output over the rows; NaN where a run does not have it.
 std::vector<double> column(const Table&, const std::string& output);
 
-/// run,status,in.<key>...,out.<metric>...,misfit.<evidence>...
+/// run,status,in.<key>...,out.<metric>...,misfit.<evidence>...,notes
 std::string runs_csv(const Prior&, const std::vector<scenes::Evidence>&, const Table&);
+
+/// What the runs need beside their numbers.
+Notices notices_of(const Table&);
 
 /// A number and its unit in the way of the scene's author: "43.2 km/h" of 12 m/s.
 std::string told(double si, const scenes::WrittenUnit&, double resolution);

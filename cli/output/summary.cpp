@@ -7,6 +7,7 @@
 
 #include "cli/output/csv.h"
 #include "cli/output/json.h"
+#include "cli/output/notices.h"
 #include "cli/scene_run.h"
 #include "engine/geometry/panels.h"
 #include "engine/measure/definitions.h"
@@ -350,16 +351,6 @@ bool lacks(const Absent& absent, const char* key, const std::string& object) {
   return std::any_of(absent.begin(), absent.end(), [&](const auto& a) { return a.key == key && a.object == object; });
 }
 
-/// Beside a way to rest of who does not rest yet: a longer run gives another number. A roll that ends on the wheels is over.
-const char* unfinished(const engine::Metric& metric, const std::vector<engine::Metric>& all, const Absent& absent) {
-  const auto on_wheels = [&](const engine::Metric& m) {
-    return m.key == "quarter_turns" && m.object == metric.object && std::remainder(m.value, 4) == 0;
-  };
-  const bool rolls = metric.key == "roll_distance_m" && std::none_of(all.begin(), all.end(), on_wheels);
-  const bool to_rest = metric.key == "throw_distance_m" || metric.key == "slide_m" || rolls;
-  return to_rest && lacks(absent, "rest_s", metric.object) ? " so far, still moving at the end" : "";
-}
-
 /// Beside the way of a phase that leads back: the ways are parts of the line from first touch to rest.
 const char* backwards(const engine::Metric& metric) {
   constexpr double kSeen = 0.005;  // [m] less is printed as none
@@ -399,7 +390,8 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
     line(metric.object.empty() ? metric.key : metric.key + " " + metric.object,
          metric.text.empty()
              ? digits_of(metric, known, is_person(scene, metric.object)) + decided(metric, metrics, scene, recording) +
-                   unfinished(metric, metrics, absent) + backwards(metric) + dragged(metric, scene, recording)
+                   (is_so_far(metric, metrics, absent) ? " so far, still moving at the end" : "") + backwards(metric) +
+                   dragged(metric, scene, recording)
              : metric.text);
   }
   // whose it is, where another has it

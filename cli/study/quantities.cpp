@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "cli/output/csv.h"
+#include "cli/output/notices.h"
 #include "engine/measure/definitions.h"
 
 namespace cli::study {
@@ -42,7 +44,7 @@ std::vector<Quantity> quantities_of(const engine::Model& model, const engine::Re
     // in every run the same name: of two, one may not come to rest in some
     const bool alone = owners == 1 || (std::none_of(metrics.begin(), metrics.end(), anothers) &&
                                        std::none_of(absent.begin(), absent.end(), anothers));
-    out.push_back({alone ? metric.key : metric.key + " " + metric.object, metric.value});
+    out.push_back({alone ? metric.key : metric.key + " " + metric.object, metric.value, is_so_far(metric, metrics, absent)});
   }
   if (!model.joints.empty()) out.push_back({"joint_gap_m", recording.diagnostics.max_joint_gap});
   out.push_back({"energy_residual_J", std::abs(recording.snapshots.back().energies.residual)});
@@ -51,6 +53,12 @@ std::vector<Quantity> quantities_of(const engine::Model& model, const engine::Re
 
 bool is_defect(const std::string& quantity) {
   return std::find(std::begin(kDefects), std::end(kDefects), quantity) != std::end(kDefects);
+}
+
+double widest_error(const std::string& quantity, double value) {
+  if (key_of(quantity) == "turned_deg") return std::max(value, 180 - value);
+  const bool direction = engine::turned_to(quantity, 270, 0) < 0;
+  return direction ? 180 : std::numeric_limits<double>::infinity();
 }
 
 bool is_on_screen(const std::string& quantity) {

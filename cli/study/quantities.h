@@ -11,8 +11,9 @@
 namespace cli::study {
 
 struct Quantity {
-  std::string name;  // "throw_distance_m", "delta_v_mps red": key of summary.json, and whose, where several may have it
-  double value = 0;  // in the unit of its name
+  std::string name;     // "throw_distance_m", "delta_v_mps red": key of summary.json, and whose, where several may have it
+  double value = 0;     // in the unit of its name
+  bool so_far = false;  // a way to rest of who does not rest yet (cli/output/notices.h)
 };
 
 /// Measures first, then joint_gap_m and energy_residual_J, which are 0 in a perfect run.
@@ -22,6 +23,8 @@ std::vector<Quantity> quantities_of(const engine::Model&, const engine::Recordin
 
 /// True for the quantities whose right value is 0.
 bool is_defect(const std::string& quantity);
+/// How far from `value` the quantity can be at all: an angle of 0 to 180 degrees, or a direction; infinite for all others.
+double widest_error(const std::string& quantity, double value);
 /// Whether a screen or page with little room shows it; a quantity that is no measure always is.
 bool is_on_screen(const std::string& quantity);
 

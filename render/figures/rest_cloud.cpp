@@ -63,8 +63,10 @@ void draw_key(cairo_t* c, const RestFigure& figure) {
     y += kKeyRow;
   };
   grey(c, 0);
-  for (const RestCloud& cloud : figure.clouds)
+  for (const RestCloud& cloud : figure.clouds) {
     line(fmt::format("{}: {} runs, thick line round the densest 50 %, thin round 95 %", cloud.name, cloud.places.size()));
+    if (cloud.moving > 0) line(fmt::format("{} runs in which {} still moves at the end are left out", cloud.moving, cloud.name));
+  }
   line("filled: " + figure.middle);
   for (const RestGhost& g : figure.ghosts) line("outlined: " + g.label);
 }

@@ -20,6 +20,7 @@ struct RestRegion {
 struct RestCloud {
   std::string name;            // of the person, vehicle or body
   std::vector<Point2> places;  // [m] world, a run each
+  std::size_t moving = 0;      // runs that ended before it came to rest, which are left out
   std::vector<RestRegion> regions;
 };
 

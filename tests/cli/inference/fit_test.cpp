@@ -211,7 +211,7 @@ TEST(Eval, ManyRowsInOneCallInTheirOrder) {
       run(folder, {"eval", kGallery + "fit_puck.toml", "rows.csv", "results.csv", "--measure", "travel_m", "--jobs", "2"});
   EXPECT_EQ(result.code, 4);  // one of them failed
   const std::string text = contents(folder / "results.csv");
-  EXPECT_THAT(text, StartsWith("row,status,travel_m\n1,ok,10.1"));
+  EXPECT_THAT(text, StartsWith("row,status,travel_m,notes\n1,ok,10.1"));
   EXPECT_THAT(text, HasSubstr("\n2,fail: refused: "));
   EXPECT_THAT(text, HasSubstr("\n3,ok,29.1"));
 }
