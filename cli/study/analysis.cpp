@@ -50,10 +50,12 @@ double median_of_finest(const std::vector<Level>& levels) {
   return median(finest);
 }
 
-/// The limit another scheme tends to.
+/// The limit another scheme tends to, and how far that may be off.
 struct SecondOpinion {
   std::string scheme;
   double limit = 0, band = 0;
+  bool range = false;
+  double beyond = 0;
 };
 
 /// Of the other schemes that take another way to the answer, the one that is surest of it. One whose finest run is that of the
@@ -67,7 +69,8 @@ std::optional<SecondOpinion> second_opinion(const Study& study, const Judgement&
     const std::vector<Level> levels = levels_of(other, judgement.quantity, judgement.cloud, at);
     if (levels.size() < 2 || (levels.back().value == own_finest && judgement.convergence.trust != Trust::exact)) continue;
     const Convergence c = converge(levels);
-    if (!out || c.band.back() < out->band) out = SecondOpinion{other.series.name, c.limit, c.band.back()};
+    if (!out || c.band.back() < out->band)
+      out = SecondOpinion{other.series.name, c.limit, c.band.back(), c.trust == Trust::range, c.beyond};
   }
   return out;
 }
@@ -83,11 +86,11 @@ void ask_second_scheme(const Study& study, Judgement& judgement, const std::vect
   judgement.second_scheme = second->scheme;
   const double apart = std::abs(c.limit - second->limit);
   judgement.schemes_agree = apart <= c.band.back() + second->band;
-  if (!judgement.schemes_agree) {
-    // they tend to different answers: no band may be narrower than what lies between them, nor leave the other out
+  if (!judgement.schemes_agree || (c.trust == Trust::range && second->range)) {
+    // they tend to different answers, or neither closes in on one: the range holds what both say
     c.trust = Trust::range;
     for (std::size_t i = 0; i < levels.size(); ++i)
-      c.band[i] = std::max({c.band[i], apart + second->band, std::abs(levels[i].value - second->limit) + second->band});
+      c.band[i] = std::max(c.band[i], std::abs(levels[i].value - second->limit) + (second->range ? second->beyond : second->band));
   } else if (c.trust == Trust::range && second->band < c.band.back()) {
     judgement.error_kind = "second_scheme";
     c.limit = second->limit;
@@ -153,10 +156,14 @@ void fill_errors(Study& study, const Judgement& judgement, const std::vector<std
       a.uncertainty = std::abs(a.error) + judgement.beside_the_step() +
                       (judgement.error_kind == "closed_form" || judgement.error_kind == "exact_zero" ? 0 : reference_band);
     }
-  for (std::size_t i = 0; i < at.size(); ++i)
-    study.series[0].settings[at[i]].answers[judgement.quantity].uncertainty =
-        is_defect(judgement.quantity) ? std::abs(study.series[0].settings[at[i]].answers[judgement.quantity].value)
-                                      : judgement.convergence.band[i] + judgement.beside_the_step();
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    Answer& a = study.series[0].settings[at[i]].answers[judgement.quantity];
+    a.uncertainty = is_defect(judgement.quantity) ? std::abs(a.value) : judgement.convergence.band[i] + judgement.beside_the_step();
+  }
+  for (SeriesResult& series : study.series)
+    for (SettingResult& result : series.settings)
+      if (const auto found = result.answers.find(judgement.quantity); found != result.answers.end())
+        found->second.uncertainty = std::min(found->second.uncertainty, widest_error(judgement.quantity, found->second.value));
 }
 
 }  // namespace
@@ -255,6 +262,8 @@ void judge(Study& study, const std::map<std::string, double>& closed_form) {
     if (levels.size() < 2) continue;
     judgement.convergence = converge(levels);
     ask_second_scheme(study, judgement, levels);
+    for (std::size_t i = 0; i < levels.size(); ++i)
+      judgement.convergence.band[i] = std::min(judgement.convergence.band[i], widest_error(name, levels[i].value));
     if (!judgement.cloud && !is_defect(name)) judgement.besides = besides_the_step(study, name);
     settle_reference(judgement, levels, closed_form);
     fill_errors(study, judgement, at);

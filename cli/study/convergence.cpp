@@ -67,6 +67,24 @@ double range_of(const std::vector<Level>& levels, std::size_t first) {
   return high - low;
 }
 
+/// Distance from one answer to the farthest of those from `first` on.
+double farthest_from(const std::vector<Level>& levels, std::size_t i, std::size_t first) {
+  double out = 0;
+  for (std::size_t k = first; k < levels.size(); ++k) out = std::max(out, std::abs(levels[k].value - levels[i].value));
+  return out;
+}
+
+/// How far beyond the finest answer the limit lies where the last three still go one way, 0 where they do not: what their changes
+/// add up to if they go on falling as they do, but no more than they have come.
+double beyond_the_finest(const std::vector<Level>& levels) {
+  if (levels.size() < 3) return range_of(levels, 0);
+  const std::size_t n = levels.size();
+  const double before = levels[n - 2].value - levels[n - 3].value, last = levels[n - 1].value - levels[n - 2].value;
+  if (!(before * last > 0)) return 0;
+  const double come = std::abs(before) + std::abs(last), ratio = last / before;
+  return ratio < 1 ? std::min(come, kSafety * std::abs(last) * ratio / (1 - ratio)) : come;
+}
+
 double rounding_of(const std::vector<Level>& levels) {
   double largest = 0;
   for (const Level& level : levels) largest = std::max(largest, std::abs(level.value));
@@ -79,11 +97,12 @@ Convergence by_range(const std::vector<Level>& levels, double rounding) {
   out.limit = levels.back().value;
   const std::size_t n = levels.size();
   out.trust = range_of(levels, 0) <= 10 * rounding ? Trust::exact : Trust::range;
+  out.beyond = beyond_the_finest(levels);
   for (std::size_t i = 0; i < n; ++i) {
     out.error.push_back(levels[i].value - out.limit);
-    // the limit may lie beyond the finest answers: the range of the three finest once more
+    // holds what this and finer steps answer, and the limit where that lies beyond the finest
     const std::size_t third = n > 3 ? n - 3 : 0;
-    out.band.push_back(std::max(range_of(levels, std::min(i, third)) + range_of(levels, third), rounding));
+    out.band.push_back(std::max(farthest_from(levels, i, std::min(i, third)) + out.beyond, rounding));
   }
   return out;
 }

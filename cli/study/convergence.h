@@ -27,15 +27,17 @@ struct Convergence {
   int first = 0, last = 0;    // levels the order was fitted over, both included
   std::vector<double> error;  // value - limit, per level
   std::vector<double> band;   // half width that covers the limit, per level
+  double beyond = 0;          // of a range: how far the limit may lie beyond the finest answer
 };
 
 /// At least two levels, coarse to fine, steps strictly falling.
 /// value = limit + C step^order, order by least squares over the logarithms of the differences, in windows of four levels or more
 /// that end at the finest level which differs by more than rounding. The longest window whose differences
 /// fall with one order is taken. Band: 1.25 times the error where the order is steady (Roache 1994), with the misfit added (Eca and
-/// Hoekstra 2014). Elsewhere: the range of this and all finer answers, at least the three finest, doubled for the finest ones.
+/// Hoekstra 2014). Elsewhere: the distance to the farthest of all finer answers, at least of the three finest; where these still go
+/// one way, with what their changes add up to if they go on falling.
 Convergence converge(const std::vector<Level>& levels);
-/// The same without an order: the range of this and all finer answers.
+/// The same without an order.
 Convergence range_only(const std::vector<Level>& levels);
 
 constexpr double kSafety = 1.25;  // on an estimated error: Roache's factor where the order is known from more than two levels

@@ -113,7 +113,9 @@ charts::Bars uncertainty_bars(const Study& study) {
     const Answer* a = answer_of(*own, j.quantity);
     if (!a) continue;
     const double input = study.input_uncertainty(j.quantity), sensitivity = (a->high - a->low) / 2;
-    const double size = std::max({std::abs(a->value), a->uncertainty + sensitivity + input, 1e-9});
+    // of a place that happens to be nought: nanometres are no full bar
+    constexpr double kLeast = 1e-3;  // in its unit, what could be measured
+    const double size = std::max({std::abs(a->value), a->uncertainty + sensitivity + input, kLeast});
     const std::string unit = unit_of(j.quantity);
     bars.rows.push_back({words_of(j.quantity),
                          {a->uncertainty / size, sensitivity / size, input / size},
@@ -128,7 +130,8 @@ charts::Table convergence_table(const Study& study, const Judgement& j) {
   const std::string unit = unit_of(j.quantity);
   charts::Table table;
   table.title = fmt::format("Convergence of the {}", words_of(j.quantity));
-  table.head = {ladder.series.varies, "answer", "change", "band \u00b1", "spread \u00b1", "contacts", "time", "steps"};
+  table.head = {ladder.series.varies, "answer",   "change", j.convergence.trust == Trust::range ? "range \u00b1" : "band \u00b1",
+                "spread \u00b1",      "contacts", "time",   "steps"};
   const Answer* before = nullptr;
   const double finest = std::max(j.convergence.band.back(), j.beside_the_step());
   for (std::size_t i = 0; i < ladder.settings.size(); ++i) {

@@ -225,7 +225,8 @@ void draw_chart(const Pen& pen, const Chart& chart, const Box& box) {
     cairo_stroke(pen.cairo());
     const bool left = x.at(mark.x) > plot.x + 0.6 * plot.width;
     const Extent word = pen.measure(mark.text, kTextSize, true);
-    const Box place{left ? x.at(mark.x) - 10 - word.width : x.at(mark.x) + 10, y.at(mark.y) - 14, word.width, word.height};
+    const double top = std::clamp(y.at(mark.y) - 14, plot.y + 2, plot.bottom() - 2 - word.height);  // the frame cuts the word
+    const Box place{left ? x.at(mark.x) - 10 - word.width : x.at(mark.x) + 10, top, word.width, word.height};
     cairo_set_source_rgba(pen.cairo(), 1, 1, 1, 0.8);  // lines may pass below it
     cairo_rectangle(pen.cairo(), place.x - 1, place.y, place.width + 2, place.height);
     cairo_fill(pen.cairo());

@@ -56,6 +56,25 @@ TEST(Convergence, PrintsARangeWhereTheErrorHasNoOrder) {
   EXPECT_TRUE(std::isnan(c.order));
 }
 
+TEST(Convergence, ARangeIsNoWiderThanWhatTheAnswersSpan) {
+  std::vector<Level> scattered;
+  const double values[] = {0, 10, 2, 8, 3, 7, 5};  // the three finest go to and fro
+  for (int k = 0; k < 7; ++k) scattered.push_back({4e-3 / std::pow(2.0, k), values[k], true});
+  const Convergence c = converge(scattered);
+  ASSERT_EQ(c.trust, Trust::range);
+  EXPECT_DOUBLE_EQ(c.band[0], 10);  // from 0 to the farthest of the finer answers
+  EXPECT_DOUBLE_EQ(c.band[2], 6);   // from 2 to 8
+  EXPECT_DOUBLE_EQ(c.band[6], 2);   // of the three finest: from 5 to 7 and 3
+  // those that still go one way have their limit beyond them
+  const double drifting[] = {0, 10, 2, 8, 3, 4, 5};
+  for (std::size_t k = 0; k < 7; ++k) scattered[k].value = drifting[k];
+  EXPECT_DOUBLE_EQ(converge(scattered).band[6], 2 + 2);
+  // 3 and 1.5 add up to 1.5 more if they go on halving
+  const double closing[] = {0, 10, 2, 20, 14, 17, 18.5};
+  for (std::size_t k = 0; k < 7; ++k) scattered[k].value = closing[k];
+  EXPECT_DOUBLE_EQ(converge(scattered).band[6], 4.5 + kSafety * 1.5);
+}
+
 TEST(Convergence, PrintsARangeWhereTheContactsChange) {
   auto levels = ladder([](double h) { return h; });
   ASSERT_EQ(converge(levels).trust, Trust::steady);
@@ -103,6 +122,52 @@ TEST(Statistics, PercentilesAreLinearBetweenMembers) {
   EXPECT_DOUBLE_EQ(median({4, 1, 2, 3}), 2.5);
   EXPECT_DOUBLE_EQ(percentile({0, 10}, 0.05), 0.5);
   EXPECT_TRUE(std::isnan(median({})));
+}
+
+/// Neither scheme closes in on an answer: the range holds what both say, and is not their ranges put end to end.
+TEST(Judge, ARangeOfTwoSchemesIsWhatBothSpan) {
+  Study study;
+  for (const bool other : {false, true}) {
+    SeriesResult ladder;
+    ladder.series.steps = true;
+    ladder.series.name = other ? "rk4" : "stepping";
+    const double travel[] = {14.0, 14.4, 17.4, 15.1, 16.2};
+    for (int k = 0; k < 5; ++k) {
+      SettingResult result;
+      result.setting.fineness = 4e-3 / std::pow(2.0, k);
+      const double value = travel[k] + (other ? 0.3 : 0);
+      result.answers["travel_m"] = {true, value, value, value, value, 0, 0};
+      ladder.settings.push_back(result);
+    }
+    study.series.push_back(ladder);
+  }
+  judge(study, {});
+  EXPECT_NEAR(study.series[0].settings[0].answers.at("travel_m").uncertainty, 17.4 - 14, 1e-9);
+}
+
+/// Two angles between 0 and 180 degrees are never farther apart than that, whatever two schemes say.
+TEST(Judge, NoErrorIsWiderThanItsMeasure) {
+  Study study;
+  for (const bool other : {false, true}) {
+    SeriesResult ladder;
+    ladder.series.steps = true;
+    ladder.series.name = other ? "rk4" : "stepping";
+    const double turned[] = {20, 170, 30, 160, 100};
+    for (int k = 0; k < 5; ++k) {
+      SettingResult result;
+      result.setting.fineness = 4e-3 / std::pow(2.0, k);
+      const double value = other ? 180 - turned[k] : turned[k];
+      result.answers["turned_deg"] = {true, value, value - 60, value + 60, value, 0, 0};
+      ladder.settings.push_back(result);
+    }
+    study.series.push_back(ladder);
+  }
+  judge(study, {});
+  for (const SeriesResult& series : study.series)
+    for (const SettingResult& setting : series.settings) {
+      const Answer& answer = setting.answers.at("turned_deg");
+      EXPECT_LE(answer.uncertainty, std::max(answer.value, 180 - answer.value)) << series.series.name;
+    }
 }
 
 /// A direction straight back lies on both sides of 180 degrees; the study of it may not tell a whole turn of error.
