@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "cli/output/notices.h"
 #include "cli/study/convergence.h"
 #include "cli/study/series.h"
 #include "cli/study/trial.h"
@@ -61,16 +63,18 @@ struct Judgement {
   double beside_the_step() const;  // sum of `besides`
 };
 
-/// One end of an input's range, and what it does.
+/// An input's range, and what it does.
 struct InputRange {
   std::string key, low, high;                // "vehicle.car.speed", "39 km/h", "41 km/h"
-  std::map<std::string, double> half_width;  // per quantity
+  std::map<std::string, double> half_width;  // per quantity: half of what both ends and the scene's own value span
+  std::set<std::string> turns;               // quantities whose own answer lies outside of those of the ends: not monotonic
 };
 
 struct Study {
   std::vector<SeriesResult> series;   // the scene's own ladder first
   std::vector<Judgement> judgements;  // per quantity, measures first
   std::vector<InputRange> inputs;
+  Notices notices;              // of all runs
   bool rigid_contacts = false;  // the contact solver decides what contacts do
   double interval = 0;          // [s] between recorded instants in all runs but those that vary it
   const Judgement* find(const std::string& quantity) const;

@@ -58,14 +58,16 @@ Json judgement_json(const Judgement& j) {
           {"schemes_agree", j.second_scheme.empty() ? Json(nullptr) : Json(j.schemes_agree)}};
 }
 
-/// What each range of --input does to each measure: half the difference between its ends.
+/// What each range of --input does to each measure.
 std::string inputs_text(const Study& study, std::size_t widest) {
   if (study.inputs.empty()) return "";
-  std::string out = "  ranges given with --input, and half of what each moves a measure by:\n";
+  std::string out = "  ranges given with --input, and half of what both ends and the scene's own value span:\n";
   for (const InputRange& input : study.inputs) {
     out += fmt::format("  {} from {} to {}\n", input.key, input.low, input.high);
     for (const auto& [quantity, half_width] : input.half_width)
-      if (!is_defect(quantity)) out += fmt::format("    {:<{}} {:>12.3g}\n", quantity, widest, half_width);
+      if (!is_defect(quantity))
+        out += fmt::format("    {:<{}} {:>12.3g}{}\n", quantity, widest, half_width,
+                           input.turns.contains(quantity) ? "  at least: not monotonic, it turns within the range" : "");
   }
   return out;
 }
@@ -126,9 +128,14 @@ nlohmann::ordered_json study_json(const scenes::Scene& scene, const Study& study
     for (std::size_t i = 0; i < series.settings.size(); ++i) one["contact_sequences"][letters[i]] = series.settings[i].contacts;
     out["series"].push_back(one);
   }
+  add_notices(study.notices, out);
   out["inputs"] = Json::array();
   for (const InputRange& input : study.inputs)
-    out["inputs"].push_back({{"key", input.key}, {"low", input.low}, {"high", input.high}, {"half_width", input.half_width}});
+    out["inputs"].push_back({{"key", input.key},
+                             {"low", input.low},
+                             {"high", input.high},
+                             {"half_width", input.half_width},
+                             {"not_monotonic", input.turns}});
   return out;
 }
 
@@ -151,6 +158,7 @@ std::string study_text(const scenes::Scene& scene, const Study& study) {
         j.error_kind == "closed_form" ? fmt::format("closed form, error {:.3g}", a.error) : j.error_kind);
   }
   out += inputs_text(study, widest);
+  for (const std::string& notice : in_words(study.notices)) out += "  " + notice + "\n";
   if (const Judgement* j = study.find(main_quantity(study))) {
     const std::vector<std::string> sentences = findings(study, *j);  // what time buys, what the answer hangs on, then more
     for (std::size_t i = 0; i < std::min<std::size_t>(2, sentences.size()); ++i)

@@ -22,7 +22,8 @@ struct RunWish {
 /// Runs every setting with its ensemble, in parallel; what has been run before is not run again.
 std::vector<SettingResult> run_settings(const scenes::Scene&, const std::vector<Setting>&, const RunWish&);
 
-/// Refuses inputs that are no range, name no value of the scene, or that the scene does not take. Throws UsageError in words of
+/// Refuses inputs that are no rising range round the scene's own value, name no value of the scene, or that the scene does not
+/// take. Throws UsageError in words of
 /// --input.
 void check_inputs(const scenes::Scene&, const std::vector<std::string>& inputs);
 

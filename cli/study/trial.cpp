@@ -69,7 +69,7 @@ Outcome run(const Trial& trial) {
 void store(const Outcome& outcome, const std::filesystem::path& file) {
   nlohmann::ordered_json json;
   json["schema"] = 1;
-  for (const Quantity& q : outcome.quantities) json["quantities"].push_back({q.name, q.value});
+  for (const Quantity& q : outcome.quantities) json["quantities"].push_back({q.name, q.value, q.so_far});
   json["contacts"] = outcome.contacts;
   json["wall_s"] = outcome.wall_s;
   json["instructions"] = outcome.instructions;
@@ -90,8 +90,9 @@ bool recall(const std::filesystem::path& file, Outcome& outcome) {
   try {
     Outcome read;
     for (const auto& q : json.at("quantities"))
-      read.quantities.push_back(
-          {q.at(0).get<std::string>(), q.at(1).is_number() ? q.at(1).get<double>() : std::numeric_limits<double>::quiet_NaN()});
+      read.quantities.push_back({q.at(0).get<std::string>(),
+                                 q.at(1).is_number() ? q.at(1).get<double>() : std::numeric_limits<double>::quiet_NaN(),
+                                 q.at(2).get<bool>()});
     read.contacts = json.at("contacts").get<std::vector<std::string>>();
     read.wall_s = json.at("wall_s").get<std::vector<double>>();
     read.instructions = json.at("instructions").get<double>();

@@ -237,6 +237,7 @@ std::vector<std::string> findings(const Study& study, const Judgement& j) {
   const std::vector<Share> shares = shares_of(study, j, *a);
   std::vector<std::string> out{price_in_words(study, j) + " " + worth_in_words(study, j, shares.front()),
                                shares_in_words(shares, unit, !study.inputs.empty())};
+  for (std::string& notice : in_words(study.notices)) out.push_back(std::move(notice));
   out.push_back(fmt::format("The scene as it stands gives a {} of {} {}, \u00b1 {}. That is {}, and takes {}. {}", words,
                             with_digits(a->value, a->uncertainty), unit, with_unit(a->uncertainty, unit), own->setting.label,
                             with_unit(own->wall_s, "s"), grounds(j)));

@@ -264,6 +264,23 @@ KeyUnit unit_of_key(const Value& root, const std::string& path) {
   return {std::string(si_unit(*dimension)), ""};
 }
 
+std::optional<double> number_at(const Value& root, const std::string& path) {
+  const KeyOfPath found = key_of_path(root, path);
+  if (!found.key || !found.value || !takes_a_number(*found.key)) return std::nullopt;
+  const std::optional<Dimension> dimension = dimension_of_key(found, root);
+  if (!dimension) return std::nullopt;
+  const Value* table = root.find("variables");
+  Variables variables(table ? *table : empty_table());
+  const Value& value = *found.value;
+  if (value.kind == Value::Kind::text && (found.key->type == Type::any || is_expression(value.text, variables))) {
+    std::string problem;
+    const Measured reckoned = variables.evaluate(value.text, problem);
+    return problem.empty() ? std::optional(reckoned.value) : std::nullopt;
+  }
+  const ReadValues read = read_values(value, *dimension);
+  return read.problem.empty() && read.numbers.size() == 1 ? std::optional(read.numbers.front()) : std::nullopt;
+}
+
 ReadValues read_values(const Value& value, Dimension dimension) {
   ReadValues out;
   out.unit = unit_of(value, dimension);

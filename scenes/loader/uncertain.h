@@ -19,6 +19,10 @@ struct KeyUnit {
 };
 KeyUnit unit_of_key(const Value& root, const std::string& path);
 
+/// The number that stands at a path, in SI, with formulas worked out; nothing where none is written, as where the default or a
+/// library has it, or where it is several.
+std::optional<double> number_at(const Value& root, const std::string& path);
+
 /// All numbers of a value: one quantity, several with one unit ("38 46 km/h"), or a list. `unit` is the one written first.
 struct ReadValues {
   std::vector<double> numbers;  // SI

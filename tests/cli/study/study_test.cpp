@@ -11,6 +11,8 @@
 #include <sstream>
 
 #include "../program.h"
+#include "cli/study/output.h"
+#include "cli/study/page.h"
 #include "cli/study/quantities.h"
 #include "engine/simulate.h"
 #include "scenes/scene.h"
@@ -145,6 +147,87 @@ TEST(Study, AMeasureHasOneNameInEveryRun) {
   EXPECT_THAT(names, ::testing::Contains("rest_s sedan"));
   EXPECT_THAT(names, ::testing::Not(::testing::Contains(::testing::AnyOf("rest_s", "rest_s pedestrian"))));
   EXPECT_THAT(names, ::testing::Contains("throw_distance_m")) << "nobody else could have one";
+}
+
+/// The speed falls to both sides of the scene's own value: the ends alone would say that it does not matter.
+TEST(Study, AnInputCountsWhatTheSceneItselfAnswers) {
+  const Folder folder;
+  folder.write("turn.toml", R"toml(title = "Turn"
+[simulation]
+duration = "1.5 s"
+[variables]
+x = "0 m/s"
+[[body]]
+name = "puck"
+mass = "2 kg"
+axes = "0.1 0.1 0.1 m"
+exponent = 8
+position = "0 0 0.1 m"
+velocity = ["5 m/s - sqrt(x * x)", "0 m/s", "0 m/s"]
+friction = 0.5
+)toml");
+  const auto study = [&](const std::string& range) {
+    return run(folder,
+               {"study", "turn.toml", "-o", "out", "--ensemble", "0", "--quiet", "--overwrite", "--input", "variables.x=" + range});
+  };
+  const Result result = study("-1 m/s..1 m/s");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto input = nlohmann::json::parse(contents(folder / "out/study.json"))["inputs"][0];
+  // v^2 / (2 mu g) of 5 and of 4 m/s; a block that tips a little as it brakes is off by a few hundredths
+  EXPECT_NEAR(input["half_width"]["travel_m"].get<double>(), (25.0 - 16) / (2 * 0.5 * 9.81) / 2, 0.05);
+  EXPECT_THAT(input["not_monotonic"].dump(), ::testing::HasSubstr("\"travel_m\""));
+  EXPECT_THAT(result.out, ::testing::ContainsRegex("travel_m +0\\.4[0-9]+  at least: not monotonic"));
+
+  EXPECT_THAT(study("1 m/s..-1 m/s").err, ::testing::HasSubstr("the range falls; write the lower end first"));
+  EXPECT_THAT(study("1 m/s..3.6 km/h").err, ::testing::HasSubstr("the range is a single value"));
+  const Result outside = study("1 m/s..7.2 km/h");
+  EXPECT_EQ(outside.code, 2);
+  EXPECT_EQ(outside.err,
+            "crashreel: --input variables.x=1 m/s..7.2 km/h: the range does not hold the scene's own value, 0 m/s; "
+            "widen it, or set another value with --set\n");
+}
+
+/// A throw that the end of the run cuts off is marked, and a study counts it.
+TEST(Study, TellsOfThrowsThatAreNotOver) {
+  const scenes::Scene scene = scenes::load(kScenes + "cases/sedan_pedestrian_40kmh.toml", {"simulation.duration=1.2 s"});
+  bool found = false;
+  for (const auto& q : cli::study::quantities_of(scene.model, engine::simulate(scene.model))) {
+    found = found || q.name == "throw_distance_m";
+    if (q.name == "throw_distance_m" || q.name == "head_impact_s") {
+      EXPECT_EQ(q.so_far, q.name == "throw_distance_m");
+    }
+  }
+  EXPECT_TRUE(found);
+  cli::study::Study study;
+  study.series.push_back({});
+  study.series.front().settings.push_back({});
+  study.series.front().settings.front().setting.own = true;
+  study.notices.add({{"throw_distance_m"}, {}});
+  EXPECT_THAT(cli::study::study_text(scene, study), ::testing::HasSubstr("  1 of 1 runs: still moving at the end, "));
+  EXPECT_EQ(cli::study::study_json(scene, study)["unfinished"]["runs"], 1);
+}
+
+TEST(StudyPage, CallsARangeOneAndGivesNanometresOfANoughtNoFullBar) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  cli::study::Study study;
+  study.series.push_back({});
+  cli::study::SeriesResult& ladder = study.series.front();
+  ladder.series.varies = "step";
+  const double travel[] = {0, 4e-8, -2e-8, 3e-8, 1e-8};
+  for (int k = 0; k < 5; ++k) {
+    cli::study::SettingResult result;
+    result.setting.label = "step";
+    result.setting.fineness = 4e-3 / std::pow(2.0, k);
+    result.setting.own = k == 2;
+    result.answers["travel_m"] = {true, travel[k], travel[k], travel[k], travel[k], 0, 0};
+    ladder.settings.push_back(result);
+  }
+  cli::study::judge(study, {});
+  const render::charts::Page page = cli::study::page_of(scenes::load(folder / "ball.toml"), study);
+  ASSERT_EQ(page.bars.rows.size(), 1u);
+  EXPECT_LT(page.bars.rows[0].parts[0], 1e-3);
+  EXPECT_THAT(page.table.head, ::testing::Contains("range \u00b1"));
 }
 
 TEST(Study, RefusesAnInputThatIsNoRange) {
