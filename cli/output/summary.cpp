@@ -358,10 +358,13 @@ const char* backwards(const engine::Metric& metric) {
   return phase && metric.value < -kSeen ? ", against the throw" : "";
 }
 
-/// What a screen has room for: the main ones, and the ways of who never came down. The rest stands in summary.json.
+/// What a screen has room for: the main ones, and the ways of who never came down, or that the others do not add up to the throw
+/// without. The rest stands in summary.json.
 bool is_shown(const engine::Metric& metric, const engine::Definition* known, const Absent& absent) {
   if (!known || known->main) return true;
-  return (metric.key == "contact_m" || metric.key == "carried_m") && lacks(absent, "landing_s", metric.object);
+  constexpr double kRounding = 0.005;  // [m] of the throw as it is printed
+  return (metric.key == "contact_m" || metric.key == "carried_m" || metric.key == "landing_m") &&
+         (std::abs(metric.value) >= kRounding || lacks(absent, "landing_s", metric.object));
 }
 
 /// Names at the left, values in one column.

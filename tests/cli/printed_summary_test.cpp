@@ -106,6 +106,29 @@ TEST(Simulate, WhoIsPushedAlongAfterTheLandingIsNotSaidToSlide) {
   EXPECT_TRUE(std::regex_search(result.out, std::regex("slide_m child +[0-9.]+, pushed by a vehicle on the way\n"))) << result.out;
 }
 
+/// The parts of a throw that are printed add up to it, each rounded.
+TEST(Simulate, PrintsEveryPartOfAThrowThatCanBeSeen) {
+  const Folder folder;
+  const scenes::Scene scene =
+      scenes::load(std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/sedan_pedestrian_40kmh.toml", {"simulation.duration=0.1 s"});
+  const engine::Recording run = engine::simulate(scene.model);
+  const auto text = [&](double carried) {
+    return cli::summary_text(scene, run,
+                             {{"throw_distance_m", "pedestrian", 10 + carried},
+                              {"contact_m", "pedestrian", 2},
+                              {"carried_m", "pedestrian", carried},
+                              {"airborne_m", "pedestrian", 5},
+                              {"landing_m", "pedestrian", 1},
+                              {"landing_s", "pedestrian", 1},
+                              {"slide_m", "pedestrian", 2},
+                              {"rest_s", "pedestrian", 3}});
+  };
+  for (const char* part : {"contact_m pedestrian +2\\.00\n", "carried_m pedestrian +3\\.00\n", "airborne_m pedestrian +5\\.00\n",
+                           "landing_m pedestrian +1\\.00\n", "slide_m pedestrian +2\\.00\n"})
+    EXPECT_THAT(text(3), testing::ContainsRegex(part));
+  EXPECT_THAT(text(0.001), testing::Not(testing::HasSubstr("carried_m"))) << "less than the throw is rounded by";
+}
+
 TEST(Simulate, VerboseTellsTheEffectsAndTheirCost) {
   const Folder folder;
   folder.write("ball.toml", kBall);
