@@ -162,11 +162,12 @@ Vec3 lowest_of(const engine::Model& model, const engine::Person& person) {
   return lowest;
 }
 
-/// Whether the box of somebody else, a kerb's or a lorry's, reaches beneath the point.
+/// Whether somebody or something else, a kerb, a lorry's roof, lies less than kHighestStart beneath the point.
 bool is_over_something(const engine::Model& model, const engine::Person& person, const Vec3& point) {
   return std::any_of(model.bodies.begin(), model.bodies.end(), [&](const engine::Body& body) {
     const engine::Aabb box = engine::box_at_start(body);
     const bool own = body.person >= 0 && &model.persons[static_cast<std::size_t>(body.person)] == &person;
+    if (point.z() - box.upper.z() > kHighestStart) return false;
     return !own && (box.lower.array() <= point.array()).all() && (box.upper.array() >= point.array()).head<2>().all();
   });
 }
@@ -181,9 +182,10 @@ Sentences unlikely_ground(const engine::Model& model) {
     const Vec3 lowest = lowest_of(model, person);
     const double z = lowest.z() - model.ground.height;
     if (person.mount >= 0 || z >= 1e3) continue;
-    if (z > kHighestStart)
+    const bool over = is_over_something(model, person, lowest);
+    if (z > kHighestStart && !over)
       out.push_back(fmt::format("{} starts {:.3g} m above the ground; the length of the body is `stature`", person.name, z));
-    else if (z > kHovers && person.zero_condition && !is_over_something(model, person, lowest))
+    else if (z > kHovers && person.zero_condition && !over)
       out.push_back(fmt::format(
           "{} hovers {:.3g} m above the ground until something touches it; zero_condition = false lets it fall", person.name, z));
   }
@@ -333,8 +335,6 @@ std::vector<std::string> inside_vehicles(const engine::Model& model) {
   return out;
 }
 
-bool nothing_touched(const engine::Model& model, const engine::Recording& recording) {
-  if (!could_meet(model)) return false;
 std::vector<std::string> crowded_cards(const render::Stage& stage, int width, int height) {
   Sentences out;
   for (std::size_t i = 0; i < stage.cards.size(); ++i) {
@@ -348,6 +348,8 @@ std::vector<std::string> crowded_cards(const render::Stage& stage, int width, in
   return out;
 }
 
+bool nothing_touched(const engine::Model& model, const engine::Recording& recording) {
+  if (!could_meet(model)) return false;
   const auto touches = [&](const engine::Snapshot& snapshot) {
     return std::any_of(snapshot.contacts.begin(), snapshot.contacts.end(),
                        [&](const engine::ContactRecord& contact) { return is_touch(model, contact); });
@@ -358,8 +360,6 @@ std::vector<std::string> crowded_cards(const render::Stage& stage, int width, in
   return !nearest || nearest->distance > 0;
 }
 
-std::vector<std::string> foresee(const scenes::Scene& scene, const std::string& output) {
-  Sentences out = inside_vehicles(scene.model);  // first: why the first steps find what they find
 namespace {
 
 /// Of the film, and of snapshots that show cards.
@@ -388,6 +388,8 @@ Sentences letters_without_glyph(const scenes::Scene& scene) {
 
 }  // namespace
 
+std::vector<std::string> foresee(const scenes::Scene& scene, const std::string& output) {
+  Sentences out = inside_vehicles(scene.model);  // first: why the first steps find what they find
   const bool inside = !out.empty();
   const Sentences far = out_of_reach(scene.model);
   for (const Sentences& more :

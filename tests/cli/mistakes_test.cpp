@@ -325,6 +325,33 @@ TEST(Check, ForeseesWhatARunWouldTellTooLate) {
   EXPECT_THAT(told(car + "[[vehicle]]\nname = \"other\"\nmodel = \"sedan\"\nposition = \"3 0.5 m\"\n"), HasSubstr("overlap"));
 }
 
+TEST(Check, SeesWhatAPersonHighUpLiesOn) {
+  const Folder folder;
+  const auto told = [&folder](const std::string& height) {
+    folder.write("a.toml", "[simulation]\nduration = \"1 s\"\n[[vehicle]]\nname = \"van\"\nmodel = \"van\"\n" + kPerson +
+                               "pose = \"lying_supine\"\nposition = \"-0.5 0 m\"\nzero_condition = false\nheight = \"" + height +
+                               "\"\n");
+    return run(folder, {"check", "a.toml"}).err;
+  };
+  EXPECT_EQ(told("2.342 m"), "");
+  EXPECT_THAT(told("9 m"), HasSubstr("p starts 9 m above the ground; the length of the body is `stature`"));
+}
+
+TEST(Check, TellsOfCardsThatAreTooFull) {
+  const Folder folder;
+  const auto told = [&folder](int lines) {
+    std::string text = kBall + "[output]\nwidth = 640\nheight = 360\n[[card]]\ntitle = \"Assumptions\"\nlines = [";
+    for (int i = 0; i < lines; ++i) text += "\"line\", ";
+    folder.write("a.toml", text + "]\n");
+    return run(folder, {"check", "a.toml"}).err;
+  };
+  EXPECT_EQ(told(10), "");
+  EXPECT_THAT(told(45), testing::ContainsRegex("a.toml: card 1 has 45 lines, of which [0-9]+ fit on 640x360 in letters that can be "
+                                               "read; the others are left out\n"));
+  const Result drawn = run(folder, {"render", "a.toml", "-o", "a.mp4", "--to", "0.1s"});
+  EXPECT_THAT(drawn.err, HasSubstr("crashreel: warning: card 1 has 45 lines, of which "));
+}
+
 TEST(Check, ExpectsNoExchangeOfTwoVehiclesBeforeTheyMeet) {
   const Folder folder;
   const std::string asked = "collision = \"kudlich_slibar\"\n";
