@@ -63,7 +63,8 @@ std::optional<SceneArguments> scene_of_run(const SceneArguments& wish) {
 std::string told_overrides(const std::vector<std::string>& overrides) {
   constexpr std::size_t kMost = 3, kLongest = 80;
   std::string out = fmt::format("{}", fmt::join(overrides, ", "));
-  if (overrides.size() > kMost || out.size() > kLongest) out = fmt::format("{} values of the file", overrides.size());
+  if (overrides.size() > kMost || out.size() > kLongest)
+    out = overrides.size() == 1 ? "a value of the file" : fmt::format("{} values of the file", overrides.size());
   return fmt::format(" [changed: {}]", out);
 }
 

@@ -97,6 +97,7 @@ struct LabelItem {
   std::array<float, 2> anchor{0, 0};  // where in the frame
   std::array<float, 2> pivot{0, 0};   // which point of the panel sits there
   bool plate = true;                  // translucent plate behind
+  bool always = false;                // shown even where there is no room: smaller, or over others
   bool leader = false;                // a line to the world point; the panel stands away from it, and from the limbs
 };
 

@@ -110,8 +110,10 @@ Repeated repeat(const scenes::Scene& scene, const Prior& prior, const Sample& sa
   const std::size_t run = nearest_run(values, p.value);
   Repeated out{scenes::variant(scene, overrides_of(prior, sample.table, sample.table.rows[run])), {}, {}};
   out.recording = engine::simulate(out.scene.model, engine::compile(out.scene.model));
-  out.label = fmt::format("run {} at {:g} % of the {}, {:.3g} {}", run + 1, 100 * p.share, study::words_of(sample.main),
-                          values[run], study::unit_of(sample.main));
+  const std::string chosen = p.share < 0.5 ? "least" : p.share > 0.5 ? "greatest" : "middle";
+  const std::string place = is_chosen(sample.table) ? chosen : fmt::format("{:g}th percentile of", 100 * p.share);
+  out.label = fmt::format("run {}, {} {}: {:.3g} {}", run + 1, place, study::words_of(sample.main), values[run],
+                          study::unit_of(sample.main));
   if (!sample.table.rows[run].answer.notes.so_far.empty()) out.label += ", still moving at the end";
   return out;
 }
@@ -170,7 +172,8 @@ std::vector<render::RestCloud> clouds_of(const Table& table) {
   for (auto& [name, all] : places) {
     const auto far = [&first = all.front()](const Point2& p) { return (p - first).norm() > kSame; };
     if (std::none_of(all.begin(), all.end(), far)) continue;
-    std::vector<render::RestRegion> regions{region_of(all, 0.5), region_of(all, 0.95)};
+    std::vector<render::RestRegion> regions;
+    if (!is_chosen(table) && all.size() >= kFewestPlaces) regions = {region_of(all, 0.5), region_of(all, 0.95)};
     const std::size_t moving = answered - all.size();
     out.push_back({name, std::move(all), moving, std::move(regions)});
   }

@@ -18,7 +18,7 @@ render::RestRegion region_of(const std::vector<render::Point2>& places, double s
 bool holds(const render::RestRegion&, const render::Point2&);
 
 /// A cloud of every person, vehicle and free body whose rest place is not the same in all runs, of those in which it comes to
-/// rest.
+/// rest. Regions only of kFewestPlaces or more that were drawn, not chosen.
 std::vector<render::RestCloud> clouds_of(const Table&);
 
 /// Draws the runs nearest to the middle and the 5th and 95th percentile of the sample's main measure within the clouds, as

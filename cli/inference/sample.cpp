@@ -90,6 +90,10 @@ std::vector<std::string> overrides_of(const Prior& prior, const Table& table, co
   return out;
 }
 
+bool is_chosen(const Table& table) {
+  return !table.grid_keys.empty() && (table.rows.empty() || table.rows.front().values.empty());
+}
+
 Percentile percentile_of(std::vector<double> sample, double share) {
   constexpr double kNot = std::numeric_limits<double>::quiet_NaN();
   Percentile out{share, study::percentile(sample, share), kNot, kNot};

@@ -27,6 +27,9 @@ Table plan_rows(const Prior&, const std::vector<GridAxis>&, std::uint64_t count,
 /// The overrides of a row.
 std::vector<std::string> overrides_of(const Prior&, const Table&, const Row&);
 
+/// Chosen values are no sample: nothing is drawn, so no share of the runs is a probability.
+bool is_chosen(const Table&);
+
 /// A percentile with the range of order statistics that holds it in 95 of 100 samples, whatever the distribution. A range that
 /// would lie outside of the sample is NaN at that end.
 struct Percentile {

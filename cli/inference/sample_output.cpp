@@ -143,11 +143,6 @@ charts::Table percentiles(const Sample& sample) {
   return table;
 }
 
-/// Chosen values are no sample: nothing is drawn, so no share of the runs is a probability.
-bool is_chosen(const Sample& sample) {
-  return !sample.table.grid_keys.empty() && (sample.table.rows.empty() || sample.table.rows.front().values.empty());
-}
-
 std::string number_text(double x, double resolution) {
   return std::isfinite(x) ? told(x, {}, resolution) : "none";
 }
@@ -209,7 +204,7 @@ std::string in_columns(const charts::Table& table) {
 
 std::vector<std::string> findings(const Prior& prior, const Sample& sample, const Output* main) {
   std::vector<std::string> out = in_words(notices_of(sample.table));
-  if (main && main->runs > 0 && is_chosen(sample)) {
+  if (main && main->runs > 0 && is_chosen(sample.table)) {
     std::vector<double> values = column(sample.table, main->name);
     std::erase_if(values, [](double v) { return !std::isfinite(v); });
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
@@ -295,7 +290,7 @@ nlohmann::ordered_json sample_json(const scenes::Scene& scene, const Prior& prio
 std::string sample_text(const scenes::Scene& scene, const Prior& prior, const Sample& sample) {
   std::string out = heading_of(scene) + "\n";
   for (const std::string& line : findings(prior, sample, find(sample, sample.main))) out += "  " + line + "\n";
-  if (is_chosen(sample)) return out + in_columns(chosen_runs(sample));
+  if (is_chosen(sample.table)) return out + in_columns(chosen_runs(sample));
   for (const std::vector<std::string>& row : percentiles(sample).rows)
     out += fmt::format("  {:<32} {:>6} runs   5 %: {}   50 %: {}   95 %: {}\n", row[0], row[1], row[2], row[3], row[4]);
   return out + "  every measure: sample.json; every run: runs.csv\n";
@@ -305,18 +300,18 @@ render::charts::Page sample_page(const scenes::Scene& scene, const Prior& prior,
   charts::Page page;
   page.footer = fmt::format("crashreel {} | {} | scene SHA-256 {} | {} runs, seed {}", CRASHREEL_VERSION,
                             scene.path.filename().string(), scene.sha256.substr(0, 16), sample.table.rows.size(), sample.seed);
-  page.title =
-      (is_chosen(sample) ? "What follows from each value: " : "What is not known of it, and what follows: ") + heading_of(scene);
+  page.title = (is_chosen(sample.table) ? "What follows from each value: " : "What is not known of it, and what follows: ") +
+               heading_of(scene);
   page.subtitle = fmt::format("{} runs over {} (crashreel sample)", sample.table.rows.size(),
-                              is_chosen(sample) ? "the values given" : "what the scene leaves open");
+                              is_chosen(sample.table) ? "the values given" : "what the scene leaves open");
   const Output* main = find(sample, sample.main);
   page.findings = findings(prior, sample, main);
-  if (main) page.left = is_chosen(sample) ? over_chosen(sample, *main) : distribution(sample, *main);
+  if (main) page.left = is_chosen(sample.table) ? over_chosen(sample, *main) : distribution(sample, *main);
   if (main && main->sensitivity.runs > 0) {
     page.right = scatter(prior, sample, *main);
     page.bars = tornado(prior, *main);
   }
-  page.table = is_chosen(sample) ? chosen_runs(sample) : percentiles(sample);
+  page.table = is_chosen(sample.table) ? chosen_runs(sample) : percentiles(sample);
   return page;
 }
 

@@ -64,7 +64,8 @@ void draw_key(cairo_t* c, const RestFigure& figure) {
   };
   grey(c, 0);
   for (const RestCloud& cloud : figure.clouds) {
-    line(fmt::format("{}: {} runs, thick line round the densest 50 %, thin round 95 %", cloud.name, cloud.places.size()));
+    line(fmt::format("{}: {} runs{}", cloud.name, cloud.places.size(),
+                     cloud.regions.empty() ? "" : ", thick line round the densest 50 %, thin round 95 %"));
     if (cloud.moving > 0) line(fmt::format("{} runs in which {} still moves at the end are left out", cloud.moving, cloud.name));
   }
   line("filled: " + figure.middle);

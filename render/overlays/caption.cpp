@@ -22,6 +22,7 @@ std::string speed_factor(double speed) {
 
 void add_caption(const Frame& frame, DrawList& list) {
   LabelItem label;
+  label.always = true;  // warnings too
   label.anchor = {0.016f, 0.972f};
   label.pivot = {0, 1};
   std::string clock = fmt::format("t = {:.3f} s", frame.now.time);
@@ -33,7 +34,7 @@ void add_caption(const Frame& frame, DrawList& list) {
   for (const auto& [body, name] : frame.stage.speeds) {
     if (!speeds.empty()) speeds += "     ";
     const Vec3& v = frame.now.bodies[static_cast<std::size_t>(body)].V_WB.v;
-    speeds += fmt::format("{} {:.1f} km/h", name, 3.6 * v.norm());
+    speeds += fmt::format("{}\u00a0{:.1f}\u00a0km/h", name, 3.6 * v.norm());  // a line is not broken there
   }
   if (!speeds.empty()) {
     label.lines.push_back(speeds);
@@ -54,6 +55,7 @@ void add_caption(const Frame& frame, DrawList& list) {
 
 void add_disclaimer(const Frame& frame, DrawList& list) {
   LabelItem label;
+  label.always = true;
   label.anchor = {0.984f, 0.972f};
   label.pivot = {1, 1};
   label.lines = {"Simulation, not footage"};

@@ -16,6 +16,7 @@ namespace render {
 namespace {
 
 constexpr double kPadX = 14, kPadY = 9, kLabelGap = 4;  // pixels at 1080 lines
+constexpr double kWidest = 0.94, kHighest = 0.88;       // [-] of the picture
 
 struct SurfaceDeleter {
   void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
@@ -165,9 +166,25 @@ void draw_one(cairo_t* c, const LabelItem& label, const PanelBox& box, double sc
   }
 }
 
-}  // namespace
+/// The labels as they are written: lines of a panel that hangs on nothing in the scene are broken where it would leave the picture.
+std::vector<LabelItem> written(const DrawList& list, double scale, int width) {
+  std::vector<LabelItem> out = list.labels;
+  const CairoPtr cairo = scratch();
+  for (LabelItem& label : out) {
+    if (label.at_world_point || !label.plate || measure(cairo.get(), label, scale).width <= kWidest * width) continue;
+    const LabelItem whole = label;
+    label.lines.clear(), label.sizes.clear(), label.colours.clear();
+    for (std::size_t i = 0; i < whole.lines.size(); ++i)
+      for (std::string& piece : broken_at_words(whole.lines[i], whole.sizes[i] * scale, kWidest * width - 2 * kPadX * scale)) {
+        label.lines.push_back(std::move(piece));
+        label.sizes.push_back(whole.sizes[i]);
+        label.colours.push_back(whole.colours[i]);
+      }
+  }
+  return out;
+}
 
-std::vector<PanelBox> place_labels(const DrawList& list, int width, int height) {
+std::vector<PanelBox> place(const DrawList& list, const std::vector<LabelItem>& labels, int width, int height) {
   const double scale = height / 1080.0 * static_cast<double>(list.scale);
   const CairoPtr cairo = scratch();
   std::vector<PanelBox> taken;  // charts and reserved places come first
@@ -180,12 +197,11 @@ std::vector<PanelBox> place_labels(const DrawList& list, int width, int height) 
                      static_cast<double>(h) * height});
   const std::vector<PanelBox> limbs = limbs_of(list, width, height), nothing;
   std::vector<PanelBox> boxes;
-  for (const LabelItem& label : list.labels) {
+  for (const LabelItem& label : labels) {
     PanelBox box = measure(cairo.get(), label, scale);
-    // a page of writing is written smaller where it would leave the picture
-    constexpr double kWidest = 0.94, kHighest = 0.88;  // [-] of the picture
+    // a page of writing is written smaller where it would leave the picture, and so is what must be read
     const double room = std::min(kWidest * width / box.width, kHighest * height / box.height);
-    if (!label.plate && !label.leader && room < 1) {
+    if ((!label.plate || label.always) && !label.leader && room < 1) {
       box = measure(cairo.get(), label, scale * room);
       box.shrink = room;
     }
@@ -193,11 +209,19 @@ std::vector<PanelBox> place_labels(const DrawList& list, int width, int height) 
     box.shown = anchor_of(list, label, width, height, x, y) && box.width <= width && box.height <= height;
     box.x = x - label.pivot[0] * box.width;
     box.y = y - label.pivot[1] * box.height;
+    const PanelBox wanted = box;
     if (box.shown) find_room(box, taken, label.leader ? limbs : nothing, width, height);
+    if (!box.shown && label.always) box = wanted;
     if (box.shown) taken.push_back(box);
     boxes.push_back(box);
   }
   return boxes;
+}
+
+}  // namespace
+
+std::vector<PanelBox> place_labels(const DrawList& list, int width, int height) {
+  return place(list, written(list, height / 1080.0 * static_cast<double>(list.scale), width), width, height);
 }
 
 std::vector<std::string> broken_at_words(const std::string& text, double pixels, double width) {
@@ -227,14 +251,15 @@ void draw_labels(const DrawList& list, Image& image) {
         cairo_image_surface_create_for_data(image.rgba.data(), CAIRO_FORMAT_ARGB32, image.width, image.height, 4 * image.width));
     const CairoPtr cairo(cairo_create(surface.get()));
     for (const ChartItem& chart : list.charts) draw_chart(cairo.get(), chart, image.width, image.height);
-    const std::vector<PanelBox> boxes = place_labels(list, image.width, image.height);
+    const std::vector<LabelItem> labels = written(list, scale, image.width);
+    const std::vector<PanelBox> boxes = place(list, labels, image.width, image.height);
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       double x = 0, y = 0;
-      if (boxes[i].shown && list.labels[i].leader && anchor_of(list, list.labels[i], image.width, image.height, x, y))
+      if (boxes[i].shown && labels[i].leader && anchor_of(list, labels[i], image.width, image.height, x, y))
         draw_leader(cairo.get(), boxes[i], x, y, scale);
     }
     for (std::size_t i = 0; i < boxes.size(); ++i)
-      if (boxes[i].shown) draw_one(cairo.get(), list.labels[i], boxes[i], scale * boxes[i].shrink);
+      if (boxes[i].shown) draw_one(cairo.get(), labels[i], boxes[i], scale * boxes[i].shrink);
     cairo_surface_flush(surface.get());
   }
 }

@@ -16,8 +16,9 @@ struct PanelBox {
   double shrink = 1;  // [-] of the writing: what would be larger than the picture
 };
 
-/// Where every label goes: kept inside the frame, moved aside from those before it, left out if there is no room; one with a leader
-/// keeps off persons too where it can. Pure numbers.
+/// Where every label goes: kept inside the frame, moved aside from those before it, left out if there is no room and it need not be
+/// shown always; one with a leader keeps off persons too where it can. Lines of a panel wider than the picture are broken at words.
+/// Pure numbers.
 std::vector<PanelBox> place_labels(const DrawList&, int width, int height);
 
 /// The text in lines no wider than `width` [pixels], in letters of so many pixels: broken between words, within one that is wider.

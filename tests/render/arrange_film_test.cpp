@@ -319,6 +319,32 @@ TEST(Labels, APageLargerThanThePictureIsWrittenSmaller) {
   EXPECT_LE(box.x + box.width, 1280);
 }
 
+/// The caption holds the warning that something is switched off.
+TEST(Labels, ThatMustBeReadAreBrokenAtWordsAndAlwaysShown) {
+  DrawList list;
+  LabelItem caption;
+  caption.always = true;
+  caption.anchor = {0.016f, 0.972f};
+  caption.pivot = {0, 1};
+  std::string speeds;
+  for (int i = 0; i < 20; ++i) speeds += "person\u00a050.0\u00a0km/h ";
+  caption.lines = {"t = 1.000 s", speeds, "effect air_drag switched off by the author"};
+  caption.sizes = {30, 22, 18};
+  caption.colours.resize(3);
+  list.labels.push_back(caption);
+  for (const auto& [width, height] : {std::pair{1280, 720}, {540, 960}, {480, 480}, {320, 180}}) {
+    const PanelBox box = place_labels(list, width, height)[0];
+    EXPECT_TRUE(box.shown) << width;
+    EXPECT_GE(box.x, 0) << width;
+    EXPECT_LE(box.x + box.width, width);
+    EXPECT_GE(box.y, 0) << width;
+    EXPECT_LE(box.y + box.height, height);
+  }
+  EXPECT_EQ(place_labels(list, 1280, 720)[0].shrink, 1) << "two lines more are no reason to write smaller";
+  list.reserved = {{0, 0, 1, 1}};
+  EXPECT_TRUE(place_labels(list, 1280, 720)[0].shown) << "over what lies there";
+}
+
 TEST(Labels, ThatHaveALeaderKeepOffPersonsWhereThereIsRoom) {
   constexpr int kWidth = 1280, kHeight = 720;
   DrawList list;

@@ -63,6 +63,24 @@ TEST(Sample, DrawsWhereRunsEnd) {
   EXPECT_THAT(contents(folder / "out/rest_ghosts.png"), testing::StartsWith("\x89PNG"));
 }
 
+/// Speeds that somebody chose have no densest half, however many, and none of them is a percentile.
+TEST(RestClouds, OfChosenValuesHaveNoRegions) {
+  for (const bool chosen : {true, false}) {
+    Table table;
+    table.grid_keys = {"body.puck.speed"};
+    for (const Point2& place : cloud(0, 2 * kFewestPlaces)) {
+      Row row;
+      row.grid = {"5 m/s"};
+      if (!chosen) row.values = {0.4};
+      row.answer.rests["puck"] = {place.x(), place.y()};
+      table.rows.push_back(row);
+    }
+    EXPECT_EQ(clouds_of(table).front().regions.size(), chosen ? 0u : 2u);
+    table.rows.resize(kFewestPlaces - 1);
+    EXPECT_TRUE(clouds_of(table).front().regions.empty());
+  }
+}
+
 TEST(Sample, InPartsHasTheSameNumbers) {
   const Folder folder;
   ASSERT_EQ(run(folder, {"sample", kPuck, "-o", "whole", "-n", "10", "--quiet"}).code, 0);
