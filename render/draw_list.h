@@ -15,6 +15,7 @@ using Float3 = std::array<float, 3>;
 using Float4 = std::array<float, 4>;
 using Matrix4 = std::array<float, 16>;  // column-major, as GL wants it
 
+inline constexpr const char* kItemGap = "     ";  // between what a line names one after the other: it is broken there first
 inline constexpr Float4 kWhiteText{1, 1, 1, 1}, kPaleText{0.80f, 0.85f, 0.90f, 1};  // the first line of a label, the others
 
 struct View {
@@ -97,8 +98,8 @@ struct LabelItem {
   std::array<float, 2> anchor{0, 0};  // where in the frame
   std::array<float, 2> pivot{0, 0};   // which point of the panel sits there
   bool plate = true;                  // translucent plate behind
-  bool always = false;                // shown even where there is no room: smaller, or over others
   bool leader = false;                // a line to the world point; the panel stands away from it, and from the limbs
+  bool always = false;                // shown even where there is no room: smaller, or over others
 };
 
 /// A small diagram over time, drawn up to now.

@@ -32,9 +32,9 @@ void add_caption(const Frame& frame, DrawList& list) {
   label.colours.push_back(kWhiteText);
   std::string speeds;
   for (const auto& [body, name] : frame.stage.speeds) {
-    if (!speeds.empty()) speeds += "     ";
+    if (!speeds.empty()) speeds += kItemGap;
     const Vec3& v = frame.now.bodies[static_cast<std::size_t>(body)].V_WB.v;
-    speeds += fmt::format("{}\u00a0{:.1f}\u00a0km/h", name, 3.6 * v.norm());  // a line is not broken there
+    speeds += fmt::format("{} {:.1f} km/h", name, 3.6 * v.norm());
   }
   if (!speeds.empty()) {
     label.lines.push_back(speeds);

@@ -166,6 +166,22 @@ void draw_one(cairo_t* c, const LabelItem& label, const PanelBox& box, double sc
   }
 }
 
+/// A line broken between its items; an item by itself, and a line of none, at words.
+std::vector<std::string> broken_at_items(cairo_t* cairo, const std::string& line, double pixels, double width) {
+  std::vector<std::string> out;
+  const std::string gap = kItemGap;
+  for (std::size_t from = 0; from <= line.size();) {
+    const std::size_t to = std::min(line.find(gap, from), line.size());
+    const std::string item = line.substr(from, to - from);
+    if (!out.empty() && Line(cairo, out.back() + gap + item, pixels).width() <= width)
+      out.back() += gap + item;
+    else
+      for (std::string& piece : broken_at_words(item, pixels, width)) out.push_back(std::move(piece));
+    from = to + gap.size();
+  }
+  return out;
+}
+
 /// The labels as they are written: lines of a panel that hangs on nothing in the scene are broken where it would leave the picture.
 std::vector<LabelItem> written(const DrawList& list, double scale, int width) {
   std::vector<LabelItem> out = list.labels;
@@ -175,7 +191,8 @@ std::vector<LabelItem> written(const DrawList& list, double scale, int width) {
     const LabelItem whole = label;
     label.lines.clear(), label.sizes.clear(), label.colours.clear();
     for (std::size_t i = 0; i < whole.lines.size(); ++i)
-      for (std::string& piece : broken_at_words(whole.lines[i], whole.sizes[i] * scale, kWidest * width - 2 * kPadX * scale)) {
+      for (std::string& piece :
+           broken_at_items(cairo.get(), whole.lines[i], whole.sizes[i] * scale, kWidest * width - 2 * kPadX * scale)) {
         label.lines.push_back(std::move(piece));
         label.sizes.push_back(whole.sizes[i]);
         label.colours.push_back(whole.colours[i]);

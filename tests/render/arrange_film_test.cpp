@@ -327,7 +327,7 @@ TEST(Labels, ThatMustBeReadAreBrokenAtWordsAndAlwaysShown) {
   caption.anchor = {0.016f, 0.972f};
   caption.pivot = {0, 1};
   std::string speeds;
-  for (int i = 0; i < 20; ++i) speeds += "person\u00a050.0\u00a0km/h ";
+  for (int i = 0; i < 20; ++i) speeds += std::string(kItemGap) + "person 50.0 km/h";
   caption.lines = {"t = 1.000 s", speeds, "effect air_drag switched off by the author"};
   caption.sizes = {30, 22, 18};
   caption.colours.resize(3);
