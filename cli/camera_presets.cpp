@@ -16,20 +16,54 @@ using engine::Vec3;
 
 constexpr double kFilmHeight = 0.024;  // [m] of the 36 x 24 mm film that focal lengths are told for
 
+/// A person on foot; null: none.
+const engine::Person* walker_of(const engine::Model& model) {
+  for (const engine::Person& person : model.persons)
+    if (person.mount < 0) return &person;
+  return nullptr;
+}
+
+/// The person looked at: one on foot before one who rides; null: none.
+const engine::Person* watched_of(const engine::Model& model) {
+  const engine::Person* walker = walker_of(model);
+  return walker || model.persons.empty() ? walker : &model.persons.front();
+}
+
+const engine::Body& body_of(const engine::Model& model, int body) {
+  return model.bodies[static_cast<std::size_t>(body)];
+}
+
+/// The vehicle that drives towards the person on foot the fastest at the start; where none does, the fastest. Null: no vehicle.
+const engine::Vehicle* leading_vehicle(const engine::Model& model) {
+  const engine::Person* walker = walker_of(model);
+  const engine::Vehicle *nearing = nullptr, *fastest = nullptr;
+  double most_nearing = 0, most = -1;  // [m/s]
+  for (const engine::Vehicle& vehicle : model.vehicles) {
+    const engine::Body& body = body_of(model, vehicle.body);
+    const Vec3 way = walker ? Vec3(body_of(model, walker->hips).X_WB.p - body.X_WB.p) : Vec3(Vec3::Zero());
+    const double closing = way.norm() > 0 ? body.V_WB.v.dot(way.normalized()) : 0;
+    if (closing > most_nearing) nearing = &vehicle, most_nearing = closing;
+    if (body.V_WB.v.norm() > most) fastest = &vehicle, most = body.V_WB.v.norm();
+  }
+  return nearing ? nearing : fastest;
+}
+
 /// What a view keeps to.
 std::string subject_of(const engine::Model& model) {
-  for (const engine::Person& person : model.persons)
-    if (person.mount < 0) return person.name;
-  if (!model.vehicles.empty()) return model.vehicles.front().name;
+  if (const engine::Person* person = watched_of(model)) return person->name;
+  if (const engine::Vehicle* vehicle = leading_vehicle(model)) return vehicle->name;
   return model.bodies.front().name;
 }
 
-/// The way things go: that of the first vehicle, else +x.
+Vec3 level(const Vec3& direction) {
+  const Vec3 flat(direction.x(), direction.y(), 0);
+  return flat.norm() > 1e-6 ? Vec3(flat.normalized()) : Vec3(Vec3::UnitX());
+}
+
+/// The way things go: that of the leading vehicle, else +x.
 Vec3 heading_of(const engine::Model& model) {
-  if (model.vehicles.empty()) return Vec3::UnitX();
-  Vec3 ahead = model.bodies[static_cast<std::size_t>(model.vehicles.front().body)].X_WB.q * Vec3::UnitX();
-  ahead.z() = 0;
-  return ahead.norm() > 1e-6 ? Vec3(ahead.normalized()) : Vec3::UnitX();
+  const engine::Vehicle* vehicle = leading_vehicle(model);
+  return vehicle ? level(body_of(model, vehicle->body).X_WB.q * Vec3::UnitX()) : Vec3(Vec3::UnitX());
 }
 
 render::Camera following(const engine::Model& model, const Vec3& offset) {
@@ -48,20 +82,58 @@ render::Camera from_above(const engine::Model& model) {
   return camera;
 }
 
-/// The eye of a driver on the left, from the centre of mass; the bonnet stays in the picture's foot.
-render::Camera out_of_vehicle(const engine::Model& model) {
-  if (model.vehicles.empty()) throw UsageError("--camera driver needs a vehicle; the scene has none");
-  const engine::Vehicle& vehicle = model.vehicles.front();
+/// Goes along behind and to the side: square behind the vehicle its own body would hide the person it strikes. Of the two sides the
+/// one on which the person stands to the vehicle when they meet.
+render::Camera from_behind(const engine::Model& model) {
+  constexpr double kBehind = 5, kBeside = 7.5, kUp = 3;  // [m]
+  constexpr double kNose = 2;                            // [m] ahead of the centre of mass
+  const Vec3 ahead = heading_of(model), left(-ahead.y(), ahead.x(), 0);
+  const engine::Person* watched = watched_of(model);
+  const engine::Vehicle* vehicle = leading_vehicle(model);
+  double aside = 0;  // [m] to the left
+  if (watched && vehicle) {
+    const engine::Body &person = body_of(model, watched->hips), &car = body_of(model, vehicle->body);
+    const Vec3 p = person.X_WB.p - car.X_WB.p, v = person.V_WB.v - car.V_WB.v;
+    const double closing = -v.dot(ahead), meet = closing > 0 ? std::max(p.dot(ahead) - kNose, 0.0) / closing : 0;  // [m/s], [s]
+    aside = (p + meet * v).dot(left);
+  }
+  return following(model, -kBehind * ahead + (aside > 0 ? kBeside : -kBeside) * left + kUp * Vec3::UnitZ());
+}
+
+/// An eye of a body, from its centre of mass, that looks level ahead and a little down at the start. `ahead` in body axes.
+render::Camera looking_out(const std::string& carrier, const Vec3& eye_B, const Vec3& ahead_B, const Vec3& up_B) {
   render::Camera camera;
   camera.kind = render::CameraKind::eye;
-  camera.follow = vehicle.name;
-  const auto* shape = std::get_if<engine::MeshShape>(&model.bodies[static_cast<std::size_t>(vehicle.body)].shape);
-  const double roof = shape ? shape->mesh->bounds().upper.z() + shape->X_BM.p.z() : 0.9;
-  const double nose = shape ? shape->mesh->bounds().upper.x() + shape->X_BM.p.x() : 2;
-  camera.position = {nose - 1.75, 0.36, roof - 0.28};
-  camera.target = camera.position + Vec3(10, 0, -0.5);
+  camera.follow = carrier;
+  camera.position = eye_B;
+  camera.target = eye_B + 10 * ahead_B - 0.5 * up_B;
   camera.vertical_fov = 0.8;
   return camera;
+}
+
+/// A rider's, just before the face.
+render::Camera out_of_head(const engine::Model& model, const engine::Person& rider, const Vec3& ahead) {
+  constexpr double kForward = 0.16, kUp = 0.04;  // [m] from the centre of the head
+  const engine::Quat q_BW = body_of(model, rider.head).X_WB.q.conjugate();
+  return looking_out(rider.name, q_BW * (kForward * ahead + kUp * Vec3::UnitZ()), q_BW * ahead, q_BW * Vec3::UnitZ());
+}
+
+/// The eye of a driver on the left as the vehicle's file gives it, else by the usual distances to nose and roof.
+Vec3 driver_eye(const scenes::Scene& scene, const engine::Vehicle& vehicle) {
+  if (const auto given = scene.stage.eyes.find(vehicle.body); given != scene.stage.eyes.end()) return given->second;
+  const auto* shape = std::get_if<engine::MeshShape>(&body_of(scene.model, vehicle.body).shape);
+  const double roof = shape ? shape->mesh->bounds().upper.z() + shape->X_BM.p.z() : 0.9;
+  const double nose = shape ? shape->mesh->bounds().upper.x() + shape->X_BM.p.x() : 2;
+  return {nose - 1.75, 0.36, roof - 0.28};
+}
+
+render::Camera out_of_vehicle(const scenes::Scene& scene) {
+  const engine::Model& model = scene.model;
+  const engine::Vehicle* vehicle = leading_vehicle(model);
+  if (!vehicle) throw UsageError("--camera driver needs a vehicle; the scene has none");
+  for (const engine::Person& person : model.persons)
+    if (person.mount == vehicle->body && person.head >= 0) return out_of_head(model, person, heading_of(model));
+  return looking_out(vehicle->name, driver_eye(scene, *vehicle), Vec3::UnitX(), Vec3::UnitZ());
 }
 
 Vec3 place_of(const char* option, const std::string& text) {
@@ -94,8 +166,8 @@ std::optional<render::Camera> preset_camera(const std::string& name, const scene
   if (name == "top") camera = from_above(model);
   if (name == "side") camera = following(model, 10 * right + 1.2 * up);
   if (name == "front") camera = following(model, 9 * ahead + 1.5 * right + 1.4 * up);
-  if (name == "follow") camera = following(model, -9 * ahead + 2 * right + 3 * up);
-  if (name == "driver") camera = out_of_vehicle(model);
+  if (name == "follow") camera = from_behind(model);
+  if (name == "driver") camera = out_of_vehicle(scene);
   if (camera) camera->name = name;
   return camera;
 }

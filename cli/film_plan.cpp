@@ -184,8 +184,10 @@ void declare_film(Arguments& arguments, FilmArguments& film) {
       "-o,--output", film.output, "OUT",
       "OUT.mp4, OUT.mkv (lossless), a folder or pattern (frame_%05d.png), or one PNG with --at; default: the scene's name");
   arguments.repeatable("--at", film.at, "TIME", "draw a still at this simulated time: 0.2s, 200ms; without unit: seconds");
-  arguments.repeatable("--camera", film.cameras, "NAME",
-                       "the whole run from this camera of the scene, or top, side, front, driver, follow; several: an output each");
+  arguments.repeatable(
+      "--camera", film.cameras, "NAME",
+      "the whole run from this camera of the scene, or top, side, front, follow, driver (of the vehicle that nears the person "
+      "on foot fastest, else the fastest); several: an output each");
   arguments.option("--eye", film.eye, "\"X Y Z m\"", "a camera of one's own: where it stands, in world axes");
   arguments.option("--look-at", film.look_at, "\"X Y Z m\"", "what it looks at; default: the middle of what the scene holds");
   arguments.option("--lens", film.lens, "\"35 mm\"", "its focal length, as on a 36 x 24 mm film");

@@ -253,6 +253,7 @@ struct Stage {
   Overlays overlays;
   /// Bodies named in the caption with their speed, and their readable names.
   std::vector<std::pair<int, std::string>> speeds;
+  std::map<int, Vec3> eyes;  // [m] of drivers, by the vehicle's body, in its axes
 };
 
 }  // namespace render

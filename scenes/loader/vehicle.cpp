@@ -19,11 +19,11 @@ enum class Coupling { ball, turntable };
 /// What the vehicle's body, place and actors follow from. Points in the mesh frame.
 struct VehicleGiven {
   std::string title;
-  double mesh_tolerance = 0;                            // [m]
-  engine::Vec3 cg = engine::Vec3::Zero();               // [m]
-  std::optional<engine::Vec3> front;                    // [m] world x, y
-  double lift = 0;                                      // [m]
-  std::optional<engine::Vec3> hitch, coupling, saddle;  // [m]
+  double mesh_tolerance = 0;                                 // [m]
+  engine::Vec3 cg = engine::Vec3::Zero();                    // [m]
+  std::optional<engine::Vec3> front;                         // [m] world x, y
+  double lift = 0;                                           // [m]
+  std::optional<engine::Vec3> hitch, coupling, saddle, eye;  // [m]
   Coupling coupling_kind = Coupling::ball;
   std::optional<render::Colour> colour;
 };
@@ -76,6 +76,8 @@ const Key kVehicleKeys[] = {
     {"towed_by", Type::text, Dimension::none, "''",
      "A vehicle above in the file: coupling is put on its hitch; place and speed are left out, heading is its own unless given."},
     bound<&VehicleGiven::saddle>({"saddle", Type::vector3, Dimension::length, "", "Centre of a rider's hips, in the mesh frame."}),
+    bound<&VehicleGiven::eye>({"eye", Type::vector3, Dimension::length, "",
+                               "Where `--camera driver` looks from, in the mesh frame. Left out: estimated."}),
     {"brake", Type::table, Dimension::none, "", "Braking.", kAny, {}, &kBrakeSection},
     {"driver", Type::tables, Dimension::none, "", "What the driver does, act by act.", kAny, {}, &kDriverSection},
     {"path", Type::table, Dimension::none, "", "A line to steer along.", kAny, {}, &kPathSection},
@@ -180,8 +182,9 @@ void add_actors(Builder& builder, const VehicleGiven& given, const engine::Vehic
     stage.wheels.push_back({static_cast<int>(builder.scene.model.vehicles.size()), static_cast<int>(i), vehicle.body,
                             vehicle.wheels[i].hub_B.y() > 0, meshes.wheels[i]->look});
   }
-  stage.speeds.emplace_back(vehicle.body, vehicle.name);
+  stage.speeds.push_back({vehicle.body, vehicle.name});
   stage.vehicles.push_back(vehicle.body);
+  if (given.eye) stage.eyes[vehicle.body] = *given.eye - given.cg;
 }
 
 /// The mesh for contact, thinned out, with its panels.
