@@ -235,6 +235,13 @@ class Overlays {
   std::map<std::string, double> values_;
 };
 
+/// Whose speed is told: a vehicle, a body, or a person, who moves as its centre of mass does.
+struct Mover {
+  int body = 0;                                  // of a person the hips
+  std::string name;                              // readable
+  std::vector<std::pair<int, double>> masses{};  // [kg] by body, of a person's parts; of all others empty
+};
+
 struct Stage {
   std::string title;
   std::string provenance;             // version, scene hash: small print at the foot
@@ -251,9 +258,8 @@ struct Stage {
   std::vector<Shot> shots;      // empty: the whole run from the first camera at natural speed
   std::vector<Card> cards;
   Overlays overlays;
-  /// Bodies named in the caption with their speed, and their readable names.
-  std::vector<std::pair<int, std::string>> speeds;
-  std::map<int, Vec3> eyes;  // [m] of drivers, by the vehicle's body, in its axes
+  std::vector<Mover> speeds;  // whose speed the caption tells
+  std::map<int, Vec3> eyes;   // [m] of drivers, by the vehicle's body, in its axes
 };
 
 }  // namespace render

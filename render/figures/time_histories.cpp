@@ -44,7 +44,7 @@ Panel speeds(const Stage& stage, const engine::Recording& recording, const Figur
       return 3.6 * s.bodies[b].V_WB.v.norm();
     }));
   };
-  for (const auto& [body, name] : stage.speeds) {
+  for (const auto& [body, name, masses] : stage.speeds) {
     const bool person =
         std::any_of(job.persons.begin(), job.persons.end(), [&n = name](const PersonFacts& p) { return p.name == n; });
     add(person ? name + ", hips" : name, body);

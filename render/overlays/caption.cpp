@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/matrix.h"
+#include "render/movers.h"
 #include "render/overlays/registration.h"
 
 namespace render {
@@ -31,10 +32,9 @@ void add_caption(const Frame& frame, DrawList& list) {
   label.sizes.push_back(30);
   label.colours.push_back(kWhiteText);
   std::string speeds;
-  for (const auto& [body, name] : frame.stage.speeds) {
+  for (const Mover& mover : frame.stage.speeds) {
     if (!speeds.empty()) speeds += kItemGap;
-    const Vec3& v = frame.now.bodies[static_cast<std::size_t>(body)].V_WB.v;
-    speeds += fmt::format("{} {:.1f} km/h", name, 3.6 * v.norm());
+    speeds += fmt::format("{} {:.1f} km/h", mover.name, 3.6 * velocity_of(mover, frame.now).norm());
   }
   if (!speeds.empty()) {
     label.lines.push_back(speeds);

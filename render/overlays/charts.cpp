@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "render/movers.h"
 #include "render/overlays/registration.h"
 
 namespace render {
@@ -57,9 +58,9 @@ void add_charts(const Frame& frame, DrawList& list) {
   if (o.on("speed_chart") && !frame.stage.speeds.empty()) {
     ChartItem chart = empty_chart(frame, "speed, km/h", list.charts.size());
     constexpr Float4 kColours[] = {{1, 0.70f, 0.25f, 1}, {0.45f, 0.85f, 1, 1}, {0.62f, 0.92f, 0.40f, 1}, {0.95f, 0.55f, 0.90f, 1}};
-    for (const auto& [body, name] : frame.stage.speeds)
-      add_series(frame, chart, name, kColours[chart.series.size() % 4],
-                 [b = static_cast<std::size_t>(body)](const engine::Snapshot& s) { return 3.6 * s.bodies[b].V_WB.v.norm(); });
+    for (const Mover& mover : frame.stage.speeds)
+      add_series(frame, chart, mover.name, kColours[chart.series.size() % 4],
+                 [&mover](const engine::Snapshot& s) { return 3.6 * velocity_of(mover, s).norm(); });
     list.charts.push_back(std::move(chart));
   }
   if (o.on("energy_chart")) {

@@ -1,7 +1,8 @@
-// Velocity arrows of the bodies whose speed the caption tells, with the number at the tip.
+// Velocity arrows of those whose speed the caption tells, with the number at the tip.
 #include <fmt/format.h>
 
 #include "render/matrix.h"
+#include "render/movers.h"
 #include "render/overlays/registration.h"
 
 namespace render {
@@ -11,14 +12,14 @@ constexpr double kLeastSpeed = 0.3;  // [m/s] slower is a point
 const Float4 kVelocityColour{0.45f, 0.85f, 1.0f, 1};
 
 void add_velocities(const Frame& frame, DrawList& list) {
-  for (const auto& [body, name] : frame.stage.speeds) {
-    const engine::BodyState& b = frame.now.bodies[static_cast<std::size_t>(body)];
-    const double speed = b.V_WB.v.norm();
+  for (const Mover& mover : frame.stage.speeds) {
+    const Vec3 centre = centre_of(mover, frame.now), v = velocity_of(mover, frame.now);
+    const double speed = v.norm();
     if (speed < kLeastSpeed) continue;
-    const Vec3 tip = b.X_WB.p + b.V_WB.v / frame.stage.overlays.of("velocity_scale");
-    list.arrows.push_back({to_float(b.X_WB.p), to_float(tip), kVelocityColour, 5});
+    const Vec3 tip = centre + v / frame.stage.overlays.of("velocity_scale");
+    list.arrows.push_back({to_float(centre), to_float(tip), kVelocityColour, 5});
     LabelItem label;
-    label.lines = {fmt::format("{} {:.1f} km/h", name, 3.6 * speed)};
+    label.lines = {fmt::format("{} {:.1f} km/h", mover.name, 3.6 * speed)};
     label.sizes = {18};
     label.colours = {kVelocityColour};
     label.at_world_point = true;

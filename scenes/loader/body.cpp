@@ -174,7 +174,7 @@ void read_body(Builder& builder, Reader r) {
     if (const auto mesh = in_frame(builder, import_mesh(builder, r, "mesh"), given_frame(r)))
       stage.meshes.push_back({body.name, index, {}, mesh->look, {}});
   }
-  if (!body.fixed) stage.speeds.emplace_back(index, body.name);
+  if (!body.fixed) stage.speeds.push_back({index, body.name});
   builder.scene.model.bodies.push_back(std::move(body));
 }
 

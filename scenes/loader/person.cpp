@@ -282,7 +282,9 @@ void read_person(Builder& builder, Reader r) {
   r.fill(hold);
   if (mount >= 0) hold_on(builder, hold, mount, person);
   add_actor(builder, r, person, figure, start.X_WB);
-  builder.scene.stage.speeds.emplace_back(person.hips, person.name);
+  render::Mover mover{person.hips, person.name};
+  for (const int b : person.bodies) mover.masses.emplace_back(b, model.bodies[static_cast<std::size_t>(b)].mass);
+  builder.scene.stage.speeds.push_back(std::move(mover));
   model.persons.push_back(std::move(person));
 }
 

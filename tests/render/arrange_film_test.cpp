@@ -50,7 +50,7 @@ Stage stage() {
   Camera side;
   side.name = "side";
   s.cameras.push_back(side);
-  s.speeds.emplace_back(0, "car");
+  s.speeds.push_back({0, "car"});
   return s;
 }
 
@@ -263,6 +263,27 @@ TEST(OverlayNumbers, AChartEndsNowAndItsAxesAreThoseOfTheWholeRun) {
   EXPECT_NEAR(early.charts[0].series[0].points.back()[1], 7.2, 1e-4);
   EXPECT_EQ(early.charts[1].ceiling, late.charts[1].ceiling);
   EXPECT_GE(early.charts[1].ceiling, 1.0);
+}
+
+TEST(OverlayNumbers, APersonsSpeedIsThatOfItsCentreOfMass) {
+  Stage s = stage();
+  s.speeds = {{1, "ann", {{1, 30}, {2, 10}}}};
+  s.overlays.set("velocities"), s.overlays.set("speed_chart");
+  engine::Recording r = run();
+  for (engine::Snapshot& now : r.snapshots) {
+    now.bodies.own()[1].V_WB.v = Vec3(10, 0, 0);
+    now.bodies.own()[2].V_WB.v = Vec3(2, 0, 0);
+    now.bodies.own()[2].X_WB.p = Vec3(0, 0, 4);
+  }
+  const DrawList list = arrange(s, r, {0.5, "side", 1}, 1.5);
+  // (30 * 10 + 10 * 2) / 40 = 8 m/s
+  int told = 0;
+  for (const LabelItem& label : list.labels)
+    for (const std::string& line : label.lines) told += line == "ann 28.8 km/h";
+  EXPECT_EQ(told, 2) << "caption and arrow";
+  EXPECT_NEAR(list.charts[0].series[0].points.back()[1], 28.8, 1e-4);
+  ASSERT_EQ(list.arrows.size(), 1u);
+  EXPECT_NEAR(list.arrows[0].from[2], 1, kFloat) << "a quarter of the mass is 4 m up";
 }
 
 TEST(OverlayNumbers, AnEyeSeesNothingThatIsDrawnOver) {

@@ -43,7 +43,7 @@ std::string histories_of(int bodies) {
   engine::Recording recording;
   for (int b = 0; b < bodies; ++b) {
     recording.body_names.push_back("body" + std::to_string(b));
-    stage.speeds.emplace_back(b, recording.body_names.back());
+    stage.speeds.push_back({b, recording.body_names.back()});
   }
   for (int k = 0; k <= 50; ++k) {
     engine::Snapshot s;
