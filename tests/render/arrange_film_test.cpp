@@ -286,6 +286,32 @@ TEST(OverlayNumbers, APersonsSpeedIsThatOfItsCentreOfMass) {
   EXPECT_NEAR(list.arrows[0].from[2], 1, kFloat) << "a quarter of the mass is 4 m up";
 }
 
+TEST(OverlayNumbers, AnImpulseGoesWithTheVehicleItStruck) {
+  Stage s = stage();
+  engine::Recording r = run();
+  engine::ContactRecord c = r.snapshots[5].contacts.front();
+  c.exchange = true;
+  c.body_a = 0, c.body_b = 1;
+  r.snapshots[5].contacts = {c};
+  c.impulse *= 0.05;  // then they rub along each other
+  c.point = Vec3(1.5, 0.5, 1);
+  r.snapshots[6].contacts = {c};
+  const DrawList list = arrange(s, r, {0.8, "side", 1}, 1.5);
+  ASSERT_EQ(list.markers.size(), 1u) << "none of a minor one";
+  EXPECT_EQ(list.arrows.size(), 2u);
+  EXPECT_NEAR(list.markers[0].at[0], 1.6, kFloat) << "0.3 s at 2 m/s from 1 m";
+  // the number stands off both cars, 3 m from the middle of either
+  const LabelItem* number = nullptr;
+  for (const LabelItem& label : list.labels)
+    if (label.lines[0].starts_with("impulse")) number = &label;
+  ASSERT_TRUE(number);
+  for (const std::size_t body : {0, 1}) {
+    const Vec3 centre = r.snapshots[5].bodies[body].X_WB.p + Vec3(0.6, 0, 0);
+    EXPECT_GT(std::hypot(static_cast<double>(number->world[0]) - centre.x(), static_cast<double>(number->world[1]) - centre.y()),
+              3);
+  }
+}
+
 TEST(OverlayNumbers, AnEyeSeesNothingThatIsDrawnOver) {
   Stage s = stage();
   s.cameras[0].kind = CameraKind::eye;
