@@ -111,6 +111,7 @@ struct ChartItem {
   };
   std::string title;  // with its unit
   std::vector<Series> series;
+  int left_out = 0;                   // series there is no colour for
   double end = 1;                     // [s] of the time axis, from 0
   double ceiling = 1;                 // of the value axis, from 0
   double now = 0;                     // [s]

@@ -13,6 +13,11 @@ namespace {
 
 constexpr std::size_t kPoints = 300;  // of a curve: one a pixel of its width
 
+/// Apart for the colour-blind too: hues of M. Okabe & K. Ito, Color Universal Design, 2008, lighter for the dark plate.
+constexpr Float4 kColours[] = {{1, 0.70f, 0.25f, 1},     {0.45f, 0.85f, 1, 1},     {0.10f, 0.72f, 0.52f, 1},
+                               {0.92f, 0.55f, 0.80f, 1}, {0.97f, 0.94f, 0.35f, 1}, {0.32f, 0.55f, 0.98f, 1},
+                               {0.95f, 0.38f, 0.12f, 1}, {0.96f, 0.96f, 0.96f, 1}};
+
 /// The next round number, one whose half is short too.
 double round_up(double x) {
   if (!(x > 0)) return 1;
@@ -57,10 +62,12 @@ void add_charts(const Frame& frame, DrawList& list) {
   const Overlays& o = frame.stage.overlays;
   if (o.on("speed_chart") && !frame.stage.speeds.empty()) {
     ChartItem chart = empty_chart(frame, "speed, km/h", list.charts.size());
-    constexpr Float4 kColours[] = {{1, 0.70f, 0.25f, 1}, {0.45f, 0.85f, 1, 1}, {0.62f, 0.92f, 0.40f, 1}, {0.95f, 0.55f, 0.90f, 1}};
-    for (const Mover& mover : frame.stage.speeds)
-      add_series(frame, chart, mover.name, kColours[chart.series.size() % 4],
-                 [&mover](const engine::Snapshot& s) { return 3.6 * velocity_of(mover, s).norm(); });
+    const std::vector<Mover>& movers = frame.stage.speeds;
+    const std::size_t shown = std::min(movers.size(), std::size(kColours));
+    for (std::size_t i = 0; i < shown; ++i)
+      add_series(frame, chart, movers[i].name, kColours[i],
+                 [&mover = movers[i]](const engine::Snapshot& s) { return 3.6 * velocity_of(mover, s).norm(); });
+    chart.left_out = static_cast<int>(movers.size() - shown);
     list.charts.push_back(std::move(chart));
   }
   if (o.on("energy_chart")) {

@@ -4,11 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace render {
 namespace {
 
-constexpr double kText = 15;  // pixels at 1080 lines
+constexpr double kLetters = 15;                // pixels at 1080 lines
+constexpr double kLeastLetters = 8;            // pixels of the picture, and
+constexpr double kSmaller = 0.05;              // of their full size from one trial to the next
+constexpr double kIndent = 12, kBetween = 16;  // pixels at 1080 lines, beside and between the names of series
 
 double width_of(cairo_t* c, const std::string& what) {
   cairo_text_extents_t extents;
@@ -21,7 +26,47 @@ void text(cairo_t* c, const std::string& what, double x, double y, double align)
   cairo_show_text(c, what.c_str());
 }
 
+std::string name_of(const ChartItem::Series& s) {
+  return "\u25a0 " + s.name;
+}
+
+/// Whether widths of texts, with gaps between, fit into two rows; where the second begins, the count of them: nowhere.
+std::optional<std::size_t> second_row(const std::vector<double>& widths, double between, double room) {
+  std::size_t second = widths.size();
+  double filled = 0;
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    if (filled > 0 && filled + between + widths[i] > room) {
+      if (second < widths.size()) return std::nullopt;
+      second = i;
+      filled = 0;
+    }
+    filled += (filled > 0 ? between : 0) + widths[i];
+    if (filled > room) return std::nullopt;
+  }
+  return second;
+}
+
 }  // namespace
+
+ChartKey key_of(cairo_t* c, const ChartItem& chart, double room, double scale) {
+  const double full = kLetters * scale, least = std::min(full, kLeastLetters);
+  cairo_set_font_size(c, full);
+  const std::size_t all = chart.series.size() + static_cast<std::size_t>(chart.left_out);
+  ChartKey key;
+  for (std::size_t shown = chart.series.size(); shown > 0; --shown) {
+    std::vector<double> widths;
+    for (std::size_t i = 0; i < shown; ++i) widths.push_back(width_of(c, name_of(chart.series[i])));
+    const std::string more = all > shown ? fmt::format("and {} more", all - shown) : "";
+    if (!more.empty()) widths.push_back(width_of(c, more));
+    // letters that are smaller by a factor need a room that is larger by it
+    for (double letters = full; letters >= least; letters -= kSmaller * full) {
+      const auto second = second_row(widths, kBetween * scale, room * full / letters);
+      if (second) return {letters, shown, *second, *second < widths.size(), more};
+    }
+    key = {least, shown, shown, !more.empty(), more};
+  }
+  return key;
+}
 
 void paint_with(cairo_t* c, const Float4& k) {
   cairo_set_source_rgba(c, static_cast<double>(k[2]), static_cast<double>(k[1]), static_cast<double>(k[0]),
@@ -45,28 +90,27 @@ void draw_chart(cairo_t* c, const ChartItem& chart, int width, int height) {
   paint_with(c, {0.08f, 0.09f, 0.10f, 0.72f});
   cairo_paint(c);
   cairo_select_font_face(c, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(c, kText * scale);
-  const double left = x0 + 52 * scale, right = x0 + w - 16 * scale, top = y0 + 60 * scale, bottom = y0 + h - 30 * scale;
+  cairo_set_font_size(c, kLetters * scale);
+  const ChartKey key = key_of(c, chart, w - 2 * kIndent * scale, scale);
+  const double left = x0 + 52 * scale, right = x0 + w - 16 * scale, top = y0 + (key.two_rows ? 68 : 60) * scale,
+               bottom = y0 + h - 30 * scale;
   auto px = [&](double t) { return left + (right - left) * t / chart.end; };
   auto py = [&](double v) { return bottom - (bottom - top) * v / chart.ceiling; };
 
   // frame: title, names in their colours, axes with numbers at both ends
   paint_with(c, {1, 1, 1, 0.95f});
   text(c, chart.title, x0 + 12 * scale, y0 + 20 * scale, 0);
-  const auto name_of = [](const ChartItem::Series& s) { return "\u25a0 " + s.name; };
-  const double indent = 12 * scale, between = 16 * scale;
-  double names = 0;
-  for (const ChartItem::Series& s : chart.series) names += width_of(c, name_of(s)) + between;
-  // many or long names are written smaller: none is cut off
-  const double shrink = std::min(1.0, (w - 2 * indent) / std::max(names - between, 1.0));
-  cairo_set_font_size(c, kText * scale * shrink);
-  double at = x0 + indent;
-  for (const ChartItem::Series& s : chart.series) {
-    paint_with(c, s.colour);
-    text(c, name_of(s), at, y0 + 40 * scale, 0);
-    at += width_of(c, name_of(s)) + between * shrink;
-  }
-  cairo_set_font_size(c, kText * scale);
+  cairo_set_font_size(c, key.letters);
+  double at = x0 + kIndent * scale, row = y0 + (key.two_rows ? 36 : 40) * scale;
+  const auto write = [&](std::size_t place, const std::string& what, const Float4& colour) {
+    if (key.two_rows && place == key.second_row) at = x0 + kIndent * scale, row += 16 * scale;
+    paint_with(c, colour);
+    text(c, what, at, row, 0);
+    at += width_of(c, what) + kBetween * key.letters / kLetters;
+  };
+  for (std::size_t i = 0; i < key.shown; ++i) write(i, name_of(chart.series[i]), chart.series[i].colour);
+  write(key.shown, key.more, {1, 1, 1, 0.95f});
+  cairo_set_font_size(c, kLetters * scale);
   paint_with(c, {0.8f, 0.85f, 0.9f, 0.9f});
   for (const double share : {0.0, 0.5, 1.0})
     text(c, fmt::format("{:g}", share * chart.ceiling), left - 6 * scale, py(share * chart.ceiling) + 5 * scale, 1);
@@ -80,7 +124,8 @@ void draw_chart(cairo_t* c, const ChartItem& chart, int width, int height) {
   }
   cairo_stroke(c);
 
-  for (const ChartItem::Series& s : chart.series) {
+  for (std::size_t i = 0; i < key.shown; ++i) {
+    const ChartItem::Series& s = chart.series[i];
     paint_with(c, s.colour);
     cairo_set_line_width(c, 2.4 * scale);
     cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "render/arrange.h"
 #include "render/cameras.h"
@@ -284,6 +285,41 @@ TEST(OverlayNumbers, APersonsSpeedIsThatOfItsCentreOfMass) {
   EXPECT_NEAR(list.charts[0].series[0].points.back()[1], 28.8, 1e-4);
   ASSERT_EQ(list.arrows.size(), 1u);
   EXPECT_NEAR(list.arrows[0].from[2], 1, kFloat) << "a quarter of the mass is 4 m up";
+}
+
+TEST(OverlayNumbers, AChartHasNoColourTwice) {
+  Stage s = stage();
+  s.overlays.set("speed_chart");
+  s.speeds.clear();
+  for (int i = 0; i < 11; ++i) s.speeds.push_back({0, "car " + std::to_string(i)});
+  const ChartItem chart = arrange(s, run(), {0.5, "side", 1}, 1.5).charts.at(0);
+  std::set<Float4> colours;
+  for (const ChartItem::Series& series : chart.series) colours.insert(series.colour);
+  EXPECT_EQ(colours.size(), 8u);
+  EXPECT_EQ(chart.series.size(), 8u);
+  EXPECT_EQ(chart.left_out, 3);
+}
+
+TEST(ChartKey, IsNeverTooSmallToRead) {
+  cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
+  cairo_t* c = cairo_create(surface);
+  ChartItem chart;
+  const auto add = [&chart](const std::string& name) { chart.series.push_back({name, {1, 1, 1, 1}, {}}); };
+  add("car"), add("ann");
+  ChartKey key = key_of(c, chart, 400, 1);
+  EXPECT_EQ(key.letters, 15);
+  EXPECT_FALSE(key.two_rows);
+  EXPECT_EQ(key.more, "");
+  for (int i = 0; i < 6; ++i) add("a pedestrian with a long name");
+  chart.left_out = 2;
+  key = key_of(c, chart, 400, 1);
+  EXPECT_GE(key.letters, 8);
+  EXPECT_GE(key.shown, 4u);
+  EXPECT_LT(key.shown, 8u);
+  EXPECT_TRUE(key.two_rows);
+  EXPECT_EQ(key.more, "and " + std::to_string(10 - key.shown) + " more");
+  cairo_destroy(c);
+  cairo_surface_destroy(surface);
 }
 
 TEST(OverlayNumbers, AnImpulseGoesWithTheVehicleItStruck) {
