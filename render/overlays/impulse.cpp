@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "render/matrix.h"
 #include "render/overlays/registration.h"
@@ -36,19 +37,35 @@ Vec3 moved_on(const engine::ContactRecord& c, const engine::Snapshot& then, cons
   return now.bodies[body].X_WB * (then.bodies[body].X_WB.inverse() * c.point);
 }
 
-/// Where a label keeps farthest off the two that met, level, as they stood then.
-Vec3 way_out(const engine::ContactRecord& c, const engine::Snapshot& then) {
-  constexpr double kAway = 3.2;  // [m]
+/// Where in the picture, in halves of its height from the middle; across it less, as labels are wider than high.
+Eigen::Vector2d in_picture(const Frame& frame, const View& view, const Vec3& p) {
+  constexpr double kWide = 0.4;
+  const Eigen::Vector4d c = from_gl(view.eye_to_clip) * from_gl(view.world_to_eye) * Eigen::Vector4d(p.x(), p.y(), p.z(), 1);
+  const double w = std::max(c.w(), 1e-3);
+  return {kWide * frame.aspect * c.x() / w, c.y() / w};
+}
+
+/// From the point to where a label keeps farthest off the two that met, as they are seen now: on a side, or above.
+Vec3 way_out(const Frame& frame, const View& view, const engine::ContactRecord& c) {
+  constexpr double kAway = 3.2, kAbove = 2.4;         // [m]
+  constexpr double kHalfLength = 1.8, kHeight = 0.8;  // [m] of a car, from its centre of mass
   constexpr int kWays = 8;
-  Vec3 best = Vec3::Zero();
-  double most = -1;  // [m]
+  std::vector<Eigen::Vector2d> taken;
+  for (const int body : {c.body_a, c.body_b})
+    for (const double x : {-kHalfLength, 0.0, kHalfLength})
+      for (const double z : {0.0, kHeight})
+        taken.push_back(in_picture(frame, view, frame.now.bodies[static_cast<std::size_t>(body)].X_WB * Vec3(x, 0, z)));
+  Vec3 best = kAbove * Vec3::UnitZ();
+  const auto clearance = [&](const Vec3& way) {
+    const Eigen::Vector2d at = in_picture(frame, view, c.point + way);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector2d& p : taken) nearest = std::min(nearest, (at - p).norm());
+    return nearest;
+  };
   for (int i = 0; i < kWays; ++i) {
     const double angle = 2 * std::numbers::pi * i / kWays;
     const Vec3 way = kAway * Vec3(std::cos(angle), std::sin(angle), 0);
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const int body : {c.body_a, c.body_b})
-      nearest = std::min(nearest, (c.point + way - then.bodies[static_cast<std::size_t>(body)].X_WB.p).head<2>().norm());
-    if (nearest > most) most = nearest, best = way;
+    if (clearance(way) > clearance(best)) best = way;
   }
   return best;
 }
@@ -79,14 +96,13 @@ void add_impulse(const Frame& frame, DrawList& list) {
     if (s.time < frame.now.time - kShown) continue;
     for (engine::ContactRecord c : s.contacts) {
       if (!c.exchange || c.impulse.norm() < kMinor * largest) continue;
-      const Vec3 out = way_out(c, s);
       c.point = moved_on(c, s, frame.now);
       const Vec3 arm = c.impulse / kNewtonSecondsAMetre;
       for (const double side : {1.0, -1.0})
         list.arrows.push_back({to_float(c.point), to_float(c.point + side * arm), {1.00f, 0.58f, 0.10f, 1}, 5.0f});
       list.markers.push_back({to_float(c.point), {1, 1, 1, 1}, 6});
       add_plane(c, list);
-      list.labels.push_back(label_of(c, out, list));
+      list.labels.push_back(label_of(c, way_out(frame, list.view, c), list));
     }
   }
 }
