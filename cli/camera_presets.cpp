@@ -82,22 +82,34 @@ render::Camera from_above(const engine::Model& model) {
   return camera;
 }
 
-/// Goes along behind and to the side: square behind the vehicle its own body would hide the person it strikes. Of the two sides the
-/// one on which the person stands to the vehicle when they meet.
+constexpr double kBehind = 5, kBeside = 7.5, kUp = 3;  // [m] of the camera that follows
+
+/// 1: left of the way, -1: right. The side on which a person stands to the vehicle when they meet, unless others stand between
+/// there, as parked cars do.
+double free_side(const engine::Model& model, const engine::Person& watched, const engine::Vehicle& vehicle) {
+  constexpr double kNose = 2;  // [m] ahead of the centre of mass
+  const engine::Body &person = body_of(model, watched.hips), &car = body_of(model, vehicle.body);
+  const Vec3 ahead = heading_of(model), left(-ahead.y(), ahead.x(), 0);
+  const Vec3 p = person.X_WB.p - car.X_WB.p, v = person.V_WB.v - car.V_WB.v;
+  const double closing = -v.dot(ahead), meet = closing > 0 ? std::max(p.dot(ahead) - kNose, 0.0) / closing : 0;  // [m/s], [s]
+  const double side = (p + meet * v).dot(left) > 0 ? 1 : -1;
+  int there = 0, across = 0;
+  for (const engine::Vehicle& other : model.vehicles) {
+    if (&other == &vehicle || other.body == watched.mount) continue;
+    const Vec3 from_person = body_of(model, other.body).X_WB.p - person.X_WB.p;
+    const double beside = side * from_person.dot(left);
+    if (std::abs(beside) < kBeside && std::abs(from_person.dot(ahead)) < 2 * kBehind) ++(beside > 0 ? there : across);
+  }
+  return there > across ? -side : side;
+}
+
+/// Goes along behind and to the side: square behind the vehicle its own body would hide the person it strikes.
 render::Camera from_behind(const engine::Model& model) {
-  constexpr double kBehind = 5, kBeside = 7.5, kUp = 3;  // [m]
-  constexpr double kNose = 2;                            // [m] ahead of the centre of mass
   const Vec3 ahead = heading_of(model), left(-ahead.y(), ahead.x(), 0);
   const engine::Person* watched = watched_of(model);
   const engine::Vehicle* vehicle = leading_vehicle(model);
-  double aside = 0;  // [m] to the left
-  if (watched && vehicle) {
-    const engine::Body &person = body_of(model, watched->hips), &car = body_of(model, vehicle->body);
-    const Vec3 p = person.X_WB.p - car.X_WB.p, v = person.V_WB.v - car.V_WB.v;
-    const double closing = -v.dot(ahead), meet = closing > 0 ? std::max(p.dot(ahead) - kNose, 0.0) / closing : 0;  // [m/s], [s]
-    aside = (p + meet * v).dot(left);
-  }
-  return following(model, -kBehind * ahead + (aside > 0 ? kBeside : -kBeside) * left + kUp * Vec3::UnitZ());
+  const double side = watched && vehicle ? free_side(model, *watched, *vehicle) : -1;
+  return following(model, -kBehind * ahead + side * kBeside * left + kUp * Vec3::UnitZ());
 }
 
 /// An eye of a body, from its centre of mass, that looks level ahead and a little down at the start. `ahead` in body axes.
@@ -113,9 +125,9 @@ render::Camera looking_out(const std::string& carrier, const Vec3& eye_B, const 
 
 /// A rider's, just before the face.
 render::Camera out_of_head(const engine::Model& model, const engine::Person& rider, const Vec3& ahead) {
-  constexpr double kForward = 0.16, kUp = 0.04;  // [m] from the centre of the head
+  constexpr double kForward = 0.16, kHigher = 0.04;  // [m] from the centre of the head
   const engine::Quat q_BW = body_of(model, rider.head).X_WB.q.conjugate();
-  return looking_out(rider.name, q_BW * (kForward * ahead + kUp * Vec3::UnitZ()), q_BW * ahead, q_BW * Vec3::UnitZ());
+  return looking_out(rider.name, q_BW * (kForward * ahead + kHigher * Vec3::UnitZ()), q_BW * ahead, q_BW * Vec3::UnitZ());
 }
 
 /// The eye of a driver on the left as the vehicle's file gives it, else by the usual distances to nose and roof.

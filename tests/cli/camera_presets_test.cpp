@@ -88,6 +88,8 @@ TEST(CameraPresets, FollowStandsOnTheSideOfThePersonAtTheMeeting) {
   EXPECT_EQ(side_of(vehicle("bike", "bicycle", "position = \"2 0.8 m\"\n") + rider), 1) << "a cyclist is followed too";
   EXPECT_EQ(side_of(ann("position = \"2 0.5 m\"\n")), 1);
   EXPECT_EQ(side_of(ann("position = \"2 -0.5 m\"\n")), -1);
+  EXPECT_EQ(side_of(ann("position = \"2 -0.5 m\"\n") + vehicle("parked", "van", "position = \"-1 -3 m\"\n")), 1)
+      << "a van stands on her side";
   // she walks across: when the car is there she has come to the other side
   EXPECT_EQ(side_of(ann("position = \"2 -0.7 m\"\nheading = \"90 deg\"\nspeed = \"1.5 m/s\"\n")), 1);
 }
