@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "render/matrix.h"
-#include "render/movers.h"
+#include "render/overlays/movers.h"
 #include "render/overlays/registration.h"
 
 namespace render {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "render/movers.h"
+#include "render/overlays/movers.h"
 #include "render/overlays/registration.h"
 
 namespace render {

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "render/matrix.h"
-#include "render/movers.h"
+#include "render/overlays/movers.h"
 #include "render/overlays/registration.h"
 
 namespace render {

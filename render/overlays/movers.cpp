@@ -1,4 +1,4 @@
-#include "render/movers.h"
+#include "render/overlays/movers.h"
 
 namespace render {
 namespace {
