@@ -164,8 +164,7 @@ std::string worth_in_words(const Study& study, const Judgement& j, const Share& 
   if (j.convergence.trust == Trust::exact && j.besides.empty())
     return "A finer step is not worth its time: it gives the same answer.";
   if (largest.source != "numerics")
-    return fmt::format("A finer step narrows what the step leaves open, and nothing else: \u00b1 {} come from {}.",
-                       with_unit(largest.width, unit), largest.source);
+    return fmt::format("A finer step leaves \u00b1 {} from {}.", with_unit(largest.width, unit), largest.source);
   const SettingResult* better = nullptr;
   for (const SettingResult& r : study.series.front().settings)
     if (const Answer* a = answer_of(r, j.quantity); a && a->uncertainty <= mine / 2 && (!better || r.wall_s < better->wall_s))
