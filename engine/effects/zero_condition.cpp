@@ -57,10 +57,11 @@ void release(World& world, State& state, int body, int by, const Vec3& point) {
   const std::vector<int>& tree = world.topology.tree_of_body;
   for (int p = 0; p < static_cast<int>(state.released.size()); ++p) {
     const bool own = p == person_of(world, body);
-    const bool joined = tree[body] >= 0 && tree[world.model.persons[p].hips] == tree[body];  // a child in arms
+    const int root = world.model.persons[p].bodies.front();
+    const bool joined = tree[body] >= 0 && tree[root] == tree[body];  // a child in arms
     if (state.released[p] || !(own || joined)) continue;
     state.released[p] = 1;
-    world.log.events.push_back({state.time, "release", own ? body : world.model.persons[p].hips, by, point, 0});
+    world.log.events.push_back({state.time, "release", own ? body : root, by, point, 0});
   }
 }
 
@@ -112,12 +113,12 @@ class ZeroCondition final : public Effect {
   void begin(World& world, State& state) override {
     constexpr double kSame = 1e-6;  // [m/s] and [rad/s]
     for (std::size_t p = 0; p < held_.size(); ++p) {
-      const int hips = world.model.persons[p].hips;
+      const int root = world.model.persons[p].bodies.front();
       for (const int b : held_[p]) {
         const Twist& V = state.V_WB[b];
-        const bool along = (V.v - state.V_WB[hips].v).norm() < kSame && V.w.norm() < kSame;
+        const bool along = (V.v - state.V_WB[root].v).norm() < kSame && V.w.norm() < kSame;
         if (state.released[p] || (along && world.model.bodies[b].vehicle < 0)) continue;
-        release(world, state, hips, b, state.X_WB[b].p);
+        release(world, state, root, b, state.X_WB[b].p);
         world.log.diagnostics.warnings.push_back(world.model.persons[p].name + " does not wait to be touched: " +
                                                  world.model.bodies[b].name + ", which is joined, pulls from the start");
       }
