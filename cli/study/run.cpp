@@ -108,7 +108,9 @@ void fill_inputs(Study& study, const std::vector<std::pair<SettingResult, Settin
     for (const auto& [name, first] : ends[i].first.answers) {
       const Answer *second = answer_of(ends[i].second, name), *own = scene ? answer_of(*scene, name) : nullptr;
       if (!second || !ends[i].first.failure.empty()) continue;
-      const auto near = [&](double value) { return engine::turned_to(name, value, own ? own->middle : first.middle); };
+      const auto near = [&name = name, &first = first, own](double value) {
+        return engine::turned_to(name, value, own ? own->middle : first.middle);
+      };
       const auto [low_end, high_end] = std::minmax({near(first.middle), near(second->middle)});
       double low = low_end, high = high_end;
       if (own) {

@@ -101,9 +101,10 @@ void draw_chart(cairo_t* c, const ChartItem& chart, int width, int height) {
   paint_with(c, {1, 1, 1, 0.95f});
   text(c, chart.title, x0 + 12 * scale, y0 + 20 * scale, 0);
   cairo_set_font_size(c, key.letters);
-  double at = x0 + kIndent * scale, row = y0 + (key.two_rows ? 36 : 40) * scale;
+  const double margin = x0 + kIndent * scale;
+  double at = margin, row = y0 + (key.two_rows ? 36 : 40) * scale;
   const auto write = [&](std::size_t place, const std::string& what, const Float4& colour) {
-    if (key.two_rows && place == key.second_row) at = x0 + kIndent * scale, row += 16 * scale;
+    if (key.two_rows && place == key.second_row) at = margin, row += 16 * scale;
     paint_with(c, colour);
     text(c, what, at, row, 0);
     at += width_of(c, what) + kBetween * key.letters / kLetters;
