@@ -214,11 +214,9 @@ bool RestWatch::goes_on(const World& world, const State& state, const Recording&
 
 bool RestWatch::all_at_rest(const World& world, const State& state, const Recording& recording) const {
   const auto long_enough = [&](double since) { return since >= 0 && state.time - since >= kStillTime; };
-  if (state.time < quiet_from_ || still_since_.empty()) return false;
-  for (const double since : still_since_)
-    if (!long_enough(since)) return false;
-  for (const double since : rest_since_)
-    if (!long_enough(since)) return false;
+  if (state.time < quiet_from_ || still_since_.empty() || !std::all_of(still_since_.begin(), still_since_.end(), long_enough) ||
+      !std::all_of(rest_since_.begin(), rest_since_.end(), long_enough))
+    return false;
   for (std::size_t t = 0; t < still_since_.size(); ++t)
     if (goes_on(world, state, recording, t)) return false;
   return true;

@@ -20,21 +20,27 @@ void load_font_lists() {
   if (!lists || !FcConfigSetCurrent(lists)) throw std::bad_alloc();
 }
 
-bool letters_can_be_drawn() {
-  load_font_lists();
+/// To look at letters without a picture. The layout keeps what it needs of the surface; g_object_unref ends it.
+PangoLayout* layout_in_font() {
   cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
   cairo_t* cairo = cairo_create(surface);
   PangoLayout* layout = pango_cairo_create_layout(cairo);
   PangoFontDescription* font = pango_font_description_from_string(kFont);
   pango_layout_set_font_description(layout, font);
   pango_font_description_free(font);
+  cairo_destroy(cairo);
+  cairo_surface_destroy(surface);
+  return layout;
+}
+
+bool letters_can_be_drawn() {
+  load_font_lists();
+  PangoLayout* layout = layout_in_font();
   pango_layout_set_text(layout, "Simulation 0123456789", -1);
   PangoRectangle ink;
   pango_layout_get_extents(layout, &ink, nullptr);
   const bool drawn = ink.width > 0 && pango_layout_get_unknown_glyphs_count(layout) == 0;
   g_object_unref(layout);
-  cairo_destroy(cairo);
-  cairo_surface_destroy(surface);
   return drawn;
 }
 
@@ -47,12 +53,7 @@ void require_font() {
 
 std::string without_glyph(const std::string& text) {
   if (std::all_of(text.begin(), text.end(), [](char byte) { return static_cast<unsigned char>(byte) < 0x80; })) return "";
-  cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
-  cairo_t* cairo = cairo_create(surface);
-  PangoLayout* layout = pango_cairo_create_layout(cairo);
-  PangoFontDescription* font = pango_font_description_from_string(kFont);
-  pango_layout_set_font_description(layout, font);
-  pango_font_description_free(font);
+  PangoLayout* layout = layout_in_font();
   // figures on paper take this font alone
   PangoAttrList* attributes = pango_attr_list_new();
   pango_attr_list_insert(attributes, pango_attr_fallback_new(FALSE));
@@ -66,8 +67,6 @@ std::string without_glyph(const std::string& text) {
     if (pango_layout_get_unknown_glyphs_count(layout) > 0 && out.find(letter) == std::string::npos) out += letter;
   }
   g_object_unref(layout);
-  cairo_destroy(cairo);
-  cairo_surface_destroy(surface);
   return out;
 }
 

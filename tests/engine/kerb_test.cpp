@@ -165,9 +165,9 @@ TEST(Ramp, OfAThinEndIsDrivenUpAtAnySpeed) {
     ramp.shape = MeshShape{wedge, {}};
     model.bodies.push_back(ramp);
     const Recording run = simulate(model);
-    // of height and of what the kink takes: its dampers, at a tenth and a half of the speed
+    // height takes its share; at the kink each axle loses at most what goes across the ramp, sin(10 deg)^2 / 2 of the speed, 1.5 %
     const double kept = std::sqrt(speed * speed - 2 * kGravity * kRise);
-    EXPECT_GT(run.snapshots.back().bodies[0].V_WB.v.norm(), 0.93 * kept) << speed;
+    EXPECT_GT(run.snapshots.back().bodies[0].V_WB.v.norm(), 0.97 * kept) << speed;
     EXPECT_LT(run.snapshots.back().bodies[0].V_WB.v.norm(), speed) << speed;
   }
 }
