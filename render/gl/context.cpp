@@ -56,8 +56,8 @@ void load_gl() {
     RENDER_GL_FUNCTIONS(RENDER_FIND_EGL)
     return;
   }
-#define RENDER_FIND(name) find(name, #name);
-  RENDER_GL_FUNCTIONS(RENDER_FIND)
+#define RENDER_FIND_GL(name) find(name, #name);
+  RENDER_GL_FUNCTIONS(RENDER_FIND_GL)
   find(create_osmesa, "OSMesaCreateContextAttribs");
   find(make_osmesa_current, "OSMesaMakeCurrent");
   find(destroy_osmesa, "OSMesaDestroyContext");

@@ -13,7 +13,7 @@ void main() {
   float d = size.y > 0.5 ? max(abs(at.x) - at.z, beyond) : length(vec2(at.x, max(beyond, 0.0))) - at.z;
   float alpha = colour.a * clamp(0.5 - d, 0.0, 1.0);
 #ifdef BEHIND_THINGS
-  if (clamp(depth, 0.0, 1.0) > nearest_at(ivec2(gl_FragCoord.xy))) alpha *= occluded;
+  alpha *= 1.0 - (1.0 - occluded) * hidden_share(ivec2(gl_FragCoord.xy), clamp(depth, 0.0, 1.0));
 #endif
   premultiplied = vec4(colour.rgb * alpha, alpha);
 }

@@ -18,6 +18,6 @@ void main() {
   covers = clamp(mark.y * edge * rough * ribs, 0.0, 1.0) * 0.8;
 #ifdef ON_TERRAIN
   float slope = max(abs(dFdx(gl_FragCoord.z)), abs(dFdy(gl_FragCoord.z)));
-  if (gl_FragCoord.z - slope - 2.0 / 16777216.0 > nearest_at(ivec2(gl_FragCoord.xy))) covers = 0.0;
+  covers *= 1.0 - hidden_share(ivec2(gl_FragCoord.xy), gl_FragCoord.z - slope - 2.0 / 16777216.0);
 #endif
 }

@@ -18,7 +18,7 @@ constexpr std::size_t kMarkRoom = 7, kMarkRecord = 8;
 
 MarkPass::MarkPass()
     : flat_("", glsl::mark_vert, glsl::mark_frag),
-      on_terrain_(std::string("#define ON_TERRAIN\n") + glsl::nearest, glsl::mark_vert, glsl::mark_frag) {
+      on_terrain_(std::string("#define ON_TERRAIN\n") + glsl::hidden, glsl::mark_vert, glsl::mark_frag) {
   lay_out(array_, records_buffer_, {4, 1, 3});
   lay_out(array_, marks_buffer_, {4}, 2);
   glBindTexture(GL_TEXTURE_2D, *noise_);

@@ -24,7 +24,7 @@ class ObjectPass {
   const std::int32_t* names() const { return names_.data(); }
   Triangles& triangles() { return triangles_; }
   /// For a program that asks how near the things of the band are, and whose picture begins at x, y of the whole one: what
-  /// nearest.glsl wants to know.
+  /// hidden.glsl wants to know.
   void bind_depth(const Program&, int samples, int x, int y) const;
 
  private:

@@ -13,6 +13,7 @@ namespace {
 constexpr float kNearPlane = 0.05f;  // clip w below which a point is behind the camera
 constexpr float kOwn = 0.5f;         // [m] what hides a faint thing stands before it by more
 constexpr float kFaint = 0.25f;      // [-] of the opacity there
+constexpr float kPad = 1;            // [pixels] around what is drawn, for its soft edge
 const Float4 kOutline{0.05f, 0.05f, 0.06f, 0.85f};
 
 constexpr std::size_t kFloats = 12;  // a vertex: corner 3, tint 4, shape 3, extent 2
@@ -21,7 +22,7 @@ constexpr std::size_t kFloats = 12;  // a vertex: corner 3, tint 4, shape 3, ext
 
 OverlayPass::OverlayPass()
     : in_front_("", glsl::line_vert, glsl::line_frag),
-      behind_(std::string("#define BEHIND_THINGS\n") + glsl::nearest, glsl::line_vert, glsl::line_frag) {
+      behind_(std::string("#define BEHIND_THINGS\n") + glsl::hidden, glsl::line_vert, glsl::line_frag) {
   lay_out(array_, buffer_, {3, 4, 3, 2});
 }
 
@@ -66,40 +67,106 @@ void OverlayPass::lie_on(const Float3& at, const Float3& normal, Pixel& pixel) c
   pixel.slope_y = (qz * px - pz * qx) / area;
 }
 
+void OverlayPass::vertex(const Pixel& p, float off_x, float off_y, const Shape& shape, const Float4& colour) {
+  vertices_.insert(vertices_.end(),
+                   {p.x + off_x, p.y + off_y, p.z + p.slope_x * off_x + p.slope_y * off_y, colour[0], colour[1], colour[2],
+                    colour[3], shape.across, shape.along, shape.half, shape.length, shape.square ? 1.0f : 0.0f});
+}
+
 /// The rectangle around a piece; the shader finds its distance from it.
 void OverlayPass::capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour, Ends ends) {
   const float length = std::hypot(b.x - a.x, b.y - a.y);
   const bool point = length <= 1e-4f, square = ends == Ends::square;
   const float dx = point ? 1 : (b.x - a.x) / length, dy = point ? 0 : (b.y - a.y) / length;
-  constexpr float kPad = 1;
-  const auto vertex = [&](const Pixel& p, float half, float along_sign, float side) {
+  const auto corner = [&](const Pixel& p, float half, float along_sign, float side) {
     const float across = side * (std::max(half_a, half_b) + kPad), along = along_sign * (square ? kPad : half + kPad);
     const float at = along_sign < 0 ? along : length + along;
     // a taper goes on beyond its ends, so that its width is linear over the piece
     if (square && !point) half = half_a + (half_b - half_a) * at / length;
-    const float off_x = dx * along - dy * across, off_y = dy * along + dx * across;
-    vertices_.insert(vertices_.end(), {p.x + off_x, p.y + off_y, p.z + p.slope_x * off_x + p.slope_y * off_y, colour[0], colour[1],
-                                       colour[2], colour[3], across, at, half, point ? 0 : length, square ? 1.0f : 0.0f});
+    vertex(p, dx * along - dy * across, dy * along + dx * across, {across, at, half, point ? 0 : length, square}, colour);
   };
-  vertex(a, half_a, -1, -1);
-  vertex(b, half_b, 1, -1);
-  vertex(b, half_b, 1, 1);
-  vertex(a, half_a, -1, -1);
-  vertex(b, half_b, 1, 1);
-  vertex(a, half_a, -1, 1);
+  corner(a, half_a, -1, -1);
+  corner(b, half_b, 1, -1);
+  corner(b, half_b, 1, 1);
+  corner(a, half_a, -1, -1);
+  corner(b, half_b, 1, 1);
+  corner(a, half_a, -1, 1);
+}
+
+/// A line of one width. Pieces that meet share the corners of a mitre, so that no pixel is painted twice and what is not quite
+/// opaque has no beads; where the line turns sharply for their length, each ends round.
+void OverlayPass::band(const std::vector<Pixel>& run, float half, const Float4& colour) {
+  if (run.size() == 1) return capsule(run[0], run[0], half, half, colour);
+  const float wide = half + kPad;
+  struct Way {
+    float dx, dy, length;
+  };
+  const auto way = [&](std::size_t i) {
+    const float x = run[i + 1].x - run[i].x, y = run[i + 1].y - run[i].y, length = std::hypot(x, y);
+    return Way{x / length, y / length, length};
+  };
+  struct End {
+    float x, y;  // [pixels] from the line's place to its left corner
+    bool joined;
+  };
+  const auto joint = [&](const Way& before, const Way& after) {
+    const float cosine = before.dx * after.dx + before.dy * after.dy, sine = std::abs(before.dx * after.dy - before.dy * after.dx);
+    // the corner reaches wide * tan(half the turn) into both pieces
+    const bool joined = cosine > 0 && wide * sine < 0.5f * (1 + cosine) * std::min(before.length, after.length);
+    return End{-wide * (before.dy + after.dy) / (1 + cosine), wide * (before.dx + after.dx) / (1 + cosine), joined};
+  };
+  Way w = way(0);
+  End from{0, 0, false};
+  for (std::size_t i = 0; i + 1 < run.size(); ++i) {
+    const bool last = i + 2 == run.size();
+    const Way next = last ? w : way(i + 1);
+    const End to = last ? End{0, 0, false} : joint(w, next);
+    // a joined end is told to lie farther on: nothing is beyond it
+    const float before = from.joined ? wide : 0, length = before + w.length + (to.joined ? wide : 0);
+    const auto corner = [&](const Pixel& p, const End& end, float sign, float side) {
+      const float off_x = end.joined ? side * end.x : sign * wide * w.dx - side * wide * w.dy;
+      const float off_y = end.joined ? side * end.y : sign * wide * w.dy + side * wide * w.dx;
+      const float along = before + (sign > 0 ? w.length : 0) + off_x * w.dx + off_y * w.dy;
+      vertex(p, off_x, off_y, {side * wide, along, half, length, false}, colour);
+    };
+    const Pixel &a = run[i], &b = run[i + 1];
+    corner(a, from, -1, -1);
+    corner(b, to, 1, -1);
+    corner(b, to, 1, 1);
+    corner(a, from, -1, -1);
+    corner(b, to, 1, 1);
+    corner(a, from, -1, 1);
+    w = next;
+    from = to;
+  }
 }
 
 void OverlayPass::polyline(const LineItem& line, float extra, const Float4& colour) {
+  constexpr float kShort = 1, kEnd = 1e-3f;  // [pixels] a point nearer than this to the last tells nothing, be it the line's end
   const float half = 0.5f * line.width * scale_ + extra * scale_;
+  std::vector<Pixel> run;
+  Pixel last{};
+  const auto end = [&] {
+    if (!run.empty()) band(run, half, colour);
+    run.clear();
+  };
   for (std::size_t i = 1; i < line.points.size(); ++i) {
     Pixel a{}, b{};
-    if (!project(line.points[i - 1], line.points[i], a, b)) continue;
+    if (!project(line.points[i - 1], line.points[i], a, b)) {
+      end();
+      continue;
+    }
     if (line.normals.size() == line.points.size()) {
       lie_on(line.points[i - 1], line.normals[i - 1], a);
       lie_on(line.points[i], line.normals[i], b);
     }
-    capsule(a, b, half, half, colour);
+    if (a.x != last.x || a.y != last.y) end();  // one was cut before the eye
+    if (run.empty()) run.push_back(a);
+    const float away = std::hypot(b.x - run.back().x, b.y - run.back().y);
+    if (away >= (i + 1 == line.points.size() ? kEnd : kShort)) run.push_back(b);
+    last = b;
   }
+  end();
 }
 
 void OverlayPass::arrow(const ArrowItem& item, float extra, const Float4& colour) {

@@ -31,11 +31,18 @@ class OverlayPass {
     float slope_x = 0, slope_y = 0;  // of the depth over the picture, where a line lies on a surface
   };
   enum class Ends { round, square };
+  /// Where a vertex lies on its piece [pixels], and what the piece is.
+  struct Shape {
+    float across, along, half, length;
+    bool square;
+  };
   void gather(const DrawList&, Occluded);
   float depth_of(const Eigen::Vector4f& clip) const;
   bool project(const Float3& a, const Float3& b, Pixel& pa, Pixel& pb) const;
   void lie_on(const Float3& at, const Float3& normal, Pixel&) const;
+  void vertex(const Pixel&, float off_x, float off_y, const Shape&, const Float4& colour);
   void capsule(const Pixel& a, const Pixel& b, float half_a, float half_b, const Float4& colour, Ends = Ends::round);
+  void band(const std::vector<Pixel>& run, float half, const Float4& colour);
   void polyline(const LineItem&, float extra, const Float4& colour);
   void arrow(const ArrowItem&, float extra, const Float4& colour);
   void draw(const Program&, const Rectangle&, std::size_t first, std::size_t count);

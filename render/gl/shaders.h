@@ -7,7 +7,7 @@ extern const char* const object_vert;
 extern const char* const object_frag;
 extern const char* const shadow_vert;
 extern const char* const shadow_frag;
-extern const char* const nearest;
+extern const char* const hidden;
 extern const char* const mark_vert;
 extern const char* const mark_frag;
 extern const char* const line_vert;
