@@ -60,8 +60,7 @@ void cut_front(Surface& s) {
   cut(s, Seen::from_front, {{-1, 1.02}, {1.22, 1.08}, {1.20, 2.95}, {-1, 2.95}}, front, "trim");
   cut(s, Seen::from_front, {{-1, 1.08}, {1.14, 1.14}, {1.13, 2.42}, {-1, 2.42}}, front, "glass");
   cut(s, Seen::from_front, rectangle(-1, 2.54, 0.95, 2.80), front, "display");
-  framed(s, Seen::from_front, {{0.66, 0.62}, {1.16, 0.62}, {1.18, 0.86}, {0.72, 0.86}}, 0.03, front);
-  cut(s, Seen::from_front, {{0.66, 0.62}, {1.16, 0.62}, {1.18, 0.86}, {0.72, 0.86}}, front, "lamp_front");
+  framed(s, Seen::from_front, {{0.66, 0.62}, {1.16, 0.62}, {1.18, 0.86}, {0.72, 0.86}}, 0.03, front, "lamp_front");
   cut(s, Seen::from_front, rectangle(-1, 0.34, 1.3, 0.42), front, "trim");
   cut(s, Seen::from_front, rectangle(-1, 0.48, 0.26, 0.58), front, "plate");
   cut(s, Seen::from_front, rectangle(-1, 0.895, 1.22, 0.91), front, "trim");
@@ -72,10 +71,7 @@ void cut_back(Surface& s) {
   framed(s, Seen::from_front, {{-1, 1.72}, {1.02, 1.72}, {0.98, 2.52}, {-1, 2.52}}, 0.05, back);
   cut(s, Seen::from_front, rectangle(-1, 0.66, 0.90, 1.42), back, "trim");  // engine's grille
   for (int i = 0; i < 6; ++i) cut(s, Seen::from_front, rectangle(-1, 0.73 + 0.11 * i, 0.86, 0.77 + 0.11 * i), back, "grille");
-  for (const double z : {0.62, 0.86, 1.10}) {
-    framed(s, Seen::from_front, circle(1.08, z + 0.1, 0.09, 18), 0.02, back);
-    cut(s, Seen::from_front, circle(1.08, z + 0.1, 0.09, 18), back, "lamp_rear");
-  }
+  for (const double z : {0.62, 0.86, 1.10}) framed(s, Seen::from_front, circle(1.08, z + 0.1, 0.09, 18), 0.02, back, "lamp_rear");
   for (const double z : {2.72}) cut(s, Seen::from_front, rectangle(0.85, z, 1.05, z + 0.08), back, "lamp_rear");
   cut(s, Seen::from_front, rectangle(-1, 0.34, 1.3, 0.50), back, "trim");
   cut(s, Seen::from_front, rectangle(-1, 0.52, 0.26, 0.62), back, "plate");

@@ -63,8 +63,8 @@ void cut_seams(Surface& s) {
 
 void cut_ends(Surface& s) {
   const Filter front = [](const V3& p, const V3& n) { return p.x > 1.70 && n.z < 0.93 && n.x > -0.1; };
-  cut(s, Seen::from_front, {{0.50, 0.60}, {0.66, 0.585}, {0.86, 0.655}, {0.86, 0.735}, {0.70, 0.715}, {0.50, 0.665}}, front,
-      "lamp_front");
+  const Outline headlamp{{0.50, 0.60}, {0.66, 0.585}, {0.86, 0.655}, {0.86, 0.735}, {0.70, 0.715}, {0.50, 0.665}};
+  framed(s, Seen::from_front, headlamp, kShutLine, front, "lamp_front");
   const Filter nose = [](const V3& p, const V3& n) { return p.x > 2.0 && n.x > 0.2; };
   cut(s, Seen::from_front, {{-1, 0.50}, {0.46, 0.50}, {0.42, 0.64}, {-1, 0.66}}, nose, "trim");
   for (const double z : {0.535, 0.575, 0.615})
@@ -75,8 +75,7 @@ void cut_ends(Surface& s) {
   cut(s, Seen::from_front, {{-1, 0.42}, {0.26, 0.42}, {0.26, 0.49}, {-1, 0.49}}, nose, "plate");
   const Filter tail = [](const V3& p, const V3& n) { return p.x < -1.85 && n.z < 0.9 && n.x < 0.15; };
   const Outline lamp{{0.50, 0.74}, {0.90, 0.74}, {0.90, 0.90}, {0.54, 0.885}};
-  framed(s, Seen::from_front, lamp, 0.022, tail);
-  cut(s, Seen::from_front, lamp, tail, "lamp_rear");
+  framed(s, Seen::from_front, lamp, 0.022, tail, "lamp_rear");
   cut(s, Seen::from_front, rectangle(-1, 0.575, 0.30, 0.715), tail, "trim");
   cut(s, Seen::from_front, {{-1, 0.60}, {0.26, 0.60}, {0.26, 0.69}, {-1, 0.69}}, tail, "plate");
   cut(s, Seen::from_front, {{-1, 0.30}, {0.62, 0.30}, {0.58, 0.40}, {-1, 0.40}}, tail, "trim");
@@ -119,8 +118,8 @@ Surface bodywork() {
   cut(s, Seen::from_side, rectangle(-9, 0, -1.85, 9), whole, "paint");
   cut_arches(s);
   cut_windows(s);
-  cut_ends(s);
   cut_seams(s);
+  cut_ends(s);  // lamps lie over the seams
   s.append(egg({0.74, 0.985, 1.0}, {0.065, 0.115, 0.075}, "paint"));
   s.box({0.76, 0.86, 0.955}, {0.035, 0.06, 0.018}, "trim");
   s.box({0.98, 0.30, 1.012}, {0.012, 0.28, 0.008}, "trim", 0.5);  // wiper

@@ -1,5 +1,7 @@
 #include "assets/generate/details.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -26,7 +28,7 @@ Filter side_above(double z) {
   return [z](const V3& p, const V3& n) { return n.y > 0.35 && p.z > z; };
 }
 
-void framed(Surface& s, Seen seen, const Outline& pane, double surround, const Filter& filter) {
+void framed(Surface& s, Seen seen, const Outline& pane, double surround, const Filter& filter, const std::string& material) {
   double cu = 0, cv = 0;
   for (auto& p : pane) cu += p[0] / static_cast<double>(pane.size()), cv += p[1] / static_cast<double>(pane.size());
   Outline rim;
@@ -35,7 +37,7 @@ void framed(Surface& s, Seen seen, const Outline& pane, double surround, const F
     rim.push_back({p[0] + surround * (p[0] - cu) / l, p[1] + surround * (p[1] - cv) / l});
   }
   cut(s, seen, rim, filter, "trim");
-  cut(s, seen, pane, filter, "glass");
+  cut(s, seen, pane, filter, material);
 }
 
 void seam(Surface& s, double x0, double z0, double x1, double z1, double width) {
@@ -44,19 +46,48 @@ void seam(Surface& s, double x0, double z0, double x1, double z1, double width) 
   cut(s, Seen::from_side, {{x0 - nx, z0 - nz}, {x1 - nx, z1 - nz}, {x1 + nx, z1 + nz}, {x0 + nx, z0 + nz}}, on_side, "trim");
 }
 
+namespace {
+
+/// Height of the lowest face straight over or under a place; `otherwise` where there is none.
+double lowest(const Surface& s, double x, double y, double otherwise) {
+  double least = 1e9;
+  for (const Face& f : s.faces) {
+    const V3 &a = f.v[0].p, ab = f.v[1].p - a, ac = f.v[2].p - a;
+    const double area = ab.x * ac.y - ab.y * ac.x;
+    if (std::abs(area) < 1e-12) continue;
+    const double u = ((x - a.x) * ac.y - (y - a.y) * ac.x) / area, v = (ab.x * (y - a.y) - ab.y * (x - a.x)) / area;
+    if (u >= 0 && v >= 0 && u + v <= 1) least = std::min(least, a.z + u * ab.z + v * ac.z);
+  }
+  return least < 1e9 ? least : otherwise;
+}
+
+}  // namespace
+
 void wheel_arch(Surface& s, double x, double hub, double radius, double outer, double inner) {
+  constexpr int kPieces = 28;
+  constexpr double kDown = 0.11;   // of half a turn that the tunnel goes on below the hub, to the floor
+  constexpr double kLap = 0.15;    // [m] faces of the floor are left out whole: how far in the gap is closed ...
+  constexpr double kOver = 0.003;  // [m] ... and over the floor
+  const auto on_arch = [&](int i) {
+    const double a = std::numbers::pi * ((1 + 2 * kDown) * i / kPieces - kDown);
+    return V3{x + radius * std::cos(a), 0, hub + radius * std::sin(a)};
+  };
+  const auto deep = [](V3 p, double y) { return V3{p.x, y, p.z}; };
+  std::array<V3, kPieces + 1> floor_inner, floor_lap;
+  for (int i = 0; i <= kPieces; ++i) {
+    const V3 p = on_arch(i);
+    const auto floor_at = [&](double y) { return V3{p.x, y, lowest(s, p.x, y, hub) + kOver}; };
+    floor_inner[static_cast<std::size_t>(i)] = floor_at(inner);
+    floor_lap[static_cast<std::size_t>(i)] = floor_at(inner - kLap);
+  }
   const Filter side = [inner](const V3& p, const V3&) { return p.y > inner - 0.05; };
   cut(s, Seen::from_side, circle(x, hub, radius + 0.022, 40), on_side, "trim");
   cut(s, Seen::from_side, circle(x, hub, radius, 40), side, "");
-  const int n = 28;
-  for (int i = 0; i < n; ++i) {
-    const double a = std::numbers::pi * (1.15 * i / n - 0.075), b = std::numbers::pi * (1.15 * (i + 1) / n - 0.075);
-    const V3 pa{x + radius * std::cos(a), 0, hub + radius * std::sin(a)},
-        pb{x + radius * std::cos(b), 0, hub + radius * std::sin(b)};
-    auto deep = [](V3 p, double y) { return V3{p.x, y, p.z}; };
+  for (std::size_t i = 0; i < kPieces; ++i) {
+    const V3 pa = on_arch(static_cast<int>(i)), pb = on_arch(static_cast<int>(i) + 1);
     s.quad(deep(pa, outer), deep(pa, inner), deep(pb, inner), deep(pb, outer), "underbody");
-    s.quad(deep(pa, inner), {x, inner, hub}, {x, inner, hub}, deep(pb, inner), "underbody");
-    s.add({{x, inner, hub}, {0, 1, 0}}, {deep(pb, inner), {0, 1, 0}}, {deep(pa, inner), {0, 1, 0}}, "underbody");
+    s.quad(deep(pa, inner), floor_inner[i], floor_inner[i + 1], deep(pb, inner), "underbody");
+    s.quad(floor_inner[i], floor_lap[i], floor_lap[i + 1], floor_inner[i + 1], "underbody");
   }
 }
 

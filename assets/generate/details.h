@@ -5,6 +5,8 @@
 
 namespace assets {
 
+constexpr double kShutLine = 0.010;  // [m] between a lamp and the bodywork
+
 using Outline = std::vector<std::array<double, 2>>;
 
 Outline circle(double x, double z, double r, int n);
@@ -15,8 +17,8 @@ bool on_side(const V3& p, const V3& n);
 /// The upright skin of the left side, from a height.
 Filter side_above(double z);
 
-/// A pane with a black surround of a width [m].
-void framed(Surface&, Seen, const Outline& pane, double surround, const Filter&);
+/// A pane, or a lamp, with a black surround of a width [m].
+void framed(Surface&, Seen, const Outline& pane, double surround, const Filter&, const std::string& material = "glass");
 /// A dark line of a width [m] between two points of the side.
 void seam(Surface&, double x0, double z0, double x1, double z1, double width = 0.009);
 

@@ -45,7 +45,7 @@ void cut_ends(Surface& s, const Hatchback& c) {
   const Filter front = [bow](const V3& p, const V3& n) { return p.x > bow && n.z < 0.93 && n.x > -0.1; };
   const Filter nose = [bow](const V3& p, const V3& n) { return p.x > bow + 0.3 && n.x > 0.2; };
   const Filter tail = [stern](const V3& p, const V3& n) { return p.x < stern && n.z < 0.9 && n.x < 0.2; };
-  cut(s, Seen::from_front, c.headlamp, front, "lamp_front");
+  framed(s, Seen::from_front, c.headlamp, kShutLine, front, "lamp_front");
   cut(s, Seen::from_front,
       {{-1, c.grille_low}, {c.grille_half - 0.05, c.grille_low}, {c.grille_half, c.grille_high}, {-1, c.grille_high}}, nose,
       "trim");
@@ -58,8 +58,7 @@ void cut_ends(Surface& s, const Hatchback& c) {
   cut(s, Seen::from_front, {{-1, low}, {0.60, low}, {0.52, low + 0.11}, {-1, low + 0.11}}, nose, "trim");
   cut(s, Seen::from_front, {{0.60, low + 0.02}, {0.74, low + 0.03}, {0.73, low + 0.09}, {0.61, low + 0.08}}, front, "lamp_front");
   cut(s, Seen::from_front, rectangle(-1, c.plate_front - 0.055, 0.26, c.plate_front + 0.055), nose, "plate");
-  framed(s, Seen::from_front, c.tail_lamp, 0.018, tail);
-  cut(s, Seen::from_front, c.tail_lamp, tail, "lamp_rear");
+  framed(s, Seen::from_front, c.tail_lamp, 0.018, tail, "lamp_rear");
   cut(s, Seen::from_front, rectangle(-1, c.plate_rear - 0.09, 0.33, c.plate_rear + 0.08), tail, "trim");
   cut(s, Seen::from_front, rectangle(-1, c.plate_rear - 0.055, 0.26, c.plate_rear + 0.055), tail, "plate");
   const double bumper = c.sill + 0.10;
@@ -106,8 +105,8 @@ Surface build(const Hatchback& c) {
   for (const double x : {c.axle, -c.axle}) wheel_arch(s, x, c.hub, c.arch, c.shape.half_width - 0.012, c.shape.half_width - 0.40);
   darken_below(s, c.sill - 0.08);
   cut_glass(s, c);
-  cut_ends(s, c);
   cut_doors(s, c);
+  cut_ends(s, c);  // lamps lie over the seams
   const double z = c.front_door.front()[1] + 0.055;
   s.append(egg({c.mirror_x, c.shape.half_width + 0.08, z}, {0.06, 0.105, 0.07}, "paint"));
   s.box({c.mirror_x + 0.02, c.shape.half_width - 0.04, z - 0.045}, {0.035, 0.06, 0.018}, "trim");

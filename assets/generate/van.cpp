@@ -39,12 +39,10 @@ void cut_ends(Surface& s) {
   cut(s, Seen::from_front, {{-1, 0.30}, {1, 0.30}, {1, 0.50}, {0.60, 0.50}, {-1, 0.50}}, front, "trim");  // bumper
   cut(s, Seen::from_front, {{-1, 0.62}, {0.50, 0.62}, {0.58, 0.86}, {-1, 0.90}}, front, "trim");
   for (const double z : {0.67, 0.74, 0.81}) cut(s, Seen::from_front, rectangle(-1, z, 0.49, z + 0.016), front, "chrome");
-  framed(s, Seen::from_front, {{0.63, 0.66}, {0.90, 0.66}, {0.93, 0.97}, {0.72, 0.90}}, 0.015, front);
-  cut(s, Seen::from_front, {{0.63, 0.66}, {0.90, 0.66}, {0.93, 0.97}, {0.72, 0.90}}, front, "lamp_front");
+  framed(s, Seen::from_front, {{0.63, 0.66}, {0.90, 0.66}, {0.93, 0.97}, {0.72, 0.90}}, 0.015, front, "lamp_front");
   cut(s, Seen::from_front, rectangle(0.66, 0.37, 0.82, 0.44), front, "lamp_front");
   cut(s, Seen::from_front, rectangle(-1, 0.52, 0.26, 0.61), front, "plate");
-  framed(s, Seen::from_front, rectangle(0.86, 0.80, 1.1, 1.22), 0.012, behind);
-  cut(s, Seen::from_front, rectangle(0.86, 0.80, 1.1, 1.22), behind, "lamp_rear");
+  framed(s, Seen::from_front, rectangle(0.86, 0.80, 1.1, 1.22), 0.012, behind, "lamp_rear");
   cut(s, Seen::from_front, rectangle(-1, 0.30, 1.1, 0.47), behind, "trim");
   cut(s, Seen::from_front, rectangle(-1, 0.50, 0.006, 2.10), behind, "trim");  // between the doors
   cut(s, Seen::from_front, rectangle(-1, 0.33, 0.26, 0.44), behind, "plate");

@@ -347,5 +347,36 @@ TEST(MeshKinds, OutsideTheListAreRefused) {
   EXPECT_THAT(errors[0], HasSubstr("must be a mesh file of a known kind: .obj .stl"));
 }
 
+TEST(LibraryVehicles, AreClosedAtTheWheelsSeenFromBelow) {
+  const SceneFolder folder;
+  for (const std::string model : {"small_car", "sedan", "suv"}) {
+    const Scene scene = folder.load("[[vehicle]]\nname = \"car\"\nmodel = \"" + model + "\"\n");
+    const render::MeshActor& actor = scene.stage.meshes[0];
+    std::vector<engine::Vec3> vertices;
+    for (std::size_t i = 0; i + 2 < actor.mesh->positions.size(); i += 3)
+      vertices.emplace_back(actor.mesh->positions[i], actor.mesh->positions[i + 1], actor.mesh->positions[i + 2]);
+    std::vector<engine::Triangle> triangles;
+    for (std::size_t i = 0; i + 2 < actor.mesh->indices.size(); i += 3) {
+      const auto corner = [&](std::size_t k) { return static_cast<std::int32_t>(actor.mesh->indices[i + k]); };
+      triangles.push_back({corner(0), corner(1), corner(2)});
+    }
+    const engine::TriangleMesh look(vertices, triangles);
+    for (const engine::Wheel& wheel : scene.model.vehicles[0].wheels) {
+      const engine::Vec3 hub = actor.X_BM.inverse() * wheel.hub_B;
+      const double inwards = hub.y() > 0 ? -1 : 1;
+      for (int i = -15; i <= 15; ++i)
+        for (int k = 0; k <= 20; ++k) {
+          // from beside the tyre to well under the floor
+          const engine::Vec3 below(hub.x() + 0.02 * i + 0.001, hub.y() + inwards * (0.1 + 0.02 * k) + 0.0005, -1);
+          double up = 0;
+          int triangle = -1;
+          ASSERT_TRUE(look.raycast(below, engine::Vec3::UnitZ(), 5, up, triangle)) << model;
+          // the well is at most 0.42 m round; through a hole one sees the roof, or the bonnet 0.5 m over the hub
+          EXPECT_LT(up - 1 - hub.z(), 0.43) << model << " at " << below.transpose();
+        }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace scenes
