@@ -240,6 +240,57 @@ Net surface_net(const SkinField& field) {
   return net;
 }
 
+/// Halves each edge between two of these vertices.
+void halve_edges(const std::vector<bool>& of, const SkinField& field, Net& net) {
+  std::map<std::array<std::uint32_t, 2>, std::uint32_t> middles;
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    const auto next = static_cast<std::uint32_t>(net.vertices.size());
+    const auto [at, fresh] = middles.emplace(std::array{std::min(a, b), std::max(a, b)}, next);
+    if (fresh) net.vertices.push_back(0.5 * (net.vertices[a] + net.vertices[b]));
+    return at->second;
+  };
+  const std::size_t before = net.vertices.size();
+  std::vector<Triangle> out;
+  for (Triangle t : net.triangles) {
+    const auto halved = [&](std::size_t k) { return of[t[k]] && of[t[(k + 1) % 3]]; };
+    if (halved(0) && halved(1)) {  // then the third too
+      const std::uint32_t ab = middle(t[0], t[1]), bc = middle(t[1], t[2]), ca = middle(t[2], t[0]);
+      for (const Triangle& part : {Triangle{t[0], ab, ca}, {t[1], bc, ab}, {t[2], ca, bc}, {ab, bc, ca}}) out.push_back(part);
+      continue;
+    }
+    for (int turn = 0; turn < 2 && !halved(0); ++turn) std::rotate(t.begin(), t.begin() + 1, t.end());
+    if (halved(0)) {
+      const std::uint32_t ab = middle(t[0], t[1]);
+      out.push_back({t[0], ab, t[2]});
+      t[0] = ab;
+    }
+    out.push_back(t);
+  }
+  net.triangles = std::move(out);
+  in_slices(net.vertices.size() - before, [&](std::size_t i) {
+    Vec3& vertex = net.vertices[before + i];
+    vertex = field.onto_surface(vertex);
+  });
+}
+
+/// A cell of the grid is as wide as a lip: finer over the head's front half, and once more over its foremost part.
+void refine_face(const PersonActor& person, const SkinField& field, Net& net) {
+  std::vector<double> distances;
+  for (std::size_t head = 0; head < person.segments.size(); ++head) {
+    if (!person.segments[head].name.ends_with("head")) continue;
+    const Pose X_SM = field.poses()[head].inverse();
+    for (const double from : {-0.3, 0.5}) {  // of its half length, forward
+      std::vector<bool> on_face(net.vertices.size());
+      for (std::size_t v = 0; v < on_face.size(); ++v) {
+        if ((X_SM * net.vertices[v]).x() < from * person.segments[head].shape.semi_axes.x()) continue;
+        field.at(net.vertices[v], distances);
+        on_face[v] = *std::min_element(distances.begin(), distances.end()) == distances[head];
+      }
+      halve_edges(on_face, field, net);
+    }
+  }
+}
+
 /// Which material covers a vertex, and how far each material's nearest segment is.
 class Wardrobe {
  public:
@@ -372,6 +423,7 @@ std::shared_ptr<const Skin> build_skin(const PersonActor& person) {
   const SkinField field(person);
   const Wardrobe wardrobe(person, field);
   Net net = surface_net(field);
+  refine_face(person, field, net);
   auto mesh = std::make_shared<Mesh>();
   mesh->materials = wardrobe.materials();
   const auto by_material = dressed(net, wardrobe, field);

@@ -46,18 +46,47 @@ double volume(const std::vector<float>& positions, const std::vector<std::uint32
   return sum;
 }
 
-TEST(Skin, IsClosedAndOfOneWinding) {
-  const auto skin = build_skin(figure());
+void expect_closed(const Skin& skin) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-  const auto& indices = skin->mesh->indices;
+  const auto& indices = skin.mesh->indices;
   for (std::size_t t = 0; t < indices.size(); t += 3)
     for (std::size_t k = 0; k < 3; ++k) ++edges[{indices[t + k], indices[t + (k + 1) % 3]}];
   for (const auto& [edge, count] : edges) {
     ASSERT_EQ(count, 1);
     ASSERT_EQ(edges.count({edge.second, edge.first}), 1u);
   }
-  EXPECT_GT(volume(skin->mesh->positions, indices), 0) << "turned outward";
+  EXPECT_GT(volume(skin.mesh->positions, indices), 0) << "turned outward";
+}
+
+TEST(Skin, IsClosedAndOfOneWinding) {
+  const auto skin = build_skin(figure());
+  expect_closed(*skin);
   EXPECT_EQ(skin->mesh->parts.size(), 2u) << "one part a colour";
+}
+
+TEST(Skin, OfAFaceIsClosedAndFineEnoughForLips) {
+  PersonActor person = figure();
+  PersonActor::Segment head = person.segments[0];
+  head.name = "head";
+  head.parent = 0;
+  head.joint_P = {0, 0, 0.25};
+  head.shape = {{0.0975, 0.0775, 0.120}, 2.2};
+  head.X_WB.p = {0, 0, 1.62};
+  head.material.kind = MaterialKind::skin;
+  person.segments.push_back(head);
+  const auto skin = build_skin(person);
+  expect_closed(*skin);
+  const auto& indices = skin->mesh->indices;
+  double longest = 0;
+  for (std::size_t t = 0; t < indices.size(); t += 3)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 a = vertex(skin->mesh->positions, indices[t + k]), b = vertex(skin->mesh->positions, indices[t + (k + 1) % 3]);
+      const Vec3 middle = skin->X_SM.back() * Vec3((a + b) / 2);
+      if (middle.x() > 0.08 && std::abs(middle.z()) < 0.08) longest = std::max(longest, (a - b).norm());
+    }
+  // a cell of the grid is 8 mm here and its diagonal 14 mm: quartered, with as much again for the slopes of nose and sockets
+  EXPECT_GT(longest, 0);
+  EXPECT_LT(longest, 0.007);
 }
 
 TEST(Skin, LiesOnItsSegmentsAwayFromTheJoints) {
