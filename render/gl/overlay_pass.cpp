@@ -143,7 +143,8 @@ void OverlayPass::band(const std::vector<Pixel>& run, float half, const Float4& 
 
 void OverlayPass::polyline(const LineItem& line, float extra, const Float4& colour) {
   constexpr float kShort = 1, kEnd = 1e-3f;  // [pixels] a point nearer than this to the last tells nothing, be it the line's end
-  const float half = 0.5f * line.width * scale_ + extra * scale_;
+  // a line thinner than a pixel would be seen where it meets the middle of one, and hardly between
+  const float half = 0.5f * std::max(line.width * scale_, 1.0f) + extra * scale_;
   std::vector<Pixel> run;
   Pixel last{};
   const auto end = [&] {

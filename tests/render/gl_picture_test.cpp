@@ -171,6 +171,32 @@ TEST(Line, OfManyPiecesIsTheLineOfOne) {
   EXPECT_LE(worst, 2);
 }
 
+TEST(Line, ThatIsThinIsAsDenseEverywhere) {
+  // falls by three rows over the picture: a third of a pixel wide, it would come and go with each
+  const DrawList empty = plain(look_along_y({0, 0, 2}, 0.4f, kAspect));
+  DrawList lined = empty;
+  LineItem line;
+  line.width = 1;
+  line.outline = false;
+  line.points = {{-3, 6, 2}, {3, 6, 2.045f}};
+  lined.lines.push_back(line);
+  Renderer renderer(kWidth, kHeight, Quality::draft);
+  const Image bare = draw_with(renderer, empty), painted = draw_with(renderer, lined);
+  int least = 1000, most = 0;
+  for (int x = kWidth / 4; x < 3 * kWidth / 4; ++x) {
+    double share = 0;  // of a pixel that is painted in this column
+    for (int y = 0; y < kHeight; ++y) {
+      const int before = pixel(bare, x, y)[1];
+      share += static_cast<double>(pixel(painted, x, y)[1] - before) / (255 - before);
+    }
+    least = std::min(least, static_cast<int>(1000 * share));
+    most = std::max(most, static_cast<int>(1000 * share));
+  }
+  // a pixel of paint in each column; two roundings to 8 bits, of a ground that leaves 100 steps
+  EXPECT_GT(least, 970);
+  EXPECT_LT(most, 1030);
+}
+
 TEST(Line, ThatBendsIsNowhereDenserThanItsPaint) {
   const DrawList empty = plain(look_along_y({0, 0, 2}, 0.4f, kAspect));
   DrawList bent = empty;
