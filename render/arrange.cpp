@@ -7,6 +7,7 @@
 #include "render/cameras.h"
 #include "render/matrix.h"
 #include "render/overlays/overlay.h"
+#include "render/sight.h"
 #include "render/surface/skin.h"
 
 namespace render {
@@ -88,7 +89,7 @@ DrawList arrange(const Stage& stage, const engine::Recording& recording, const M
   const Camera& camera = camera_named(stage, moment.camera);
   const engine::Snapshot now = recording.at(moment.time);
   DrawList list;
-  list.view = view_of(camera, recording, moment.time, aspect);
+  list.view = view_of(held_outside(stage, now, camera), recording, moment.time, aspect);
   list.sky = stage.sky;
   list.road = stage.road;
   if (layer != Layer::sheet) add_scene(list, stage, now);

@@ -8,13 +8,13 @@
 namespace render {
 namespace {
 
-constexpr float kTitle = 58, kGap = 26, kText = 30, kFoot = 17;  // pixels at 1080 lines
-constexpr double kLeft = 0.10, kRight = 0.95;                    // [-] of the picture, between which is written
-constexpr double kTop = 0.03, kMiddle = 0.44;  // [-] a full page begins at the one, a short one has its middle at the other
-constexpr double kLeastText = 16;              // [pixels at 1080 lines], and
-constexpr double kLeastPixels = 8;             // [pixels] of the writing: smaller letters cannot be told apart
-constexpr double kStep = 0.93;                 // [-] from one size to the next smaller
-constexpr std::size_t kMostLines = 400;        // more than any page has room for
+constexpr float kTitle = 58, kLineGap = 26, kText = 30, kFoot = 17;  // pixels at 1080 lines
+constexpr double kTextLeft = 0.10, kTextRight = 0.95;                // [-] of the picture, between which is written
+constexpr double kPageTop = 0.03, kPageMiddle = 0.44;  // [-] a full page begins at the one, a short one has its middle at the other
+constexpr double kLeastText = 16;                      // [pixels at 1080 lines], and
+constexpr double kLeastPixels = 8;                     // [pixels] of the writing: smaller letters cannot be told apart
+constexpr double kStep = 0.93;                         // [-] from one size to the next smaller
+constexpr std::size_t kMostLines = 400;                // more than any page has room for
 
 LabelItem bare_label() {
   LabelItem label;
@@ -28,14 +28,14 @@ LabelItem writing(const Card& card, std::size_t count, double size, int width, i
   const double scale = height / 1080.0;
   const auto write = [&](const std::string& text, float full, const Float4& colour) {
     const double pixels = full * size;
-    for (const std::string& piece : broken_at_words(text, pixels * scale, (kRight - kLeft) * width)) {
+    for (const std::string& piece : broken_at_words(text, pixels * scale, (kTextRight - kTextLeft) * width)) {
       label.lines.push_back(piece);
       label.sizes.push_back(static_cast<float>(pixels));
       label.colours.push_back(colour);
     }
   };
   write(card.title, kTitle, kWhiteText);
-  if (!card.lines.empty()) write(" ", kGap, kWhiteText);
+  if (!card.lines.empty()) write(" ", kLineGap, kWhiteText);
   for (std::size_t i = 0; i < count; ++i) write(card.lines[i], kText, kPaleText);
   if (count < card.lines.size()) write("\u2026", kText, kPaleText);
   return label;
@@ -81,7 +81,7 @@ CardPage card_page(const Stage& stage, const Card& card, int width, int height) 
   }
   page.list.labels = {label};
   const double tall = place_labels(page.list, width, height).front().height / height;
-  page.list.labels.front().anchor = {static_cast<float>(kLeft), static_cast<float>(std::max(kMiddle, kTop + tall / 2))};
+  page.list.labels.front().anchor = {static_cast<float>(kTextLeft), static_cast<float>(std::max(kPageMiddle, kPageTop + tall / 2))};
   page.list.labels.front().pivot = {0, 0.5f};
   page.list.labels.push_back(foot_of(stage));
   return page;

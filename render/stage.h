@@ -69,7 +69,8 @@ struct MeshActor {
   int body = 0;  // -1: stands still in the world
   Pose X_BM;     // mesh frame in the body frame
   std::shared_ptr<const Mesh> mesh;
-  std::vector<Material> repaint;  // replaces mesh materials of the same name (another paint colour)
+  std::vector<Material> repaint;                        // replaces mesh materials of the same name (another paint colour)
+  std::shared_ptr<const engine::TriangleMesh> solid{};  // what it is for touch, in the mesh frame; null: nothing
 };
 
 /// A wheel follows its WheelRecord (hub, steer, spin).

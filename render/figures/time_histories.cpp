@@ -18,7 +18,7 @@ constexpr double kLeft = 30, kRight = 222, kTop = 30, kBottom = kSheetHeight - 2
 
 constexpr double kEventLine = 3.8;                                                   // [mm]
 constexpr double kKeyLetters = 2.8, kKeyRoom = kSheetWidth - kMargin - kRight - 19;  // [mm] of a curve's name
-constexpr double kMarkEvery = 14, kMarkSize = 0.9;  // [mm] on curves beyond the line styles there are
+constexpr double kMarkEvery = 14, kCurveMark = 0.9;  // [mm] on curves beyond the line styles there are
 
 struct Curve {
   std::string name;
@@ -178,13 +178,13 @@ void draw_panel(cairo_t* c, const Panel& panel, const Box& box, const engine::Re
     grey(c, 0);
     if (style >= kLineStyles) {
       const int shape = style / kLineStyles - 1;
-      draw_mark(c, shape, kRight + 11, key - 1, kMarkSize);
+      draw_mark(c, shape, kRight + 11, key - 1, kCurveMark);
       // those of two such curves stand apart
       double next = kLeft + kMarkEvery * (0.3 + 0.25 * (style % kLineStyles));
       for (std::size_t k = 0; k < panel.curves[i].values.size(); ++k) {
         const double x = box.x(recording.snapshots[k].time);
         if (x < next) continue;
-        draw_mark(c, shape, x, box.y(std::clamp(panel.curves[i].values[k], box.floor, box.ceiling)), kMarkSize);
+        draw_mark(c, shape, x, box.y(std::clamp(panel.curves[i].values[k], box.floor, box.ceiling)), kCurveMark);
         next += kMarkEvery;
       }
     }

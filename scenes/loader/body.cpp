@@ -172,7 +172,7 @@ void read_body(Builder& builder, Reader r) {
     stage.ellipsoids.push_back({body.name, index, *ellipsoid, material});
   } else if (std::holds_alternative<engine::MeshShape>(body.shape)) {
     if (const auto mesh = in_frame(builder, import_mesh(builder, r, "mesh"), given_frame(r)))
-      stage.meshes.push_back({body.name, index, {}, mesh->look, {}});
+      stage.meshes.push_back({body.name, index, {}, mesh->look, {}, std::get<engine::MeshShape>(body.shape).mesh});
   }
   if (!body.fixed) stage.speeds.push_back({index, body.name});
   builder.scene.model.bodies.push_back(std::move(body));

@@ -27,10 +27,10 @@ const Section kKnotSection{"camera.knot", "[[camera.knot]]",
 
 const Key kCameraKeys[] = {
     bound<&render::Camera::name>({"name", Type::text, Dimension::none, kRequired, "Name for --camera and for shots."}),
-    bound<&render::Camera::kind>(
-        {"kind", Type::choice, Dimension::none, "'fixed'",
-         "Stands still; keeps its offset; circles; looks straight down; sees with a driver or a person; or moves along knots.",
-         kAny, "fixed|follow|orbit|top|eye|path"}),
+    bound<&render::Camera::kind>({"kind", Type::choice, Dimension::none, "'fixed'",
+                                  "Stands still; keeps its offset; circles; looks straight down; sees with a driver or a person, "
+                                  "whose eye backs off from what the face is pressed against; or moves along knots.",
+                                  kAny, "fixed|follow|orbit|top|eye|path"}),
     bound<&render::Camera::position>(
         {"position", Type::vector3, Dimension::length, "'-8 -8 3 m'",
          "Fixed: in the world. Follow: offset from the subject. Eye: in the axes of the body that carries it, a person's head, "

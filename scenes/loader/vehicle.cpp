@@ -166,7 +166,7 @@ Meshes read_meshes(Builder& builder, Reader& r, Origin origin) {
 }
 
 void add_actors(Builder& builder, const VehicleGiven& given, const engine::Vehicle& vehicle, const Meshes& meshes,
-                const engine::Pose& X_BM) {
+                const engine::MeshShape& shape) {
   render::Stage& stage = builder.scene.stage;
   std::vector<render::Material> repaint;
   if (given.colour) {
@@ -176,7 +176,7 @@ void add_actors(Builder& builder, const VehicleGiven& given, const engine::Vehic
       repaint.back().colour = *given.colour;
     }
   }
-  stage.meshes.push_back({vehicle.name, vehicle.body, X_BM, meshes.bodywork->look, std::move(repaint)});
+  stage.meshes.push_back({vehicle.name, vehicle.body, shape.X_BM, meshes.bodywork->look, std::move(repaint), shape.mesh});
   for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
     if (!meshes.wheels[i]) continue;
     stage.wheels.push_back({static_cast<int>(builder.scene.model.vehicles.size()), static_cast<int>(i), vehicle.body,
@@ -308,7 +308,7 @@ void read_vehicle(Builder& builder, Reader scene) {
   if (given.saddle) builder.saddles[vehicle.name] = *given.saddle - given.cg;
   if (given.hitch) builder.hitches[vehicle.name] = *given.hitch - given.cg;
   vehicle.body = static_cast<int>(model.bodies.size());
-  add_actors(builder, given, vehicle, meshes, X_BM);
+  add_actors(builder, given, vehicle, meshes, std::get<engine::MeshShape>(body.shape));
   model.bodies.push_back(std::move(body));
   model.vehicles.push_back(std::move(vehicle));
 }

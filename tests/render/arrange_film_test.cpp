@@ -61,6 +61,22 @@ Vec3 in_clip(const View& view, const Vec3& p) {
   return c.head<3>() / c.w();
 }
 
+/// A block to look at and to touch.
+MeshActor block(int body, const Vec3& lower, const Vec3& upper) {
+  std::vector<Vec3> corners;
+  for (int k = 0; k < 8; ++k)
+    corners.emplace_back(k & 1 ? upper.x() : lower.x(), k & 2 ? upper.y() : lower.y(), k & 4 ? upper.z() : lower.z());
+  const std::vector<engine::Triangle> triangles{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                                                {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  auto mesh = std::make_shared<Mesh>();
+  mesh->materials.push_back({"paint", MaterialKind::paint});
+  MeshActor actor;
+  actor.body = body;
+  actor.mesh = mesh;
+  actor.solid = std::make_shared<engine::TriangleMesh>(corners, triangles);
+  return actor;
+}
+
 constexpr double kFloat = 1e-5;  // matrices are handed over in single precision, lengths of some metres
 
 TEST(Camera, AnEyeSharesTheMotionOfItsBody) {
@@ -86,6 +102,31 @@ TEST(Camera, APersonsEyeIsCarriedByTheHead) {
   engine::Recording r = run();
   for (auto& s : r.snapshots) s.bodies.own()[2].X_WB.p = Vec3(0, 0, 1.6);
   EXPECT_NEAR(view_of(eye, r, 0.3, 1).eye[2], 1.6, kFloat);
+}
+
+TEST(Camera, APersonsEyeBacksOffFromWhatItIsPressedAgainst) {
+  Stage s = stage();
+  PersonActor ann;
+  ann.name = "ann";
+  ann.segments.push_back({});
+  ann.segments[0].name = "head";
+  ann.segments[0].body = 2;  // at the origin
+  s.persons.push_back(ann);
+  Camera eye;
+  eye.name = "eye";
+  eye.kind = CameraKind::eye;
+  eye.follow = "ann";
+  eye.position = {0.16, 0, 0.04};
+  eye.target = {10, 0, 0.04};
+  s.cameras.push_back(eye);
+  const auto seen_from = [&](double wall) {
+    s.meshes = {block(-1, {wall, -5, -5}, {wall + 1, 5, 5})};
+    const Float3 at = arrange(s, run(), {0.3, "eye", 1}, 1.5).view.eye;
+    return Vec3(at[0], at[1], at[2]);
+  };
+  EXPECT_LT((seen_from(2) - eye.position).norm(), kFloat);
+  // 0.66 m are to be free from the middle of the head on: 0.36 m back, and as much up
+  EXPECT_LT((seen_from(0.3) - Vec3(-0.20, 0, 0.40)).norm(), kFloat);
 }
 
 TEST(Camera, APathMeetsItsKnotsAndRunsSmoothlyBetween) {
