@@ -20,17 +20,6 @@ const Camera& camera_named(const Stage& stage, const std::string& name) {
   return *at;
 }
 
-void add_mesh(DrawList& list, const std::shared_ptr<const Mesh>& mesh, const Mat4& model, const std::vector<Material>& repaint) {
-  MeshItem item;
-  item.mesh = mesh;
-  item.model = to_gl(model);
-  item.materials = mesh->materials;
-  for (Material& m : item.materials)
-    for (const Material& other : repaint)
-      if (other.name == m.name) m = other;
-  list.meshes.push_back(std::move(item));
-}
-
 void add_ellipsoid(DrawList& list, const engine::HyperEllipsoid& shape, const Pose& X, const Material& material, bool raster) {
   list.ellipsoids.push_back({shape, to_gl(rigid(X)), material, raster, static_cast<std::uint32_t>(list.ellipsoids.size())});
 }
@@ -59,23 +48,25 @@ void add_person(DrawList& list, const PersonActor& person, const engine::Snapsho
     add_ellipsoid(list, s.shape, now.bodies[static_cast<std::size_t>(s.body)].X_WB, s.material, person.look == PersonLook::raster);
 }
 
+Pose place_of(const WheelActor& actor, const engine::WheelRecord& wheel, const engine::Snapshot& now) {
+  const engine::Quat body = actor.body < 0 ? engine::Quat::Identity() : now.bodies[static_cast<std::size_t>(actor.body)].X_WB.q;
+  return {wheel.hub, body * engine::Quat(Eigen::AngleAxisd(wheel.steer + (actor.left ? 0 : std::numbers::pi), Vec3::UnitZ())) *
+                         engine::Quat(Eigen::AngleAxisd(actor.left ? wheel.spin : -wheel.spin, Vec3::UnitY()))};
+}
+
 void add_scene(DrawList& list, const Stage& stage, const engine::Snapshot& now) {
   for (const EllipsoidActor& actor : stage.ellipsoids)
     add_ellipsoid(list, actor.shape, now.bodies[static_cast<std::size_t>(actor.body)].X_WB, actor.material, false);
   for (const PersonActor& person : stage.persons) add_person(list, person, now);
   for (const MeshActor& actor : stage.meshes) {
     const Pose X_WB = actor.body < 0 ? Pose{} : now.bodies[static_cast<std::size_t>(actor.body)].X_WB;
-    add_mesh(list, actor.mesh, rigid(X_WB * actor.X_BM), actor.repaint);
+    list.meshes.push_back(placed(actor.mesh, X_WB * actor.X_BM, actor.repaint));
   }
   for (const WheelActor& actor : stage.wheels)
-    for (const engine::WheelRecord& wheel : now.wheels) {
-      if (wheel.vehicle != actor.vehicle || wheel.wheel != actor.wheel) continue;
-      const engine::Quat body = actor.body < 0 ? engine::Quat::Identity() : now.bodies[static_cast<std::size_t>(actor.body)].X_WB.q;
-      Pose X{wheel.hub, body * engine::Quat(Eigen::AngleAxisd(wheel.steer + (actor.left ? 0 : std::numbers::pi), Vec3::UnitZ())) *
-                            engine::Quat(Eigen::AngleAxisd(actor.left ? wheel.spin : -wheel.spin, Vec3::UnitY()))};
-      add_mesh(list, actor.mesh, rigid(X), {});
-    }
-  if (stage.road.terrain) add_mesh(list, stage.road.terrain, Mat4::Identity(), {});
+    for (const engine::WheelRecord& wheel : now.wheels)
+      if (wheel.vehicle == actor.vehicle && wheel.wheel == actor.wheel)
+        list.meshes.push_back(placed(actor.mesh, place_of(actor, wheel, now), {}));
+  if (stage.road.terrain) list.meshes.push_back(placed(stage.road.terrain, Pose{}, {}));
 }
 
 bool wanted(const Overlay& overlay, Layer layer, const Camera& camera) {
@@ -97,6 +88,32 @@ DrawList arrange(const Stage& stage, const engine::Recording& recording, const M
   for (const Overlay* overlay : overlay_table())
     if (wanted(*overlay, layer, camera) && overlay->shown_in(frame)) overlay->add(frame, list);
   return list;
+}
+
+MeshItem placed(const std::shared_ptr<const Mesh>& mesh, const Pose& X_WM, const std::vector<Material>& repaint) {
+  MeshItem item;
+  item.mesh = mesh;
+  item.model = to_gl(rigid(X_WM));
+  item.materials = mesh->materials;
+  for (Material& m : item.materials)
+    for (const Material& other : repaint)
+      if (other.name == m.name) m = other;
+  return item;
+}
+
+std::vector<MeshActor> standing(const Stage& stage, int body, const engine::Snapshot& now) {
+  std::vector<MeshActor> out;
+  for (MeshActor actor : stage.meshes) {
+    if (actor.body != body) continue;
+    actor.X_BM = now.bodies[static_cast<std::size_t>(body)].X_WB * actor.X_BM;
+    actor.body = -1;
+    out.push_back(std::move(actor));
+  }
+  for (const WheelActor& actor : stage.wheels)
+    for (const engine::WheelRecord& wheel : now.wheels)
+      if (actor.body == body && wheel.vehicle == actor.vehicle && wheel.wheel == actor.wheel)
+        out.push_back({"", -1, place_of(actor, wheel, now), actor.mesh, {}});
+  return out;
 }
 
 SkinItem bent_skin(const PersonActor& person, const engine::Snapshot& now) {

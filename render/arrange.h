@@ -15,6 +15,12 @@ enum class Layer { all, scene, sheet };
 /// One frame from Moment::camera. `aspect` = width / height. Unknown camera asserts (the loader has checked).
 DrawList arrange(const Stage&, const engine::Recording&, const Moment&, double aspect, Layer = Layer::all);
 
+/// A mesh in its paint.
+MeshItem placed(const std::shared_ptr<const Mesh>&, const Pose& X_WM, const std::vector<Material>& repaint);
+
+/// The meshes of a body and its wheels as they stand at one instant: still, in the world.
+std::vector<MeshActor> standing(const Stage&, int body, const engine::Snapshot&);
+
 /// The skin of a person (of look `skin`) at one instant.
 SkinItem bent_skin(const PersonActor&, const engine::Snapshot&);
 

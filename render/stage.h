@@ -98,6 +98,7 @@ struct PersonActor {
     Material material;
   };
   std::string name;
+  int mount = -1;  // body of what it rides
   PersonLook look = PersonLook::segments;
   std::vector<Segment> segments;
 

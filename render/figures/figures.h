@@ -60,6 +60,13 @@ std::vector<std::string> contact_sheet(const Stage&, const engine::Recording&, c
 /// nine evenly where there is none.
 std::vector<double> times_of_sheet(const engine::Recording&, const FigureJob&);
 
+/// Follows the person on the side from which more of it is seen until it lands: vehicles may stand between.
+Camera camera_of_sheet(const Stage&, const engine::Recording&, const PersonFacts&);
+
+/// The stage of a stroboscopic still: each vehicle that nobody rides as it stood at `met`, and clear as at `end`, where in full it
+/// would hide who was there before.
+Stage stage_of_stroboscope(const Stage&, const engine::Recording&, double met, double end);
+
 /// When the vehicles of a site diagram stood where their dashed outlines are: as the first person was touched, else as two of
 /// them first met, else at the start.
 double dashed_at(const engine::Recording&, const FigureJob&);

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <optional>
 
+#include "render/arrange.h"
+#include "render/cameras.h"
 #include "render/figures/figures.h"
 #include "render/figures/rest_cloud.h"
 #include "render/image/png.h"
 #include "render/painter.h"
+#include "render/sight.h"
 #include "render/text/labels.h"
 
 namespace render {
@@ -59,51 +62,52 @@ Camera beside(const std::vector<Vec3>& points, double aspect) {
   return camera;
 }
 
-/// At how many of some instants from the touch to the landing something as high as a car stands between a person and who looks from
-/// that far beside it.
-int times_hidden(const Stage& stage, const PersonFacts& p, const engine::Recording& recording, const Vec3& beside) {
-  constexpr int kInstants = 6, kPoints = 40;
-  constexpr double kHigh = 1;  // [m]
-  const double from = p.hit.value_or(0), to = p.landed.value_or(recording.end_time());
-  int hidden = 0;
-  for (const MeshActor& actor : stage.meshes) {
-    if (actor.body < 0) continue;
-    Eigen::AlignedBox3d box;
-    for (std::size_t i = 0; i + 2 < actor.mesh->positions.size(); i += 3)
-      box.extend(Eigen::Vector3d(actor.mesh->positions[i], actor.mesh->positions[i + 1], actor.mesh->positions[i + 2]));
-    if (box.sizes().z() < kHigh) continue;
-    box.min().z() = -1e3;
-    box.max().z() = 1e3;
-    for (int k = 0; k < kInstants; ++k) {
-      const double time = from + (to - from) * k / (kInstants - 1);
-      const Vec3 person = centre_of_mass(p, recording, time);
-      const engine::Pose X_MW = (recording.at(time).bodies[static_cast<std::size_t>(actor.body)].X_WB * actor.X_BM).inverse();
-      bool between = false;
-      for (int i = 1; i <= kPoints; ++i) between = between || box.contains(X_MW * Vec3(person + i * beside / kPoints));
-      hidden += between;
-    }
-  }
-  return hidden;
+std::vector<double> evenly(double from, double to, int count) {
+  std::vector<double> out;
+  for (int i = 0; i < count; ++i) out.push_back(from + (to - from) * i / (count - 1));
+  return out;
 }
 
-/// Goes along with a person, square to the way from where it is struck to where it ends, on the side where the vehicle that struck
-/// does not stand between: it was struck at a corner, say.
-Camera beside_person(const Stage& stage, const PersonFacts& p, const engine::Recording& recording) {
-  Vec3 way = centre_of_mass(p, recording, recording.end_time()) - centre_of_mass(p, recording, p.hit.value_or(0));
-  way.z() = 0;
-  way = way.norm() > 0.2 ? Vec3(way.normalized()) : Vec3(Vec3::UnitX());
-  constexpr double kAway = 9.5;  // [m]
-  Vec3 side(way.y(), -way.x(), 0);
-  if (times_hidden(stage, p, recording, kAway * side) > times_hidden(stage, p, recording, -kAway * side)) side = -side;
-  Camera camera;
-  camera.name = "beside";
-  camera.kind = CameraKind::follow;
-  camera.follow = p.name;
-  camera.vertical_fov = 0.5;
-  // what struck it comes from behind, and is to be seen too
-  camera.target = -1.1 * way + Vec3(0, 0, 0.9);
-  camera.position = camera.target + kAway * side + Vec3(0, 0, 1.4);
-  return camera;
+/// Parts of a person whose middle a camera sees, summed over some instants.
+int parts_seen(const Camera& camera, const PersonFacts& person, const Stage& stage, const engine::Recording& recording,
+               const std::vector<double>& times) {
+  int seen = 0;
+  for (const double time : times) {
+    const engine::Snapshot now = recording.at(time);
+    const Float3 eye = view_of(camera, recording, time, kAspectOfFilm).eye;
+    for (const int body : person.bodies) {
+      const Vec3& part = now.bodies[static_cast<std::size_t>(body)].X_WB.p;
+      seen += free_share(stage, now, part, Vec3(eye[0], eye[1], eye[2]) - part) == 1;
+    }
+  }
+  return seen;
+}
+
+/// Beside the way of what moves, with what struck as it stood then, from the side where more of the persons is seen.
+Camera camera_of_stroboscope(const Stage& stage, const engine::Recording& recording, const FigureJob& job, std::vector<Vec3> points,
+                             double met, double end) {
+  for (const PersonFacts& p : job.persons)
+    if (p.vehicle_body >= 0)
+      points.insert(points.begin() + 1, recording.at(met).bodies[static_cast<std::size_t>(p.vehicle_body)].X_WB.p);
+  const Camera right = beside(points, static_cast<double>(job.width) / job.height);
+  Camera left = right;
+  left.position.head<2>() = 2 * right.target.head<2>() - right.position.head<2>();
+  const std::vector<double> times = evenly(met, end, static_cast<int>(kFigures));
+  int more_from_left = 0;
+  for (const PersonFacts& p : job.persons)
+    more_from_left += parts_seen(left, p, stage, recording, times) - parts_seen(right, p, stage, recording, times);
+  return more_from_left > 0 ? left : right;
+}
+
+void add_key(const std::vector<std::string>& lines, Image& image) {
+  DrawList list;
+  LabelItem key;
+  key.lines = lines;
+  key.sizes.assign(lines.size(), 26);
+  key.colours.assign(lines.size(), {1, 1, 1, 1});
+  key.anchor = {0.02f, 0.03f};
+  list.labels.push_back(key);
+  draw_labels(list, image);
 }
 
 /// From the first touch of anybody to the last rest, or to the end where one who was touched came to none.
@@ -119,12 +123,59 @@ std::pair<double, double> span_of(const engine::Recording& recording, const Figu
 
 }  // namespace
 
+Camera camera_of_sheet(const Stage& stage, const engine::Recording& recording, const PersonFacts& p) {
+  constexpr int kInstants = 6;
+  const double from = p.hit.value_or(0), to = p.landed.value_or(recording.end_time());
+  Vec3 way = centre_of_mass(p, recording, recording.end_time()) - centre_of_mass(p, recording, from);
+  way.z() = 0;
+  way = way.norm() > 0.2 ? Vec3(way.normalized()) : Vec3(Vec3::UnitX());
+  constexpr double kAway = 9.5;  // [m]
+  const Vec3 right(way.y(), -way.x(), 0);
+  Camera camera;
+  camera.name = "beside";
+  camera.kind = CameraKind::follow;
+  camera.follow = p.name;
+  camera.vertical_fov = 0.5;
+  // what struck it comes from behind, and is to be seen too
+  camera.target = -1.1 * way + Vec3(0, 0, 0.9);
+  camera.position = camera.target + kAway * right + Vec3(0, 0, 1.4);
+  Camera across = camera;
+  across.position -= 2 * kAway * right;
+  const std::vector<double> times = evenly(from, to, kInstants);
+  const auto seen = [&](const Camera& from_there) { return parts_seen(from_there, p, stage, recording, times); };
+  return seen(across) > seen(camera) ? across : camera;
+}
+
+Stage stage_of_stroboscope(const Stage& stage, const engine::Recording& recording, double met, double end) {
+  constexpr double kMoved = 0.1;  // [m]
+  constexpr float kOpacity = 0.25f;
+  const engine::Snapshot then = recording.at(met), last = recording.at(end);
+  Stage out = stage;
+  for (const int body : stage.vehicles) {
+    const auto b = static_cast<std::size_t>(body);
+    const auto rides = [&](const PersonActor& person) { return person.mount == body; };
+    if (std::any_of(stage.persons.begin(), stage.persons.end(), rides)) continue;
+    if ((last.bodies[b].X_WB.p - then.bodies[b].X_WB.p).norm() < kMoved) continue;
+    std::erase_if(out.meshes, [&](const MeshActor& actor) { return actor.body == body; });
+    std::erase_if(out.wheels, [&](const WheelActor& actor) { return actor.body == body; });
+    for (MeshActor& actor : standing(stage, body, then)) out.meshes.push_back(std::move(actor));
+    for (MeshActor& actor : standing(stage, body, last)) {
+      actor.repaint = placed(actor.mesh, actor.X_BM, actor.repaint).materials;
+      for (Material& m : actor.repaint) m.kind = MaterialKind::glass, m.opacity = kOpacity;
+      actor.solid = nullptr;
+      out.meshes.push_back(std::move(actor));
+    }
+  }
+  return out;
+}
+
 std::vector<std::string> stroboscopic_still(const Stage& stage, const engine::Recording& recording, const FigureJob& job) {
   const auto [from, to] = span_of(recording, job);
   const std::vector<Vec3> points = places(stage, recording, job, from);
   if (points.empty()) return {};
-  Stage scene = stage;
-  scene.cameras.insert(scene.cameras.begin(), beside(points, static_cast<double>(job.width) / job.height));
+  const double met = dashed_at(recording, job);
+  Stage scene = stage_of_stroboscope(stage, recording, met, to);
+  scene.cameras.insert(scene.cameras.begin(), camera_of_stroboscope(scene, recording, job, points, met, to));
   double way = 0;
   for (std::size_t i = job.persons.size() + stage.ellipsoids.size(), n = i; i < points.size(); i += n)
     way += (points[i] - points[i - n]).norm();
@@ -135,6 +186,11 @@ std::vector<std::string> stroboscopic_still(const Stage& stage, const engine::Re
   Painter painter(job.width, job.height, job.quality);
   Image image;
   painter.paint(scene, recording, {to, "stroboscopic", 1}, image);
+  std::vector<std::string> key;
+  for (const MeshActor& actor : scene.meshes)
+    if (!actor.solid && !actor.name.empty())
+      key.push_back(fmt::format("{}: solid at t = {:.3f} s, clear at t = {:.3f} s", actor.name, met, to));
+  if (!key.empty()) add_key(key, image);
   return write(job, "stroboscopic.png", image);
 }
 
@@ -156,15 +212,9 @@ std::vector<std::string> rest_ghosts(const Stage& stage, const engine::Recording
   Painter painter(job.width, job.height, job.quality);
   Image image;
   painter.paint(scene, ends, {ends.end_time(), "stroboscopic", 1}, image);
-  DrawList list;
-  LabelItem key;
-  key.lines = {"solid: " + figure.middle};
-  for (const RestGhost& g : figure.ghosts) key.lines.push_back("pale: " + g.label);
-  key.sizes.assign(key.lines.size(), 26);
-  key.colours.assign(key.lines.size(), {1, 1, 1, 1});
-  key.anchor = {0.02f, 0.03f};
-  list.labels.push_back(key);
-  draw_labels(list, image);
+  std::vector<std::string> key{"solid: " + figure.middle};
+  for (const RestGhost& g : figure.ghosts) key.push_back("pale: " + g.label);
+  add_key(key, image);
   return write(job, "rest_ghosts.png", image);
 }
 
@@ -186,7 +236,7 @@ std::vector<std::string> contact_sheet(const Stage& stage, const engine::Recordi
   const std::vector<double> times = times_of_sheet(recording, job);
   const int w = job.width / kColumns, h = static_cast<int>(std::lround(w / kAspectOfFilm));
   Stage scene = stage;
-  if (!job.persons.empty()) scene.cameras.insert(scene.cameras.begin(), beside_person(stage, job.persons[job.person], recording));
+  if (!job.persons.empty()) scene.cameras.insert(scene.cameras.begin(), camera_of_sheet(stage, recording, job.persons[job.person]));
   // labels would be too small to read
   scene.overlays.hide({"contacts", "forces", "disclaimer", "caption", "legend", "speed_chart", "energy_chart"});
   scene.overlays.set("contact_history");

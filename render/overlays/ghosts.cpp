@@ -1,4 +1,5 @@
-// Stroboscopic figures: where persons and free bodies were, at equal times or equal distances, pale against what is there now.
+// Stroboscopic figures: where persons, with what they ride, and free bodies were, at equal times or equal distances, pale against
+// what is there now.
 #include <algorithm>
 
 #include "render/matrix.h"
@@ -42,10 +43,25 @@ void add_shape(DrawList& list, const engine::HyperEllipsoid& shape, const Pose& 
   list.ellipsoids.push_back({shape, to_gl(rigid(X)), pale(material), false, static_cast<std::uint32_t>(list.ellipsoids.size())});
 }
 
+/// Until a rider has left the saddle, what it rides moves with it.
+void add_mount(const Frame& frame, const PersonActor& person, const engine::Snapshot& s, DrawList& list) {
+  constexpr double kLeft = 0.3;  // [m]
+  const auto seat = [&](const engine::Snapshot& at) -> Vec3 {
+    const auto pose = [&](int body) -> const Pose& { return at.bodies[static_cast<std::size_t>(body)].X_WB; };
+    return pose(person.mount).inverse() * pose(person.segments.front().body).p;
+  };
+  if (person.mount < 0 || (seat(s) - seat(frame.recording.snapshots.front())).norm() > kLeft) return;
+  for (const MeshActor& actor : standing(frame.stage, person.mount, s)) {
+    list.meshes.push_back(placed(actor.mesh, actor.X_BM, actor.repaint));
+    for (Material& m : list.meshes.back().materials) m = pale(m);
+  }
+}
+
 void add_ghosts(const Frame& frame, DrawList& list) {
   for (const PersonActor& person : frame.stage.persons) {
     if (person.segments.empty()) continue;
     const std::vector<const engine::Snapshot*> when = instants(frame, person.segments.front().body);
+    for (const engine::Snapshot* s : when) add_mount(frame, person, *s, list);
     if (person.look == PersonLook::skin) {
       for (const engine::Snapshot* s : when) {
         list.skins.push_back(bent_skin(person, *s));
@@ -66,7 +82,7 @@ void add_ghosts(const Frame& frame, DrawList& list) {
 
 struct Ghosts {
   static constexpr OverlayKey kKeys[] = {
-      {"ghost_interval", 0, "Pale figures of persons and free bodies at equal times.", "s", 0.005, 60},
+      {"ghost_interval", 0, "Pale figures of persons, with what they ride, and of free bodies at equal times.", "s", 0.005, 60},
       {"ghost_distance", 0, "Pale figures at equal distances travelled.", "m", 0.02, 1000}};
   static constexpr Overlay kOverlay{"ghosts", kKeys, add_ghosts, [](const Frame& f) {
                                       return f.stage.overlays.on("ghost_interval") || f.stage.overlays.on("ghost_distance");

@@ -170,6 +170,7 @@ void add_actor(Builder& builder, Reader& r, const engine::Person& person, const 
                const std::vector<engine::Pose>& X_WB) {
   render::PersonActor actor;
   actor.name = person.name;
+  actor.mount = person.mount;
   r.fill(actor);
   for (std::size_t i = 0; i < figure.segments.size(); ++i) {
     const Segment& s = figure.segments[i];

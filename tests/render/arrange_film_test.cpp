@@ -281,6 +281,55 @@ TEST(OverlayNumbers, AMarkStaysOnBothWhereTheyTouched) {
   EXPECT_NEAR(farthest, 2, 0.05);
 }
 
+TEST(ContactSheet, LooksFromTheSideWhereNothingStandsBetween) {
+  PersonFacts person;
+  person.name = "car";  // runs along x
+  person.bodies = {0};
+  person.masses = {1};
+  person.hit = 0.2;
+  person.landed = 0.8;
+  for (const double side : {-1.0, 1.0}) {
+    Stage s = stage();
+    s.meshes = {block(-1, {-9, 3 * side - 0.1, 0}, {9, 3 * side + 0.1, 4})};
+    EXPECT_LT(camera_of_sheet(s, run(), person).position.y() * side, -5) << "a wall at y = " << 3 * side;
+  }
+}
+
+TEST(StroboscopicStill, ShowsAVehicleInFullWhereItStruckAndClearWhereItEnds) {
+  Stage s = stage();
+  s.vehicles = {0};
+  s.meshes = {block(0, {-1, -1, 0}, {1, 1, 1})};
+  const std::vector<MeshActor> meshes = stage_of_stroboscope(s, run(), 0.2, 1).meshes;
+  ASSERT_EQ(meshes.size(), 2u);
+  for (const MeshActor& actor : meshes) EXPECT_EQ(actor.body, -1) << "stands still";
+  EXPECT_NEAR(meshes[0].X_BM.p.x(), 0.4, 1e-12);
+  EXPECT_TRUE(meshes[0].repaint.empty());
+  EXPECT_NEAR(meshes[1].X_BM.p.x(), 2, 1e-12);
+  ASSERT_EQ(meshes[1].repaint.size(), 1u);
+  EXPECT_EQ(meshes[1].repaint[0].kind, MaterialKind::glass);
+  s.persons.emplace_back().mount = 0;
+  EXPECT_EQ(stage_of_stroboscope(s, run(), 0.2, 1).meshes[0].body, 0) << "what is ridden goes with its rider";
+}
+
+TEST(OverlayNumbers, AGhostRidesUntilItHasLeftTheSaddle) {
+  engine::Recording r = run();
+  for (engine::Snapshot& now : r.snapshots) {
+    now.bodies.own()[1].X_WB.p = now.bodies[0].X_WB.p + Vec3(0, 0, now.time < 0.5 ? 0.6 : 1.2);
+  }
+  Stage s = stage();
+  s.meshes = {block(0, {-1, -1, 0}, {1, 1, 1})};
+  PersonActor& rider = s.persons.emplace_back();
+  rider.mount = 0;
+  rider.segments.push_back({});
+  rider.segments[0].body = 1;
+  s.overlays.set("ghost_interval", 0.2);
+  const DrawList list = arrange(s, r, {1.0, "side", 1}, 1.5);
+  EXPECT_EQ(list.ellipsoids.size(), 1u + 5u) << "0, 0.2, 0.4, 0.6, 0.8 s";
+  ASSERT_EQ(list.meshes.size(), 1u + 3u) << "0, 0.2, 0.4 s";
+  EXPECT_NEAR(list.meshes[3].model[12], 0.8, kFloat);
+  EXPECT_NE(list.meshes[3].materials[0].kind, MaterialKind::paint) << "pale";
+}
+
 TEST(OverlayNumbers, GhostsAreWhereTheBodyWasAtEqualTimesOrWays) {
   Stage s = stage();
   EllipsoidActor ball;
