@@ -149,6 +149,24 @@ TEST(Marker, IsFaintBehindWhatStandsWellBeforeIt) {
   EXPECT_GE(blue_of(alone), 250);
 }
 
+TEST(Line, IsSeenThroughAPaneByTheShareItLetsThrough) {
+  DrawList pane = plain(look_along_y({0, 0, 2}, 0.4f, kAspect));
+  pane.ellipsoids.push_back(ball({0, 4, 2}, 0.5));
+  pane.ellipsoids[0].material.kind = MaterialKind::glass;
+  pane.ellipsoids[0].material.opacity = 0.25f;  // one sample of four
+  DrawList marked = pane;
+  LineItem line;
+  line.points = {{-1, 6, 2}, {1, 6, 2}};
+  line.width = 24;
+  line.outline = false;
+  line.occluded = Occluded::hidden;
+  marked.lines.push_back(line);
+  Renderer renderer(kWidth, kHeight, Quality::standard);
+  const int bare = pixel(draw_with(renderer, pane), kWidth / 2, kHeight / 2)[2];
+  const int seen = pixel(draw_with(renderer, marked), kWidth / 2, kHeight / 2)[2];
+  EXPECT_NEAR(seen, bare + 0.75 * (255 - bare), 2) << "two roundings";
+}
+
 TEST(Line, OfManyPiecesIsTheLineOfOne) {
   // half clear, with its outline: a pixel that two pieces paint stands out like a bead
   const auto drawn = [](int pieces) {
