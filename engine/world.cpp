@@ -81,11 +81,22 @@ double RunLog::overlap_at_start(int a, int b) const {
 
 void warn_of_overlap(World& world, int a, int b, double gap) {
   constexpr double kTold = 1e-3;  // [m]
+  constexpr double kParts = 0.1;  // [m] deeper, points of a mesh are not followed to the surface of another
   if (gap > -kTold) return;
   auto name = [&](int body) { return body >= 0 ? world.model.bodies[body].name : std::string("the ground"); };
+  std::vector<std::string>& warnings = world.log.diagnostics.warnings;
+  const auto pair = [&](int one, int other) { return name(one) + " and " + name(other) + " overlap by "; };
+  const double before = world.log.overlap_at_start(a, b);
   world.log.overlaps.push_back({a, b, -gap});
-  world.log.diagnostics.warnings.push_back(name(a) + " and " + name(b) + " overlap by " + std::to_string(std::lround(-gap * 1e3)) +
-                                           " mm at the start; they are moved apart gently");
+  if (before >= -gap) return;
+  // one warning a pair, of the deepest
+  if (before > 0)
+    std::erase_if(warnings, [&](const std::string& w) { return w.starts_with(pair(a, b)) || w.starts_with(pair(b, a)); });
+  const auto with_mesh = [&world](int body) { return body >= 0 && is_mesh(world.model.bodies[body]); };
+  const bool too_deep = -gap > kParts && with_mesh(a) && with_mesh(b);
+  warnings.push_back(pair(a, b) + std::to_string(std::lround(-gap * 1e3)) + " mm" +
+                     (too_deep ? " or more at the start; a run does not part what stands so deep in another: move one"
+                               : " at the start; they are moved apart gently"));
 }
 
 namespace {

@@ -60,9 +60,10 @@ struct TyrePair {
 
 /// A point that stands for a body's mesh, or for one of its wheels, where it meets other surfaces.
 struct SurfacePoint {
-  Vec3 p_B = Vec3::Zero();  // [m] of a wheel at static ride
-  int wheel = -1;           // of State::wheels, -1: of the body
-  double radius = 0;        // [m] from the wheel's axle
+  Vec3 p_B = Vec3::Zero();           // [m] of a wheel at static ride
+  int wheel = -1;                    // of State::wheels, -1: of the body
+  double radius = 0;                 // [m] from the wheel's axle
+  std::vector<Vec3> normals_B = {};  // between which it can press; none: any
 };
 
 /// Of the pairs those that a step can bring together, as the broad phase saw last.

@@ -38,12 +38,17 @@ constexpr double kClear = 0.05;         // [m] from a coupled vehicle: nearer at
 std::vector<SurfacePoint> points_of(const Model& model, const Body& body, int first_wheel, PointsOf of) {
   std::vector<SurfacePoint> out;
   const auto& shape = std::get<MeshShape>(body.shape);
-  for (const Vec3& p : representative_points(*shape.mesh, kSpacing, of)) out.push_back({shape.X_BM * p});
+  for (const RepresentativePoint& point : representative_points(*shape.mesh, kSpacing, of)) {
+    out.push_back({.p_B = shape.X_BM * point.p});
+    // of walls, rails and slabs; the few points of a thin moving mesh, a bicycle, hold it whichever way their faces look
+    if (body.fixed)
+      for (const Vec3& n : point.normals) out.back().normals_B.push_back(shape.X_BM.q * n);
+  }
   if (body.vehicle < 0) return out;
   for (const Wheel& wheel : model.vehicles[body.vehicle].wheels) {
     for (int i = 0; i < kRimPoints; ++i) {
       const Vec3 p = rim_point(wheel, i), arm = p - wheel.hub_B;
-      out.push_back({p, first_wheel, math::hypot(arm.x(), arm.z())});
+      out.push_back({.p_B = p, .wheel = first_wheel, .radius = math::hypot(arm.x(), arm.z())});
     }
     ++first_wheel;
   }
@@ -54,6 +59,21 @@ std::vector<SurfacePoint> points_of(const Model& model, const Body& body, int fi
 bool faces_ground(const Ground& ground, const SurfaceContact& c) {
   constexpr double kDown = -0.5, kStands = 5e-3;  // [-], [m]
   return ground.plane && c.normal.z() < kDown && c.p_b.z() < ground.height + kStands;
+}
+
+/// A point presses on the other's surface only between the normals of its own faces: the normal found is turned to the nearest of
+/// those. False if they are too far apart: the point of a wall's edge that lies within the front of what slides along the wall.
+bool turn_between(const std::vector<Vec3>& normals_B, const Quat& q_WB, SurfaceContact& c) {
+  constexpr double kLeast = 0.2;  // [-] cosine
+  if (normals_B.empty()) return true;
+  const Vec3 d_B = q_WB.conjugate() * -c.normal;
+  const Vec3 turned = nearest_in_cone(normals_B, d_B);
+  if (turned == d_B) return true;
+  const double size = turned.norm();
+  if (size < kLeast) return false;
+  c.normal = q_WB * (-turned / size);
+  c.p_b = c.p_a - c.gap * c.normal;
+  return true;
 }
 
 void reserve_scratch(const Model& model, ContactPairs& pairs) {
@@ -177,6 +197,7 @@ void touch_with_points(const Outlook& outlook, int body, const std::vector<Surfa
       c.p_b = target.X_WM * surface->point;
       c.normal = target.X_WM.q * surface->normal;
       c.gap = surface->gap;
+      if (!target.is_ground && !turn_between(points[i].normals_B, X.q, c)) continue;
       if (faces_ground(world.model.ground, c)) continue;
     } else {
       c.gap = p.z() - target.height;

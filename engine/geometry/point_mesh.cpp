@@ -108,25 +108,89 @@ std::optional<NearestSurface> nearest_surface(const TriangleMesh& mesh, const Ve
   return best;
 }
 
-std::vector<Vec3> representative_points(const TriangleMesh& mesh, double spacing, PointsOf of) {
+namespace {
+
+void add_unlike(std::vector<Vec3>& normals, const Vec3& n) {
+  constexpr double kAlike = 0.02;  // [rad]
+  for (const Vec3& other : normals)
+    if ((other - n).norm() < kAlike) return;
+  normals.push_back(n);
+}
+
+/// What a triangle adds to the normals of a point of its edge: its own and, where nothing joins it there, away from it and behind.
+void add_normals(const TriangleMesh& mesh, int triangle, std::size_t edge, std::vector<Vec3>& normals) {
+  const Vec3& n = mesh.face_normals()[triangle];
+  add_unlike(normals, n);
+  const int e = static_cast<int>(edge);
+  if (mesh.edge_kind(triangle, e) != EdgeKind::open) return;
+  const Triangle& v = mesh.triangles()[triangle];
+  add_unlike(normals, (mesh.vertices()[v[(edge + 1) % 3]] - mesh.vertices()[v[edge]]).cross(n).normalized());
+  add_unlike(normals, -n);
+}
+
+RepresentativePoint at_vertex(const TriangleMesh& mesh, int vertex) {
+  RepresentativePoint out{mesh.vertices()[vertex], {}};
+  for (const int t : mesh.triangles_at(vertex))
+    for (std::size_t i = 0; i < 3; ++i)
+      if (mesh.triangles()[t][i] == vertex || mesh.triangles()[t][(i + 1) % 3] == vertex) add_normals(mesh, t, i, out.normals);
+  return out;
+}
+
+}  // namespace
+
+std::vector<RepresentativePoint> representative_points(const TriangleMesh& mesh, double spacing, PointsOf of) {
   const Vec3 centre = 0.5 * (mesh.bounds().lower + mesh.bounds().upper);
-  std::map<std::array<int, 3>, Vec3> cubes;
-  const auto offer = [&](const Vec3& p) {
-    const Eigen::Vector3i cube = ((p - centre) / spacing).array().floor().cast<int>();
-    const auto [at, fresh] = cubes.try_emplace({cube.x(), cube.y(), cube.z()}, p);
-    if (!fresh && (p - centre).squaredNorm() > (at->second - centre).squaredNorm()) at->second = p;
+  std::map<std::array<int, 3>, RepresentativePoint> cubes;
+  const auto offer = [&](const RepresentativePoint& point) {
+    const Eigen::Vector3i cube = ((point.p - centre) / spacing).array().floor().cast<int>();
+    const auto [at, fresh] = cubes.try_emplace({cube.x(), cube.y(), cube.z()}, point);
+    if (fresh) return;
+    if ((point.p - centre).squaredNorm() > (at->second.p - centre).squaredNorm()) at->second.p = point.p;
+    for (const Vec3& n : point.normals) add_unlike(at->second.normals, n);
   };
-  for (const Vec3& v : mesh.vertices()) offer(v);
-  if (of == PointsOf::vertices_and_edges)
-    for (const auto& triangle : mesh.triangles())
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 &from = mesh.vertices()[triangle[i]], &to = mesh.vertices()[triangle[(i + 1) % 3]];
-        const double parts = std::ceil((to - from).norm() / spacing);
-        for (double k = 1; k < parts; ++k) offer(from + k / parts * (to - from));
+  for (int v = 0; v < static_cast<int>(mesh.vertices().size()); ++v) offer(at_vertex(mesh, v));
+  for (int t = 0; of == PointsOf::vertices_and_edges && t < static_cast<int>(mesh.triangles().size()); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int edge = static_cast<int>(i);
+      if (!felt_by_round(mesh.edge_kind(t, edge))) continue;
+      const Triangle& v = mesh.triangles()[t];
+      const Vec3 &from = mesh.vertices()[v[i]], &to = mesh.vertices()[v[(i + 1) % 3]];
+      RepresentativePoint point;
+      add_normals(mesh, t, i, point.normals);
+      if (const int other = mesh.neighbour(t, edge); other >= 0) add_unlike(point.normals, mesh.face_normals()[other]);
+      const double parts = std::ceil((to - from).norm() / spacing);
+      for (double k = 1; k < parts; ++k) {
+        point.p = from + k / parts * (to - from);
+        offer(point);
       }
-  std::vector<Vec3> out;
+    }
+  std::vector<RepresentativePoint> out;
   for (const auto& entry : cubes) out.push_back(entry.second);
   return out;
+}
+
+Vec3 nearest_in_cone(const std::vector<Vec3>& normals, const Vec3& d) {
+  constexpr double kAlong = 0.9999;  // [-] cosine: within by all but a degree, without a look at all pairs
+  if (std::any_of(normals.begin(), normals.end(), [&](const Vec3& n) { return n.dot(d) > kAlong; })) return d;
+  // on the cone's border two normals at most take part
+  Vec3 nearest = Vec3::Zero();
+  const auto offer = [&](const Vec3& p) {
+    if ((p - d).squaredNorm() < (nearest - d).squaredNorm()) nearest = p;
+  };
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const double along = normals[i].dot(d);
+    if (along > 0) offer(along * normals[i]);
+    for (std::size_t k = i + 1; k < normals.size(); ++k) {
+      const double other = normals[k].dot(d), c = normals[i].dot(normals[k]);
+      const double a = along - c * other, b = other - c * along, size = 1 - c * c;
+      if (a > 0 && b > 0 && size > 0) offer((a * normals[i] + b * normals[k]) / size);
+    }
+  }
+  // all normals lie behind the plane through the nearest point of the border, or d is within
+  constexpr double kBehind = 1e-9;
+  for (const Vec3& n : normals)
+    if (n.dot(d - nearest) > kBehind) return d;
+  return nearest;
 }
 
 void keep_spread(std::vector<SurfaceContact>& contacts, std::size_t most) {
