@@ -191,12 +191,11 @@ struct LongestStep {
   std::vector<std::string> bodies;  // that had most contacts and limits in it, or turned fastest
 };
 
-/// Acceleration of the centre of a person's head, a sample a step: what head injury criteria integrate. Only with the compliant
-/// law.
+/// Acceleration of the centre of a person's head over each step: what head injury criteria integrate. Only with the compliant law.
 struct HeadMotion {
   int person = 0;
-  std::vector<double> time;          // [s]
-  std::vector<double> acceleration;  // [m/s^2] magnitude
+  std::vector<double> time;          // [s] the start, and the end of each step
+  std::vector<double> acceleration;  // [m/s^2] magnitude of the mean over the step that ends then
 };
 
 struct Recording {

@@ -321,8 +321,10 @@ std::string decided(const engine::Metric& metric, const std::vector<engine::Metr
       if (m.key == key && m.object == metric.object) out = m.value;
     return out;
   };
-  const double by_vehicle = of("hic15_vehicle"), by_ground = of("hic15_ground");
-  if (metric.key == "hic15" && by_vehicle >= kDecides * metric.value && by_vehicle >= by_ground) return "";
+  const double by_vehicle = of("hic15_vehicle"), by_ground = of("hic15_ground"), by_object = of("hic15_object");
+  if (metric.key == "hic15" && by_vehicle >= kDecides * metric.value && by_vehicle >= std::max(by_ground, by_object)) return "";
+  if (metric.key == "hic15" && by_object >= kDecides * metric.value && by_object >= by_ground)
+    return ", of an object or another person";
   if (by_ground < kDecides * metric.value) return ", of neither vehicle nor road alone";
   const auto [body, came_down] = struck_by_name(scene, recording, metric.object);
   const std::string name = body < 0 ? "the road" : scene.model.bodies[static_cast<std::size_t>(body)].name;

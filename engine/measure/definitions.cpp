@@ -118,7 +118,7 @@ constexpr Definition kDefinitions[] = {
      true},
     {"hic15", "", "HIC15",
      "Head injury criterion of the resultant acceleration of the head's centre over windows of 15 ms at most, from the head's "
-     "first touch of vehicle or ground on, whatever it touches (49 CFR 571.208 S6.2).",
+     "first touch of anything but itself on, whatever it touches (49 CFR 571.208 S6.2).",
      kNoForce, kHic, true},
     {"hic36", "", "HIC36", "The same over windows of 36 ms at most.", kNoForce, kHic},
     {"three_ms_g", "g", "3 ms clip", "Largest acceleration of the head that is held for 3 ms without a break, same course.",
@@ -133,6 +133,9 @@ constexpr Definition kDefinitions[] = {
      "`crashreel study`",
      true},
     {"three_ms_ground_g", "g", "3 ms clip, ground", "3 ms clip of the same.", kNoForce, "as hic15_ground"},
+    {"hic15_object", "", "HIC15 object",
+     "The same of its touches of other persons and of things that are neither vehicles nor fixed.", kNoForce, kHic, true},
+    {"three_ms_object_g", "g", "3 ms clip, object", "3 ms clip of the same.", kNoForce, kHic},
     {"peak_acceleration_mps2", "m/s^2", "peak acceleration",
      "Largest acceleration of a part's centre, mean over a step; free fall counts one g.", kNoForce, "grows with stiffness"},
     {"delta_v_mps", "m/s", "delta-v",

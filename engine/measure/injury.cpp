@@ -3,16 +3,14 @@
 #include <cmath>
 #include <map>
 
-#include "engine/math/roots.h"
 #include "engine/measure/metrics.h"
 #include "engine/measure/parties.h"
 
 namespace engine {
 
 double hic(const std::vector<double>& t, const std::vector<double>& a, double window) {
-  // integral by the trapezium rule, exact for a piecewise linear signal; then every pair of samples
   std::vector<double> sum(t.size(), 0);
-  for (std::size_t i = 1; i < t.size(); ++i) sum[i] = sum[i - 1] + 0.5 * (a[i] + a[i - 1]) * (t[i] - t[i - 1]);
+  for (std::size_t i = 1; i < t.size(); ++i) sum[i] = sum[i - 1] + a[i] * (t[i] - t[i - 1]);
   double best = 0;
   for (std::size_t i = 0; i < t.size(); ++i)
     for (std::size_t k = i + 1; k < t.size() && t[k] - t[i] <= window * (1 + 1e-9); ++k) {
@@ -24,25 +22,16 @@ double hic(const std::vector<double>& t, const std::vector<double>& a, double wi
 }
 
 double three_ms_clip(const std::vector<double>& t, const std::vector<double>& a) {
-  constexpr double kHeld = 3e-3;  // [s]
-  // longest stretch above a level, by bisection on the level
-  auto longest_above = [&](double level) {
-    double longest = 0, begin = 0;
-    bool above = !a.empty() && a[0] >= level;
-    if (above) begin = t[0];
-    for (std::size_t i = 1; i < t.size(); ++i) {
-      const bool now = a[i] >= level;
-      const double crossing = now == above ? 0 : t[i - 1] + (level - a[i - 1]) / (a[i] - a[i - 1]) * (t[i] - t[i - 1]);
-      if (now && !above) begin = crossing;
-      if (!now && above) longest = std::max(longest, crossing - begin);
-      above = now;
+  constexpr double kHeld = 3e-3 * (1 - 1e-9);  // [s]
+  double best = 0;
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    double least = a[i];
+    for (std::size_t k = i; least > best; least = std::min(least, a[k])) {
+      if (t[k] - t[i - 1] >= kHeld) best = least;
+      if (++k == t.size()) break;
     }
-    if (above && !t.empty()) longest = std::max(longest, t.back() - begin);
-    return longest;
-  };
-  if (longest_above(0) < kHeld) return 0;
-  const double highest = a.empty() ? 0 : *std::max_element(a.begin(), a.end());
-  return math::bisect({0, highest}, 60, 0, [&](double level) { return longest_above(level) >= kHeld; }).low;
+  }
+  return best;
 }
 
 namespace {
@@ -58,21 +47,25 @@ struct Span {
 
 constexpr double kAround = 0.005;  // [s] kept before and after a touch: windows may begin and end where nothing acts
 
-/// Which of two kinds pushed the head harder since the snapshot before: what both did at once is that one's. What is fixed to the
-/// ground counts as ground.
-enum class Partner { none, vehicle, ground };
+/// Which kind pushed the head hardest since the snapshot before: what several did at once is that one's. What is fixed to the
+/// ground counts as ground. object: what is thrown, dropped or carried, and other persons.
+enum class Partner { none, vehicle, ground, object };
 
 Partner partner_in(const Model& model, const Snapshot& s, int head) {
-  double by_vehicle = 0, by_ground = 0;
+  double by_vehicle = 0, by_ground = 0, by_object = 0;
   for (const ContactRecord& c : s.contacts) {
-    if (c.body_a != head) continue;
-    if (c.shapes.on_ground() || is_fixture(model, c.body_b))
+    if (c.body_a != head && c.body_b != head) continue;
+    const int other = c.body_a == head ? c.body_b : c.body_a;
+    if (c.shapes.on_ground() || is_fixture(model, other))
       by_ground += c.normal_impulse;
     else if (c.shapes.on_vehicle())
       by_vehicle += c.normal_impulse;
+    else if (model.bodies[other].person != model.bodies[head].person)
+      by_object += c.normal_impulse;
   }
-  if (!(by_vehicle > 0) && !(by_ground > 0)) return Partner::none;
-  return by_vehicle >= by_ground ? Partner::vehicle : Partner::ground;
+  if (std::max({by_vehicle, by_ground, by_object}) <= 0) return Partner::none;
+  if (by_vehicle >= std::max(by_ground, by_object)) return Partner::vehicle;
+  return by_ground >= by_object ? Partner::ground : Partner::object;
 }
 
 /// Times at which the head is pushed by the partner wanted, neighbours run together. They reach not into the other's.
@@ -154,21 +147,25 @@ void measure_injury(const Model& model, const Recording& recording, int p, std::
   for (const HeadMotion& head : recording.heads) {
     if (head.person != p) continue;
     const std::vector<Span> car = touches(model, recording, person.head, Partner::vehicle),
-                            road = touches(model, recording, person.head, Partner::ground);
-    if (car.empty() && road.empty()) return;
-    const double first = std::min(car.empty() ? 1e300 : car.front().from, road.empty() ? 1e300 : road.front().from);
-    const Criteria whole = criteria(head, {{first, 1e300}}), vehicle = criteria(head, car), ground = criteria(head, road);
+                            road = touches(model, recording, person.head, Partner::ground),
+                            thing = touches(model, recording, person.head, Partner::object);
+    double first = 1e300;
+    for (const auto* spans : {&car, &road, &thing})
+      if (!spans->empty()) first = std::min(first, spans->front().from);
+    if (first == 1e300) return;
+    const Criteria whole = criteria(head, {{first, 1e300}});
     out.push_back({"hic15", person.name, whole.hic15});
     out.push_back({"hic36", person.name, whole.hic36});
     out.push_back({"three_ms_g", person.name, whole.clip});
-    if (vehicle.any) {
-      out.push_back({"hic15_vehicle", person.name, vehicle.hic15});
-      out.push_back({"three_ms_vehicle_g", person.name, vehicle.clip});
-    }
-    if (ground.any) {
-      out.push_back({"hic15_ground", person.name, ground.hic15});
-      out.push_back({"three_ms_ground_g", person.name, ground.clip});
-    }
+    const auto note = [&](const std::vector<Span>& spans, const char* hic15, const char* clip) {
+      const Criteria of = criteria(head, spans);
+      if (!of.any) return;
+      out.push_back({hic15, person.name, of.hic15});
+      out.push_back({clip, person.name, of.clip});
+    };
+    note(car, "hic15_vehicle", "three_ms_vehicle_g");
+    note(road, "hic15_ground", "three_ms_ground_g");
+    note(thing, "hic15_object", "three_ms_object_g");
   }
 }
 

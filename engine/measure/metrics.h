@@ -72,11 +72,12 @@ void measure_vehicle(const Model&, const Recording&, const std::vector<Impact>&,
 /// rest.
 void measure_rollover(const Model&, const Recording&, const std::vector<Impact>&, int vehicle, std::vector<Metric>&);
 
-/// Head injury criterion: max over windows of at most `window` [s] of (t2 - t1) (mean of a)^2.5, a in g at equally or unequally
-/// spaced `times`, piecewise linear between them. Exact at the samples: windows begin and end on them.
+/// Head injury criterion: max over windows of at most `window` [s] of (t2 - t1) (mean of a)^2.5. a [g] of an index is the mean over
+/// the time since the one before, that of the first is not looked at: the integral is the change of speed. Windows begin and end at
+/// the times given.
 double hic(const std::vector<double>& times, const std::vector<double>& acceleration_g, double window);
 
-/// Largest level [g] that is held for 3 ms without a break, acceleration piecewise linear.
+/// Largest level [g] that is held for 3 ms without a break, by the same means.
 double three_ms_clip(const std::vector<double>& times, const std::vector<double>& acceleration_g);
 
 /// Why head injury measures are absent, empty if they are there: rigid impacts exchange impulses in no time, an acceleration that

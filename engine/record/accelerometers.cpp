@@ -14,47 +14,43 @@ void Accelerometers::begin(const World& world, Recording& recording) {
     recording.heads.back().acceleration.reserve(room);
   }
   times_.reserve(room);
-  moving_.reserve(world.model.persons.size());
+  times_.push_back(0);
+  for (const Person& person : world.model.persons)
+    head_velocity_.push_back(person.head < 0 ? Vec3(Vec3::Zero()) : world.model.bodies[person.head].V_WB.v);
   recording.peak_acceleration.assign(world.model.bodies.size(), 0);
   for (const Body& body : world.model.bodies) velocity_.push_back(body.fixed ? Vec3(Vec3::Zero()) : body.V_WB.v);
 }
 
-void Accelerometers::list_moving(const World& world) {
-  listed_ = world.still.changes;
-  const std::vector<int>& others = world.still.others;
-  moving_.clear();
-  for (int p = 0; p < static_cast<int>(world.model.persons.size()); ++p) {
-    const std::vector<int>& bodies = world.model.persons[p].bodies;
-    const auto moves = [&](int b) { return std::binary_search(others.begin(), others.end(), b); };
-    if (std::any_of(bodies.begin(), bodies.end(), moves)) moving_.push_back(p);
+void Accelerometers::follow(const World& world, const State& state, Recording& recording) {
+  constexpr double kSampling = 1e-4;  // [s] 10 kHz, as SAE J211 asks of heads: an instant has no acceleration
+  if (!yields(world.model.settings.contact_law, true) || world.model.persons.empty()) return;
+  if (recording.heads.empty()) begin(world, recording);
+  const double step = state.time - times_.back();
+  if (step < std::min(kSampling, world.model.settings.step) * (1 - 1e-9)) return;
+  for (std::size_t p = 0; p < world.model.persons.size(); ++p) {
+    const int head = world.model.persons[p].head;
+    if (head < 0 || state.V_WB[head].v == head_velocity_[p]) continue;  // of who waits noughts are put in once it matters
+    std::vector<double>& acceleration = recording.heads[p].acceleration;
+    acceleration.resize(times_.size());
+    acceleration.push_back((state.V_WB[head].v - head_velocity_[p]).norm() / step);
+    head_velocity_[p] = state.V_WB[head].v;
   }
+  times_.push_back(state.time);
 }
 
 void Accelerometers::sample(const World& world, const State& state, Recording& recording) {
-  if (!yields(world.model.settings.contact_law, true) || world.model.persons.empty()) return;
-  if (recording.heads.empty()) begin(world, recording);
-  const double step = state.time - sampled_;
-  const auto note_head = [&](int p) {
-    const int head = world.model.persons[p].head;
-    if (head < 0 || state.V_WB[head].v == velocity_[head]) return;  // of who waits noughts are put in once it matters
-    std::vector<double>& acceleration = recording.heads[p].acceleration;
-    acceleration.resize(times_.size());
-    acceleration.push_back((state.V_WB[head].v - velocity_[head]).norm() / step);
-  };
+  if (recording.heads.empty()) return;
   const auto note_peak = [&](std::size_t b) {
-    recording.peak_acceleration[b] = std::max(recording.peak_acceleration[b], (state.V_WB[b].v - velocity_[b]).norm() / step);
+    const double acceleration = (state.V_WB[b].v - velocity_[b]).norm() / world.model.settings.step;
+    recording.peak_acceleration[b] = std::max(recording.peak_acceleration[b], acceleration);
     velocity_[b] = state.V_WB[b].v;
   };
   if (listed_ == world.still.changes) {
-    for (const int p : moving_) note_head(p);
     for (const int b : world.still.others) note_peak(static_cast<std::size_t>(b));
   } else {  // of who has just come to be still the last step is noted
-    list_moving(world);
-    for (int p = 0; p < static_cast<int>(world.model.persons.size()); ++p) note_head(p);
+    listed_ = world.still.changes;
     for (std::size_t b = 0; b < velocity_.size(); ++b) note_peak(b);
   }
-  times_.push_back(state.time - 0.5 * step);
-  sampled_ = state.time;
 }
 
 void Accelerometers::finish(const World& world, Recording& recording) const {

@@ -10,7 +10,10 @@ namespace engine {
 /// Only where persons yield: a rigid blow has no acceleration.
 class Accelerometers {
  public:
-  /// At the end of every step.
+  /// At the end of every step, and of every part of a divided one: heads.
+  void follow(const World&, const State&, Recording&);
+
+  /// At the end of every step: peaks.
   void sample(const World&, const State&, Recording&);
 
   /// Noughts for who was still, at the end of the run.
@@ -18,13 +21,11 @@ class Accelerometers {
 
  private:
   void begin(const World&, Recording&);
-  void list_moving(const World&);
 
-  std::vector<Vec3> velocity_;  // [m/s] per body, at the last sample
-  double sampled_ = 0;          // [s] when that was
-  std::vector<double> times_;   // [s] of the samples
-  std::vector<int> moving_;     // persons who are not still
-  long listed_ = -1;            // StillBodies::changes when those were listed
+  std::vector<Vec3> velocity_;       // [m/s] per body, at the last step
+  std::vector<Vec3> head_velocity_;  // [m/s] per person, at the last of the times
+  std::vector<double> times_;        // [s] of the heads' samples
+  long listed_ = -1;                 // StillBodies::changes when a body's step was noted last
 };
 
 }  // namespace engine

@@ -23,6 +23,8 @@ class Recorder {
 
   /// End of every step: what snapshots are too seldom for.
   void sample(const World&, const State&, Recording&);
+  /// At the end of every part of a step too.
+  void follow(const World& world, const State& state, Recording& recording) { accelerometers_.follow(world, state, recording); }
 
   /// Writes a snapshot with everything tallied since the one before.
   void snapshot(const World&, const State&, Recording&);

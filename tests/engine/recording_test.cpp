@@ -113,14 +113,15 @@ TEST(RecordingOfWhoWaits, HasTheEnergiesOfAllBodiesToTheLastBit) {
 }
 
 TEST(RecordingOfWhoWaits, HasASampleOfTheirHeadsForEveryStep) {
-  const Recording run = somebody_struck(Vec3::Zero(), true), awake = somebody_struck(Vec3::Zero(), false);
+  const Recording run = somebody_struck(Vec3::Zero(), true);
   ASSERT_EQ(run.heads.size(), 2u);
   for (std::size_t p = 0; p < 2; ++p) {
     const HeadMotion& head = run.heads[p];
     ASSERT_EQ(head.time.size(), head.acceleration.size());
-    ASSERT_EQ(head.time.size(), awake.heads[p].time.size());
+    EXPECT_TRUE(std::is_sorted(head.time.begin(), head.time.end()));
+    EXPECT_EQ(head.time.front(), 0);
+    EXPECT_NEAR(head.time.back(), run.end_time(), 1e-9);
     for (std::size_t i = 0; i < head.time.size(); ++i) {
-      EXPECT_EQ(head.time[i], awake.heads[p].time[i]);
       const bool waits = p == 1 || head.time[i] < 0.038;
       EXPECT_TRUE(!waits || head.acceleration[i] == 0) << head.time[i];
     }

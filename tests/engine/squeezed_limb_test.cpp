@@ -25,7 +25,6 @@ Model trunk_over_limb(double limb_mass, double restitution, double drop, double 
     body.surface.restitution_body = body.surface.restitution_ground = restitution;
     Person person;
     person.bodies = {b};
-    person.head = b;
     person.zero_condition = false;
     model.persons.push_back(person);
   }
