@@ -75,10 +75,14 @@ bool friction_gave_way(StepContext& s) {
 
 double resistance_work(const StepContext& s, int j) {
   const Resistance& resistance = s.buffers.resistances[j];
+  const Joint& joint = s.world.model.joints[j];
   const Twist impulse = impulse_at(s, j, resistance.after);
-  const double turning = 0.5 * impulse.w.dot(resistance.before.w + resistance.after.w);
+  // over the way of the step: what the impulse displaces the smooth forces' potential gains or loses
+  const Twist at_start =
+      relative_motion(resistance.at_start, joint.parent < 0 ? Twist{} : s.state.V_WB[joint.parent], s.state.V_WB[joint.child]);
+  const double turning = 0.5 * impulse.w.dot(at_start.w + resistance.after.w);
   if (!resistance.at_start.free[kSlide]) return turning;
-  return turning + 0.5 * impulse.v.dot(resistance.before.v + resistance.after.v);
+  return turning + 0.5 * impulse.v.dot(at_start.v + resistance.after.v);
 }
 
 }  // namespace engine

@@ -67,6 +67,15 @@ TEST_P(Prismatic, SlidesDownASlopeAgainstADamper) {
   }
 }
 
+/// What hangs on a spring at rest turns over no energy, however long.
+TEST_P(Prismatic, HangsOnASpringAtNoCost) {
+  Model model = on_a_rail(GetParam(), 2, 1e-3);
+  model.joints[0].slide.stiffness = 200;
+  model.joints[0].slide.damping = 4;
+  model.joints[0].slide.rest = -kPull / 200;
+  EXPECT_LT(std::abs(simulate(model).snapshots.back().energies.residual), 1e-9);
+}
+
 TEST_P(Prismatic, SwingsOnASpring) {
   // about where the spring carries it, with w = sqrt(k/m)
   constexpr double kStiffness = 200, kRest = 0.05, kMiddle = kRest + kPull / kStiffness;
