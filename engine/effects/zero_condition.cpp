@@ -74,6 +74,19 @@ bool closes(const Outlook& outlook, const SurfaceContact& touch, int a, int b) {
   return touch.gap - closing * outlook.within <= 0 && closing > 0;
 }
 
+/// What somebody stands, sits or lies on moves away under them.
+bool moves_away(const Outlook& outlook, const SurfaceContact& touch, int a, int b) {
+  constexpr double kOn = 5e-3;   // [m]
+  constexpr double kSlip = 0.1;  // [m/s]
+  constexpr double kUp = 0.5;    // [-] what is steeper bears nobody
+  const Model& model = outlook.world.model;
+  if (!is_part(model, a) || b < 0 || model.bodies[b].fixed || touch.gap > kOn || touch.normal.z() < kUp) return false;
+  const Twist& V = outlook.at.V_WB[b];
+  const Vec3 under = V.v + V.w.cross(touch.p_b - outlook.at.X_WB[b].p);
+  const Vec3 own = outlook.at.V_WB[model.persons[model.bodies[a].person].bodies.front()].v;
+  return under.head<2>().norm() > kSlip && (under - own).head<2>().norm() > kSlip;
+}
+
 /// Sets free who of a pair waits and is touched; what already overlaps is told of where `warn` asks for it. What somebody goes over
 /// is no touch.
 void watch(const Outlook& outlook, const PairKind& kind, const ContactPair& pair, bool warn, const Underfoot* underfoot = nullptr) {
@@ -83,6 +96,10 @@ void watch(const Outlook& outlook, const PairKind& kind, const ContactPair& pair
   if (person >= 0 && person == person_of(world, pair.b)) return;  // itself, what it rides, and what it holds
   if (!waits(world, state, pair.a) && !waits(world, state, pair.b)) return;
   for (const SurfaceContact& touch : kind.touches(outlook, pair)) {
+    if (moves_away(outlook, touch, pair.a, pair.b)) {
+      release(world, state, pair.a, pair.b, touch.p_a);
+      continue;
+    }
     if (!closes(outlook, touch, pair.a, pair.b)) {
       if (warn) warn_of_overlap(world, pair.a, pair.b, touch.gap);
       continue;

@@ -122,6 +122,27 @@ TEST(Walker, OnSomethingThatMovesStaysOnIt) {
   EXPECT_NEAR(place(run.snapshots.back()).z() - kMiddle, 1.1, 2e-3);
 }
 
+/// What somebody stands on drives off: they are free from the start, or from when it has a speed of its own, and come down.
+TEST(Walker, IsReleasedByWhatMovesAwayUnderfoot) {
+  for (const double speed : {0.0, 2.0}) {
+    Model model = walker(1.001, 1.5);  // a hair above, so that the table does not press
+    model.bodies[0].V_WB.v.setZero();
+    Body table = solid({{0.5, 0.5, 0.5}, 30}, 100, {-1, 0, 0.5});
+    table.name = "table";
+    table.V_WB.v.x() = speed;
+    model.bodies.push_back(table);
+    const Recording run = simulate(model);
+    const auto released = std::find_if(run.events.begin(), run.events.end(), [](const Event& e) { return e.kind == "release"; });
+    EXPECT_EQ(released != run.events.end(), speed > 0);
+    if (speed > 0) {
+      EXPECT_LT(released->time, 2e-3);
+      EXPECT_EQ(released->body_b, 1);
+    } else {
+      EXPECT_EQ(place(run.snapshots.back()), model.bodies[0].X_WB.p);
+    }
+  }
+}
+
 /// Something of 15 kg joined to the walker, ahead of them.
 Model pushing(const Vec3& velocity) {
   Model model = walker(0, 1);
