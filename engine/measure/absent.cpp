@@ -70,13 +70,18 @@ void absent_head(const Model& model, const Recording& recording, int p, Absences
   for (const char* key : {"hic15", "hic36", "three_ms_g"}) absent.note(key, person.name, law.empty() ? none : law);
   absent.note("hic15_vehicle", person.name, law.empty() ? "no vehicle touched the head" : law);
   absent.note("hic15_ground", person.name, law.empty() ? "the head did not touch the ground" : law);
+  absent.note("hic15_object", person.name, law.empty() ? "no object and nobody else touched the head" : law);
   if (!law.empty()) absent.note("peak_acceleration_mps2", person.name, law);
 }
 
 /// What the hardest impact of a vehicle does not tell of it.
 void absent_at_worst(const Model& model, const Vehicle& v, const std::vector<Impact>& impacts, Absences& absent) {
   const Impact* worst = hardest_impact(impacts, model.bodies[v.body].vehicle);
-  if (!worst) return;
+  if (!worst) {
+    absent.note("ees_mps", v.name, "it was struck through its coupling, not itself");
+    absent.note("pdof_deg", v.name, "its velocity did not change");
+    return;
+  }
   const bool person = worst->a.party.person >= 0 || worst->b.party.person >= 0;
   const bool fixed = model.bodies[worst->a.party.bodies.front()].fixed || model.bodies[worst->b.party.bodies.front()].fixed;
   const char* reason =

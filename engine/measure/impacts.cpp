@@ -160,12 +160,14 @@ ImpactSide side_of(const Model& model, const Recording& recording, const Party& 
   return side;
 }
 
-/// Against a kerb or another low thing that is fixed: below the hubs there is no bodywork, only tyres, wheels and suspension.
+/// Against a kerb or another low thing that is fixed: well below the hubs there is no bodywork, only tyres, wheels and suspension.
+/// A car's widest line may be at the height of its hubs.
 bool below_hubs(const Model& model, const Snapshot& before, const Party& party, const Vec3& point) {
   if (party.vehicle < 0) return false;
   const auto& wheels = model.vehicles[party.vehicle].wheels;
   const double z = (before.bodies[party.bodies.front()].X_WB.inverse() * point).z();
-  return !wheels.empty() && std::all_of(wheels.begin(), wheels.end(), [&](const Wheel& w) { return z < w.hub_B.z(); });
+  return !wheels.empty() &&
+         std::all_of(wheels.begin(), wheels.end(), [&](const Wheel& w) { return z < w.hub_B.z() - 0.25 * w.radius; });
 }
 
 /// The two are pressed together by the same force: each takes up energy as it gives way, in inverse proportion to stiffness. Where
@@ -237,6 +239,7 @@ double duration_of(const Recording& recording, const Pair& pair, const Stretch& 
 
 Impact impact_of(const Model& model, const Recording& recording, const Pair& pair, const Stretch& span, std::size_t touch) {
   Impact out;
+  out.span = span;
   out.time = sum_contacts(recording, pair, span, out);
   const Snapshot& before = recording.snapshots[span.first > 0 ? span.first - 1 : 0];
   out.duration = duration_of(recording, pair, span, out.time);
@@ -317,6 +320,19 @@ const Impact* hardest_impact(const std::vector<Impact>& impacts, int vehicle) {
   for (const Impact& i : impacts)
     if ((i.a.party.vehicle == vehicle || i.b.party.vehicle == vehicle) && (!out || push(i) > push(*out))) out = &i;
   return out;
+}
+
+std::optional<ImpactSide> struck_through_coupling(const Model& model, const Recording& recording,
+                                                  const std::vector<Impact>& impacts, int vehicle) {
+  const int body = model.vehicles[vehicle].body;
+  const Impact* hardest = nullptr;
+  for (int other = 0; other < static_cast<int>(model.vehicles.size()); ++other) {
+    if (other == vehicle || !jointed(model, body, model.vehicles[other].body)) continue;
+    const Impact* of = hardest_impact(impacts, other);
+    if (of && (!hardest || of->impulse.head<2>().norm() > hardest->impulse.head<2>().norm())) hardest = of;
+  }
+  if (!hardest || hardest_impact(impacts, vehicle)) return std::nullopt;
+  return side_of(model, recording, party_of(model, body), hardest->span);
 }
 
 std::vector<Event> told_events(const Model& model, const Recording& recording) {

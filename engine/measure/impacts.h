@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,11 @@
 namespace engine {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  // what a row cannot say
+
+/// First and last snapshot whose contacts belong to a phase.
+struct Stretch {
+  std::size_t first = 0, last = 0;
+};
 
 /// What one of the two did.
 struct ImpactSide {
@@ -26,7 +32,8 @@ struct ImpactSide {
 /// mass within 20 ms, and ends when they no longer do, after 250 ms at most (49 CFR 563.5 and 563.7, which define the event and the
 /// delta-v of event data recorders so). Two that never exchange as much have one phase of a tenth of the most they do.
 struct Impact {
-  int phase = 1;        // of this pair, from 1
+  int phase = 1;  // of this pair, from 1
+  Stretch span;
   double time = 0;      // [s] first touch; of Kudlich-Slibar the instant of the exchange, later by its compression time
   double duration = 0;  // [s] 0 of an exchange at one instant
   ImpactSide a, b;
@@ -42,11 +49,6 @@ struct Impact {
   const char* ees_rule = "";         // how that was shared: "by stiffness", "by mass", "all to the one that moves"
 };
 
-/// First and last snapshot whose contacts belong to a phase.
-struct Stretch {
-  std::size_t first = 0, last = 0;
-};
-
 constexpr double kChange = 0.8 / 3.6;  // [m/s] within 20 ms: more is a collision
 
 /// The phases of a series of pushes [N s], one a snapshot: those in which more than `bound` [N s] is exchanged within 20 ms.
@@ -58,6 +60,10 @@ std::vector<Impact> impacts_of(const Model&, const Recording&);
 /// The phase in which the other one gave a vehicle most. Its delta-v holds what a third one did meanwhile, which may be more; null
 /// where there is none.
 const Impact* hardest_impact(const std::vector<Impact>&, int vehicle);
+
+/// What the hardest phase of a vehicle coupled to it did to one that was not struck itself, without an EES; nothing where neither
+/// was struck.
+std::optional<ImpactSide> struck_through_coupling(const Model&, const Recording&, const std::vector<Impact>&, int vehicle);
 
 /// The recorded events, and a "collision" where two vehicles, or a vehicle and an object, have their first phase: what is rigid
 /// has no event of its own. `value` is the closing speed. In order of time.

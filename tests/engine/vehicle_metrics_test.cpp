@@ -67,6 +67,36 @@ TEST(VehicleMetrics, DeltaVIsThatOfTheLargestImpulseWhateverAThirdOneDidMeanwhil
   EXPECT_NEAR(value_of(out, "delta_v_mps").value(), 6, 1e-9);
 }
 
+/// What a trailer is struck with reaches the car that draws it: its own change of velocity in that phase, and no EES.
+TEST(VehicleMetrics, WhatDrawsAStruckTrailerHasADeltaV) {
+  Model model = person_and_car();
+  model.settings.gravity.setZero();
+  Body trailer = model.bodies[kCar];
+  trailer.name = "trailer";
+  trailer.vehicle = 1;
+  model.bodies.push_back(trailer);
+  model.vehicles.push_back(model.vehicles[0]);
+  model.vehicles[1].name = "trailer";
+  model.vehicles[1].body = 3;
+  Joint coupling;
+  coupling.parent = kCar;
+  coupling.child = 3;
+  model.joints = {coupling};
+  Recording run = standing_still(20);
+  for (int i = 0; i < 20; ++i) {
+    auto& bodies = run.snapshots[i].bodies.own();
+    bodies.resize(4, bodies[kCar]);
+    bodies[kCar].V_WB.v = {i < 5 ? 0 : 2.0, 0, 0};
+    run.snapshots[i].tyre_impulse = {Vec3::Zero(), Vec3::Zero()};
+  }
+  run.snapshots[5].contacts = {push(3, kHips, kOnVehicle, {4000, 0, 0})};
+  std::vector<Metric> out;
+  measure_vehicle(model, run, impacts_of(model, run), 0, out);
+  EXPECT_NEAR(value_of(out, "delta_v_mps").value(), 2, kAlmost);
+  EXPECT_NEAR(value_of(out, "pdof_deg").value(), 180, kAlmost);
+  EXPECT_FALSE(value_of(out, "ees_mps"));
+}
+
 TEST(VehicleMetrics, UntouchedVehicleHasNone) {
   const Model model = person_and_car();
   Recording run;
@@ -141,6 +171,7 @@ TEST(ImpactTable, WheelsAgainstAKerbHaveNoEnergyEquivalentSpeed) {
   EXPECT_STREQ(kerb.ees_rule, "");
   EXPECT_NEAR(kerb.energy_lost, 20e3, kAlmost) << "which stands in the row";
   EXPECT_NEAR(car_against_block(1000, 20e3, 400e3, true, 1, 0.35).at(0).a.ees, std::sqrt(2 * 20e3 / 1000), 1e-9) << "a wall";
+  EXPECT_FALSE(std::isnan(car_against_block(1000, 20e3, 400e3, true, 1, 0.29).at(0).a.ees)) << "the widest line of a car";
   EXPECT_FALSE(std::isnan(car_against_block(1000, 20e3, 400e3, false, 1, 0.15).at(0).a.ees)) << "under another's bumper";
 }
 
