@@ -25,10 +25,10 @@ Vec3 nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
 /// Vertices are enough for a plane to lie on; another mesh may come between them.
 enum class PointsOf { vertices, vertices_and_edges };
 
-/// A vertex of a mesh or a point of an edge, with the normals of the faces that meet there, and at those it stands for: it can press
-/// on something only in a direction between them (beside an open edge also away from it). In the middle of a flat panel that is one
-/// direction, on a straight edge those across it: what slides along a panel or a rail must not feel how it is cut into triangles.
-/// Of a thin tube it is any.
+/// A vertex of a mesh or a point of an edge, with the normals of the faces that meet there, and at those it stands for: it can
+/// press on something only in a direction between them (beside an open edge also away from it). In the middle of a flat panel that
+/// is one direction, on a straight edge those across it: what slides along a panel or a rail must not feel how it is cut into
+/// triangles. Of a thin tube it is any.
 struct RepresentativePoint {
   Vec3 p = Vec3::Zero();
   std::vector<Vec3> normals;  // outward, no two alike
