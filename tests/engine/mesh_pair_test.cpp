@@ -70,7 +70,7 @@ TEST(MeshPair, ABlockIsTurnedByAWallAndNotHeldByItsEdges) {
       model.bodies[0].inertia_B = Vec3::Constant(1e6).asDiagonal();
       model.bodies[0].V_WB.v = v;
       for (Body& body : model.bodies) body.surface.friction_body = kFriction;
-      const Twist& V = simulate(model).snapshots.back().bodies[0].V_WB;
+      const Twist V = simulate(model).snapshots.back().bodies[0].V_WB;
       EXPECT_NEAR(V.v.x(), v.x() - kFriction * v.y(), 0.02) << other_way << ' ' << top;
       EXPECT_NEAR(V.v.y(), 0, 0.02);
       EXPECT_NEAR(V.v.z(), 0, 0.02);
