@@ -38,11 +38,11 @@ constexpr double kClear = 0.05;         // [m] from a coupled vehicle: nearer at
 std::vector<SurfacePoint> points_of(const Model& model, const Body& body, int first_wheel, PointsOf of) {
   std::vector<SurfacePoint> out;
   const auto& shape = std::get<MeshShape>(body.shape);
-  for (const RepresentativePoint& point : representative_points(*shape.mesh, kSpacing, of)) {
+  // of walls, rails and slabs; the few points of a thin moving mesh, a bicycle, hold it whichever way their faces look
+  const WithNormals with = body.fixed ? WithNormals::yes : WithNormals::no;
+  for (const RepresentativePoint& point : representative_points(*shape.mesh, kSpacing, of, with)) {
     out.push_back({.p_B = shape.X_BM * point.p});
-    // of walls, rails and slabs; the few points of a thin moving mesh, a bicycle, hold it whichever way their faces look
-    if (body.fixed)
-      for (const Vec3& n : point.normals) out.back().normals_B.push_back(shape.X_BM.q * n);
+    for (const Vec3& n : point.normals) out.back().normals_B.push_back(shape.X_BM.q * n);
   }
   if (body.vehicle < 0) return out;
   for (const Wheel& wheel : model.vehicles[body.vehicle].wheels) {

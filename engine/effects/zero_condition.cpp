@@ -65,12 +65,13 @@ void release(World& world, State& state, int body, int by, const Vec3& point) {
   }
 }
 
+Vec3 velocity_at(const Outlook& outlook, int body, const Vec3& point) {
+  return outlook.at.V_WB[body].v + outlook.at.V_WB[body].w.cross(point - outlook.at.X_WB[body].p);
+}
+
 /// Would the two close their gap within this step?
 bool closes(const Outlook& outlook, const SurfaceContact& touch, int a, int b) {
-  auto velocity_at = [&](int body) -> Vec3 {
-    return outlook.at.V_WB[body].v + outlook.at.V_WB[body].w.cross(touch.p_a - outlook.at.X_WB[body].p);
-  };
-  const double closing = -touch.normal.dot(velocity_at(a) - velocity_at(b));
+  const double closing = -touch.normal.dot(velocity_at(outlook, a, touch.p_a) - velocity_at(outlook, b, touch.p_a));
   return touch.gap - closing * outlook.within <= 0 && closing > 0;
 }
 
@@ -81,8 +82,7 @@ bool moves_away(const Outlook& outlook, const SurfaceContact& touch, int a, int 
   constexpr double kUp = 0.5;    // [-] what is steeper bears nobody
   const Model& model = outlook.world.model;
   if (!is_part(model, a) || b < 0 || model.bodies[b].fixed || touch.gap > kOn || touch.normal.z() < kUp) return false;
-  const Twist& V = outlook.at.V_WB[b];
-  const Vec3 under = V.v + V.w.cross(touch.p_b - outlook.at.X_WB[b].p);
+  const Vec3 under = velocity_at(outlook, b, touch.p_b);
   const Vec3 own = outlook.at.V_WB[model.persons[model.bodies[a].person].bodies.front()].v;
   return under.head<2>().norm() > kSlip && (under - own).head<2>().norm() > kSlip;
 }

@@ -138,7 +138,7 @@ RepresentativePoint at_vertex(const TriangleMesh& mesh, int vertex) {
 
 }  // namespace
 
-std::vector<RepresentativePoint> representative_points(const TriangleMesh& mesh, double spacing, PointsOf of) {
+std::vector<RepresentativePoint> representative_points(const TriangleMesh& mesh, double spacing, PointsOf of, WithNormals with) {
   const Vec3 centre = 0.5 * (mesh.bounds().lower + mesh.bounds().upper);
   std::map<std::array<int, 3>, RepresentativePoint> cubes;
   const auto offer = [&](const RepresentativePoint& point) {
@@ -148,7 +148,9 @@ std::vector<RepresentativePoint> representative_points(const TriangleMesh& mesh,
     if ((point.p - centre).squaredNorm() > (at->second.p - centre).squaredNorm()) at->second.p = point.p;
     for (const Vec3& n : point.normals) add_unlike(at->second.normals, n);
   };
-  for (int v = 0; v < static_cast<int>(mesh.vertices().size()); ++v) offer(at_vertex(mesh, v));
+  const bool normals = with == WithNormals::yes;
+  for (int v = 0; v < static_cast<int>(mesh.vertices().size()); ++v)
+    offer(normals ? at_vertex(mesh, v) : RepresentativePoint{mesh.vertices()[v], {}});
   for (int t = 0; of == PointsOf::vertices_and_edges && t < static_cast<int>(mesh.triangles().size()); ++t)
     for (std::size_t i = 0; i < 3; ++i) {
       const int edge = static_cast<int>(i);
@@ -156,8 +158,8 @@ std::vector<RepresentativePoint> representative_points(const TriangleMesh& mesh,
       const Triangle& v = mesh.triangles()[t];
       const Vec3 &from = mesh.vertices()[v[i]], &to = mesh.vertices()[v[(i + 1) % 3]];
       RepresentativePoint point;
-      add_normals(mesh, t, i, point.normals);
-      if (const int other = mesh.neighbour(t, edge); other >= 0) add_unlike(point.normals, mesh.face_normals()[other]);
+      if (normals) add_normals(mesh, t, i, point.normals);
+      if (const int other = mesh.neighbour(t, edge); normals && other >= 0) add_unlike(point.normals, mesh.face_normals()[other]);
       const double parts = std::ceil((to - from).norm() / spacing);
       for (double k = 1; k < parts; ++k) {
         point.p = from + k / parts * (to - from);

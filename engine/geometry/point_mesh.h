@@ -24,6 +24,7 @@ Vec3 nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
 
 /// Vertices are enough for a plane to lie on; another mesh may come between them.
 enum class PointsOf { vertices, vertices_and_edges };
+enum class WithNormals { no, yes };
 
 /// A vertex of a mesh or a point of an edge, with the normals of the faces that meet there, and at those it stands for: it can
 /// press on something only in a direction between them (beside an open edge also away from it). In the middle of a flat panel that
@@ -31,11 +32,11 @@ enum class PointsOf { vertices, vertices_and_edges };
 /// triangles. Of a thin tube it is any.
 struct RepresentativePoint {
   Vec3 p = Vec3::Zero();
-  std::vector<Vec3> normals;  // outward, no two alike
+  std::vector<Vec3> normals;  // outward, no two alike; none where they are not asked for
 };
 
 /// Vertices of a mesh, and points of its long edges, thinned to the one farthest out in each cube of side `spacing` [m].
-std::vector<RepresentativePoint> representative_points(const TriangleMesh&, double spacing, PointsOf);
+std::vector<RepresentativePoint> representative_points(const TriangleMesh&, double spacing, PointsOf, WithNormals);
 
 /// The direction of the convex cone of `normals` (unit vectors) that is nearest to the unit vector `d`, as long as the cosine of
 /// the angle between them: zero from a right angle on.

@@ -19,7 +19,7 @@ constexpr const char* kHic =
 constexpr const char* kPhase =
     "measured along the line from first touch to rest, so that the distances of all phases sum to throw_distance_m";
 constexpr const char* kMoving = "still moving when the run ends, or still for less than 0.25 s";
-constexpr const char* kNoDeltaV = "the vehicle touched no person, vehicle or object, or is fixed";
+constexpr const char* kNoDeltaV = "neither the vehicle nor one coupled to it touched a person, vehicle or object, or it is fixed";
 constexpr const char* kNotRolled = "the vehicle did not roll onto its side or farther; or it is a two-wheeler";
 constexpr const char* kNotDown =
     "the vehicle did not roll onto its side or farther, and its bodywork never came down so hard; or it is a two-wheeler";
@@ -140,7 +140,9 @@ constexpr Definition kDefinitions[] = {
      "Largest acceleration of a part's centre, mean over a step; free fall counts one g.", kNoForce, "grows with stiffness"},
     {"delta_v_mps", "m/s", "delta-v",
      "Change of the velocity of the centre of mass in the plane of the road over the collision phase, less what tyres and "
-     "gravity did meanwhile; of several phases that of the largest impulse along the road. What a rider or a third one does in the "
+     "gravity did meanwhile; of several phases that of the largest impulse along the road; of what was not struck itself that in "
+     "which "
+     "the vehicle coupled to it was. What a rider or a third one does in the "
      "same "
      "time is part of it; of a two-wheeler's tyres counts what they do under its weight and the rider's, to both. Begin and end of "
      "the phase as 49 CFR 563.5 says: exchange of more than 0.8 km/h of the lighter mass within 20 ms, 250 ms at most.",

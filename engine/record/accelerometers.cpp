@@ -39,10 +39,12 @@ void Accelerometers::follow(const World& world, const State& state, Recording& r
 }
 
 void Accelerometers::sample(const World& world, const State& state, Recording& recording) {
+  follow(world, state, recording);
   if (recording.heads.empty()) return;
+  const double step = state.time - stepped_;
+  stepped_ = state.time;
   const auto note_peak = [&](std::size_t b) {
-    const double acceleration = (state.V_WB[b].v - velocity_[b]).norm() / world.model.settings.step;
-    recording.peak_acceleration[b] = std::max(recording.peak_acceleration[b], acceleration);
+    recording.peak_acceleration[b] = std::max(recording.peak_acceleration[b], (state.V_WB[b].v - velocity_[b]).norm() / step);
     velocity_[b] = state.V_WB[b].v;
   };
   if (listed_ == world.still.changes) {

@@ -23,7 +23,7 @@ class Recorder {
 
   /// End of every step: what snapshots are too seldom for.
   void sample(const World&, const State&, Recording&);
-  /// At the end of every part of a step too.
+  /// At the end of every part of a divided step but the last.
   void follow(const World& world, const State& state, Recording& recording) { accelerometers_.follow(world, state, recording); }
 
   /// Writes a snapshot with everything tallied since the one before.

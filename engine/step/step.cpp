@@ -32,6 +32,7 @@ double Stepper::advance(State& state, double most) {
   call(world_, Hook::before_step, &Effect::before_step, world_, state, control.length());
   choose_trees(world_, state);
   find_contacts_at_start(state);
+  control.follow_blows_on_heads();
 
   std::optional<StepContext> step;
   step.emplace(world_, state, buffers_, control.length());

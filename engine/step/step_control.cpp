@@ -42,19 +42,24 @@ double fastest_turning(const World& world, const Motion& at) {
 }
 
 /// Longest step [s] that follows the blow on a head that yields: a pulse of a few milliseconds, whose peak the criteria raise to
-/// the power of 2.5. Without a blow the step as it is.
+/// the power of 2.5. Where the pulse turns it has no speed: steps go on short, and grow from there under what only presses. Without
+/// a blow the step as it is.
 double longest_for_heads(const World& world, const State& state, double length) {
-  constexpr double kTurn = 0.06;                  // [rad] of the spring: a criterion of it is then within 3 % of its limit
-  constexpr double kClosing = 1, kPressed = 500;  // [m/s], [N] of a blow: some ten times what lies on a head at rest
+  constexpr double kTurn = 0.05;                   // [rad] of the spring: a criterion of it is then within 3 % of its limit
+  constexpr double kClosing = 2, kPressed = 1000;  // [m/s], [N] of a blow: below it a criterion is less than 100
+  constexpr double kMoves = 0.3;                   // [m/s] in or out: a blow goes on
+  constexpr double kGrowth = 2;                    // [-] from step to step
   const Model& model = world.model;
   const auto is_head = [&model](int b) { return is_part(model, b) && model.persons[model.bodies[b].person].head == b; };
   double longest = length;
   for (const Constraint& c : state.contacts.list) {
     if (!is_contact(c) || !is_compliant(c) || !(is_head(c.a.record) || is_head(c.b.record))) continue;
     const double closing = -row_velocity(c, state.V_WB)[0];
-    const bool strikes = closing > kClosing && c.gap < closing * length;
-    if (strikes || -c.gap * c.spring.stiffness > kPressed)
+    const bool pressed = -c.gap * c.spring.stiffness > kPressed;
+    if ((closing > kClosing && c.gap < closing * length) || (pressed && std::abs(closing) > kMoves))
       longest = std::min(longest, kTurn / std::sqrt(c.spring.stiffness * c.response.free));
+    else if (pressed && state.pace.last > 0)
+      longest = std::min(longest, kGrowth * state.pace.last);
   }
   return longest;
 }
@@ -102,13 +107,16 @@ StepControl::StepControl(World& world, State& state, double most, double fastest
     ++world.log.diagnostics.substeps;
     length_ /= std::max(1.0, swing / kMostParts);
   }
-  if (const double longest = longest_for_heads(world, state, length_); longest < length_) {
-    ++world.log.diagnostics.substeps;
-    length_ = std::max(longest, settings_.step / kMostParts);
-  }
   if (state.pace.next > 0) length_ = std::min(length_, state.pace.next);
   const double sliver = kSliver * settings_.step, ahead = state.pace.next_instant - state.time;
   if (ahead > sliver && ahead < length_ - sliver) length_ = ahead;
+}
+
+void StepControl::follow_blows_on_heads() {
+  const double longest = longest_for_heads(world_, state_, length_);
+  if (longest >= length_) return;
+  ++world_.log.diagnostics.substeps;
+  length_ = std::max(longest, settings_.step / kMostParts);
 }
 
 double StepControl::cut_at_impact(const StepContext& s) {

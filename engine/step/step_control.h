@@ -18,6 +18,9 @@ class StepControl {
   /// at an instant that the state names.
   StepControl(World&, State&, double most, double fastest_swing);
 
+  /// Divides the step where a head that yields is struck, by the contacts at its start.
+  void follow_blows_on_heads();
+
   /// [s] to begin with.
   double length() const { return length_; }
 

@@ -187,9 +187,12 @@ std::vector<std::string> stroboscopic_still(const Stage& stage, const engine::Re
   Image image;
   painter.paint(scene, recording, {to, "stroboscopic", 1}, image);
   std::vector<std::string> key;
-  for (const MeshActor& actor : scene.meshes)
-    if (!actor.solid && !actor.name.empty())
-      key.push_back(fmt::format("{}: solid at t = {:.3f} s, clear at t = {:.3f} s", actor.name, met, to));
+  // what no longer moves stands there twice
+  const auto moves = [&](int body) {
+    return std::any_of(scene.meshes.begin(), scene.meshes.end(), [body](const MeshActor& m) { return m.body == body; });
+  };
+  for (const MeshActor& actor : stage.meshes)
+    if (!moves(actor.body)) key.push_back(fmt::format("{}: solid at t = {:.3f} s, clear at t = {:.3f} s", actor.name, met, to));
   if (!key.empty()) add_key(key, image);
   return write(job, "stroboscopic.png", image);
 }

@@ -18,6 +18,17 @@ const Float4 kOutline{0.05f, 0.05f, 0.06f, 0.85f};
 
 constexpr std::size_t kFloats = 12;  // a vertex: corner 3, tint 4, shape 3, extent 2
 
+/// A quadrilateral by its corners: at the end of a sign, on a side.
+template <class Corner>
+void two_triangles(const Corner& corner) {
+  corner(-1.f, -1.f);
+  corner(1.f, -1.f);
+  corner(1.f, 1.f);
+  corner(-1.f, -1.f);
+  corner(1.f, 1.f);
+  corner(-1.f, 1.f);
+}
+
 }  // namespace
 
 OverlayPass::OverlayPass()
@@ -85,12 +96,7 @@ void OverlayPass::capsule(const Pixel& a, const Pixel& b, float half_a, float ha
     if (square && !point) half = half_a + (half_b - half_a) * at / length;
     vertex(p, dx * along - dy * across, dy * along + dx * across, {across, at, half, point ? 0 : length, square}, colour);
   };
-  corner(a, half_a, -1, -1);
-  corner(b, half_b, 1, -1);
-  corner(b, half_b, 1, 1);
-  corner(a, half_a, -1, -1);
-  corner(b, half_b, 1, 1);
-  corner(a, half_a, -1, 1);
+  two_triangles([&](float sign, float side) { sign < 0 ? corner(a, half_a, -1, side) : corner(b, half_b, 1, side); });
 }
 
 /// A line of one width. Pieces that meet share the corners of a mitre, so that no pixel is painted twice and what is not quite
@@ -130,12 +136,7 @@ void OverlayPass::band(const std::vector<Pixel>& run, float half, const Float4& 
       vertex(p, off_x, off_y, {side * wide, along, half, length, false}, colour);
     };
     const Pixel &a = run[i], &b = run[i + 1];
-    corner(a, from, -1, -1);
-    corner(b, to, 1, -1);
-    corner(b, to, 1, 1);
-    corner(a, from, -1, -1);
-    corner(b, to, 1, 1);
-    corner(a, from, -1, 1);
+    two_triangles([&](float sign, float side) { sign < 0 ? corner(a, from, -1, side) : corner(b, to, 1, side); });
     w = next;
     from = to;
   }

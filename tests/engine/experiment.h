@@ -47,6 +47,16 @@ inline Joint joint_at(const Model& model, JointKind kind, int parent, int child,
   return joint;
 }
 
+/// Somebody of one body, awake from the start.
+inline Person of_one_part(int body) {
+  Person person;
+  person.name = "person";
+  person.bodies = {body};
+  person.head = person.hips = body;
+  person.zero_condition = false;
+  return person;
+}
+
 inline Model free_space(double duration, double step = 1e-3) {
   Model model;
   model.ground.plane = false;

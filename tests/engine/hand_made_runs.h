@@ -70,6 +70,14 @@ inline Snapshot still(double time) {
   return s;
 }
 
+/// So many snapshots at intervals of 0.01 s.
+inline Recording standing_still(int instants) {
+  Recording run;
+  run.interval = 0.01;
+  for (int i = 0; i < instants; ++i) run.snapshots.push_back(still(0.01 * i));
+  return run;
+}
+
 inline std::optional<double> value_of(const std::vector<Metric>& metrics, const std::string& key) {
   for (const Metric& m : metrics)
     if (m.key == key) return m.value;

@@ -78,7 +78,7 @@ TEST(MeshPair, ABlockIsTurnedByAWallAndNotHeldByItsEdges) {
 }
 
 TEST(MeshPair, PointsPressBetweenTheNormalsOfTheirFaces) {
-  const auto points = representative_points(*block({3, 2, 1}, true), 0.1, PointsOf::vertices_and_edges);
+  const auto points = representative_points(*block({3, 2, 1}, true), 0.1, PointsOf::vertices_and_edges, WithNormals::yes);
   int corners = 0, edges = 0;
   for (const RepresentativePoint& point : points) {
     int at_bound = 0;

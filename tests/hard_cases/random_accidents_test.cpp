@@ -76,8 +76,8 @@ TEST_P(RandomAccidents, SayThatTheyAreRight) {
       100 * unexplained, 1e3 * depth, 1e3 * crush, gap, angle, residual);
 }
 
-// One that went beyond the bounds above until joint resistance was booked over the way of the step: a limb comes under a tyre from
-// the side, at a slope of five to one. What it tells is what it falls short of.
+// One that goes beyond the bounds above: a limb comes under a tyre from the side, at a slope of five to one. Seen a step's way
+// inside, it charges the wheel's spring with what nothing has given.
 TEST(RandomAccident, SaysWhereItFallsShort) {
   constexpr unsigned kSeed = 194;
   constexpr const Law& kLaw = kLaws[1];
@@ -88,7 +88,7 @@ TEST(RandomAccident, SaysWhereItFallsShort) {
     return std::any_of(d.warnings.begin(), d.warnings.end(),
                        [&](const std::string& w) { return w.find(words) != std::string::npos; });
   };
-  EXPECT_EQ(told("has none to give"), d.max_unexplained > 1e-3 * d.energy_turned_over);
+  EXPECT_TRUE(told("has none to give")) << "it holds by now: take another that does not";
   EXPECT_EQ(told("deg beyond its range"), degrees(d.max_joint_angle_error) > 0.5);
   EXPECT_EQ(told("were solved to"), d.max_solver_residual > 1e-3);
   EXPECT_TRUE(told("mm inside") || deepest(it, false) < kLaw.depth);  // snapshots do not see every step

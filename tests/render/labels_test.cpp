@@ -1,8 +1,11 @@
-// Panels of text that are long, must be read, or stand beside somebody.
+// Panels of text: apart from each other, long ones, those that must be read, those beside somebody.
 #include <gtest/gtest.h>
 
+#include "render/arrange.h"
 #include "render/matrix.h"
+#include "render/text/charts.h"
 #include "render/text/labels.h"
+#include "tests/render/hand_made_stage.h"
 
 namespace render {
 namespace {
@@ -76,6 +79,34 @@ TEST(Labels, ThatHaveALeaderKeepOffPersonsWhereThereIsRoom) {
   const PanelBox over = place();
   EXPECT_TRUE(over.shown);
   EXPECT_TRUE(over.y + over.height <= 0.4 * kHeight || over.y >= 0.6 * kHeight) << "rather over a person than over another panel";
+}
+
+TEST(Labels, NeverCoverEachOtherNorLeaveTheFrame) {
+  Stage s = made_stage();
+  for (const char* key : {"velocities", "legend", "contact_history", "speed_chart", "energy_chart"}) s.overlays.set(key);
+  s.overlays.dimensions = {
+      {"way", 0, 0.2}, {"", -1, 0, Vec3(0, 0, 0), Vec3(1, 0, 0)}, {"", -1, 0, Vec3(0, 0, 0), Vec3(1, 0.01, 0)}};
+  for (const auto& [w, h] : {std::pair{1280, 720}, {640, 640}, {320, 180}, {64, 64}}) {
+    const DrawList list = arrange(s, made_run(), {0.7, "side", 1}, static_cast<double>(w) / h);
+    std::vector<PanelBox> boxes = place_labels(list, w, h);
+    for (const ChartItem& chart : list.charts) {
+      const auto [x, y, cw, ch] = chart_box(chart, w, h);
+      boxes.push_back({x, y, cw, ch, true});
+    }
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const PanelBox& a = boxes[i];
+      if (!a.shown) continue;
+      EXPECT_GE(a.x, 0);
+      EXPECT_GE(a.y, 0);
+      EXPECT_LE(a.x + a.width, w + 1e-9);
+      EXPECT_LE(a.y + a.height, h + 1e-9);
+      for (std::size_t k = 0; k < i; ++k) {
+        const PanelBox& b = boxes[k];
+        const bool apart = a.x >= b.x + b.width || b.x >= a.x + a.width || a.y >= b.y + b.height || b.y >= a.y + a.height;
+        EXPECT_TRUE(!b.shown || apart) << w << "x" << h << " " << i << " " << k;
+      }
+    }
+  }
 }
 
 }  // namespace
