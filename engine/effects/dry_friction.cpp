@@ -24,6 +24,12 @@ double expect_slip(double now, double ahead, double held_back) {
 
 /// What the friction takes from the rate in a step, were both bodies free [rad/s], [m/s].
 double taken_by_friction(const StepContext& step, int j, int i, const Vec3& axis) {
+  return step.length * step.world.model.joints[j].coordinate(i).friction * coordinate_response(step, j, i, axis);
+}
+
+}  // namespace
+
+double coordinate_response(const StepContext& step, int j, int i, const Vec3& axis) {
   const Model& model = step.world.model;
   const Joint& joint = model.joints[j];
   double response = 0;
@@ -32,10 +38,8 @@ double taken_by_friction(const StepContext& step, int j, int i, const Vec3& axis
     const Vec3 axis_B = step.state.X_WB[b].q.conjugate() * axis;
     response += i == kSlide ? 1 / model.bodies[b].mass : axis_B.dot(axis_B.cwiseQuotient(model.bodies[b].inertia_B.diagonal()));
   }
-  return step.length * joint.coordinate(i).friction * response;
+  return response;
 }
-
-}  // namespace
 
 void add_friction(StepContext& step, const FrictionMemory& last, int j, int i) {
   Resistance& resistance = step.buffers.resistances[j];

@@ -19,6 +19,10 @@ struct FrictionMemory {
   }
 };
 
+/// How the rate of a coordinate answers an impulse along its unit axis, were both bodies free: 1/I [1/(kg m^2)], of a slide 1/m
+/// [1/kg].
+double coordinate_response(const StepContext&, int joint, int coordinate, const Vec3& axis);
+
 /// Dry friction of a coordinate whose rate is known acts with the torque given where it is sure to slide at the end of the step,
 /// looked ahead from the last one. Elsewhere it may hold: it acts as a damper that yields the torque at the rate expected.
 void add_friction(StepContext&, const FrictionMemory&, int joint, int coordinate);

@@ -1,5 +1,6 @@
 // Resistive springs, damping and dry friction of the joints' coordinates and the passive torques of legs, linearly implicit over
-// the step: a light hand on a damped wrist has rates of 1e4 1/s that no explicit scheme holds at 1 ms.
+// the step: a light hand on a damped wrist has rates of 1e4 1/s that no explicit scheme holds at 1 ms. A spring that the step can
+// follow keeps its energy.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -227,8 +228,12 @@ class JointResistance final : public EffectWith<FrictionMemory> {
       if (in_stages_[j]) continue;
       matrix += h * a.damping * axis * axis.transpose();
       if (a.stiffness == 0) continue;
-      matrix += h * h * a.stiffness * g * g.transpose();
-      (i == kSlide ? resistance.force_W : resistance.torque_W) -= a.stiffness * (now.value[i] - a.rest) * g;
+      // a spring at the mean of its values at both ends neither gains nor loses energy of itself; one too stiff for the step at its
+      // end, which is stable however stiff
+      const bool followed = h * h * a.stiffness * coordinate_response(step, j, i, axis) < 0.5;
+      const double rate = followed ? g.dot(part_of(relative, i)) : 0;
+      matrix += (followed ? 0.25 : 1) * h * h * a.stiffness * g * g.transpose();
+      (i == kSlide ? resistance.force_W : resistance.torque_W) -= a.stiffness * (now.value[i] + 0.25 * h * rate - a.rest) * g;
     }
     damper.present = damper.present || !damper.turning.isZero(0) || !damper.sliding.isZero(0);
     step.any_damper = step.any_damper || damper.present;
