@@ -47,6 +47,25 @@ double angle_at(const Vec3& p, const Triangle& v, const std::vector<Vec3>& verti
   return angle;
 }
 
+/// Does a point of a triangle lie where the mesh ends?
+bool on_rim(const TriangleMesh& mesh, int t, const Vec3& p) {
+  const auto is_open = [&mesh](int triangle, std::size_t edge) {
+    return mesh.edge_kind(triangle, static_cast<int>(edge)) == EdgeKind::open;
+  };
+  const Triangle& v = mesh.triangles()[t];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 &a = mesh.vertices()[v[i]], &b = mesh.vertices()[v[(i + 1) % 3]];
+    if (is_open(t, i) && (p - a).cross(b - a).norm() < kOn * (b - a).norm()) return true;
+    if ((p - a).norm() > kOn) continue;
+    for (const int other : mesh.triangles_at(v[i]))
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Triangle& w = mesh.triangles()[other];
+        if ((w[k] == v[i] || w[(k + 1) % 3] == v[i]) && is_open(other, k)) return true;
+      }
+  }
+  return false;
+}
+
 /// A triangle and a point beside it.
 struct Beside {
   Vec3 nearest, normal;
@@ -60,9 +79,10 @@ Beside beside(const TriangleMesh& mesh, int t, const Vec3& p) {
   out.normal = mesh.face_normals()[t];
   out.distance = (p - out.nearest).norm();
   out.along = out.normal.dot(p - out.nearest);
-  // beside an edge or a corner the normal points from it to the point
-  if (out.distance > kOn && std::abs(out.along) < 0.999 * out.distance)
-    out.normal = (out.along < 0 ? -1.0 : 1.0) / out.distance * (p - out.nearest);
+  if (out.distance <= kOn || std::abs(out.along) >= 0.999 * out.distance) return out;
+  // beside an edge or a corner the normal points from it to the point; where the mesh ends nothing beside it is within
+  if (out.along < 0 && on_rim(mesh, t, out.nearest)) out.along = -out.along;
+  out.normal = (out.along < 0 ? -1.0 : 1.0) / out.distance * (p - out.nearest);
   return out;
 }
 

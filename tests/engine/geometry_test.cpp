@@ -441,5 +441,20 @@ TEST(PointMesh, NormalsWhereSeveralFacesAreAsNearAreThoseOfTheForm) {
   EXPECT_LT((normal_at({1, 0.3, 0.3}) - Vec3::UnitX()).norm(), 1e-9);
 }
 
+/// Where a mesh ends, a point beside its edge or its corner is outside, above the face and below it.
+TEST(PointMesh, NothingBeyondAnOpenEdgeIsInside) {
+  const TriangleMesh sheet({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  std::vector<int> scratch;
+  for (const double above : {1e-3, -1e-3})
+    for (const auto& [beyond, nearest] : {std::pair{Vec3(1.02, 0.4, above), Vec3(1, 0.4, 0)},
+                                          {Vec3(1.01, 1.01, above), Vec3(1, 1, 0)},
+                                          {Vec3(-0.01, -0.01, above), Vec3(0, 0, 0)}}) {
+      const auto surface = nearest_surface(sheet, beyond, 0.15, scratch);
+      EXPECT_NEAR(surface->gap, (beyond - nearest).norm(), 1e-12);
+      EXPECT_LT((surface->normal - (beyond - nearest).normalized()).norm(), 1e-9);
+    }
+  EXPECT_LT(nearest_surface(sheet, {0.9, 0.4, -1e-3}, 0.15, scratch)->gap, 0);
+}
+
 }  // namespace
 }  // namespace engine

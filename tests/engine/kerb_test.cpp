@@ -172,5 +172,26 @@ TEST(Ramp, OfAThinEndIsDrivenUpAtAnySpeed) {
   }
 }
 
+/// A ramp that is a sheet: beyond the end of a surface there is nothing, neither ahead of the rims nor behind them.
+TEST(Ramp, ThatIsAnOpenSheetIsDrivenOff) {
+  constexpr double kLength = 8, kRise = 0.8, kAxles = 2.7;
+  const auto sheet =
+      std::make_shared<TriangleMesh>(std::vector<Vec3>{{0, -10, 0}, {0, 10, 0}, {kLength, -10, kRise}, {kLength, 10, kRise}},
+                                     std::vector<Triangle>{{0, 2, 3}, {0, 3, 1}});
+  for (const double speed : {11.0, 20.0}) {
+    // until both axles are past the lip
+    Model model = on_ground((5 + kLength + kAxles) / speed);
+    add_reference_car(model, -5, speed);
+    Body ramp;
+    ramp.name = "ramp";
+    ramp.fixed = true;
+    ramp.shape = MeshShape{sheet, {}};
+    model.bodies.push_back(ramp);
+    const Recording run = simulate(model);
+    // the kink at the foot takes sin(5.7 deg)^2 / 2 of the speed from each axle, half of a percent
+    EXPECT_GT(run.snapshots.back().bodies[0].V_WB.v.norm(), 0.97 * std::sqrt(speed * speed - 2 * kGravity * kRise)) << speed;
+  }
+}
+
 }  // namespace
 }  // namespace engine::test
