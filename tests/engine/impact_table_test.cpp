@@ -205,6 +205,92 @@ TEST(ImpactTable, AnExchangeAtAnInstantHasTimeAndClosingSpeedOfItsEventAndLastsN
   EXPECT_EQ(all[0].duration, 0.0) << "not the rest of the recorded interval";
 }
 
+/// A body of 5 kg, nobody's part, where the car of other runs is.
+constexpr int kLog = kCar;
+
+Model person_and_log() {
+  Model model = person_and_car();
+  model.vehicles.clear();
+  model.bodies[kLog].vehicle = -1;
+  model.bodies[kLog].mass = 5;
+  model.bodies[kLog].shape = HyperEllipsoid{};
+  return model;
+}
+
+/// The log comes at 10 m/s along x, strikes the head at 0.05 s and goes on at 2 m/s; the head takes up what it has lost.
+Recording log_strikes_head() {
+  Recording run = standing_still(20);
+  for (int i = 0; i < 20; ++i) {
+    run.snapshots[i].bodies.own()[kLog].V_WB.v = {i < 5 ? 10.0 : 2.0, 0, 0};
+    run.snapshots[i].bodies.own()[kHead].V_WB.v = {i < 5 ? 0.0 : 4.0, 0, 0};
+  }
+  ContactRecord c = push(kHead, kLog, ShapePair{ShapeKind::round, ShapeKind::round}, {40, 0, 0});
+  c.normal = Vec3::UnitX();
+  c.begun = 0.043;
+  run.snapshots[5].contacts = {c};
+  return run;
+}
+
+TEST(ImpactTable, AnObjectThatStrikesAPersonHasARowAndAnEvent) {
+  const Model model = person_and_log();
+  const Recording run = log_strikes_head();
+  const std::vector<Impact> all = impacts_of(model, run);
+  ASSERT_EQ(all.size(), 1u);
+  const Impact& i = all[0];
+  EXPECT_EQ(i.a.party.bodies, std::vector<int>{kLog});
+  EXPECT_EQ(i.b.name, "pedestrian");
+  EXPECT_EQ(i.time, 0.043);
+  EXPECT_NEAR(i.closing_speed, 10, kAlmost);
+  EXPECT_NEAR(i.impulse.x(), -40, kAlmost) << "on the log";
+  EXPECT_NEAR(i.b.speed_after, 1, kAlmost) << "40 N s on 40 kg";
+  for (const ImpactSide* side : {&i.a, &i.b}) EXPECT_TRUE(std::isnan(side->ees) && std::isnan(side->pdof)) << "those of vehicles";
+  const std::vector<Event> told = told_events(model, run);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].kind, "collision");
+  EXPECT_EQ(told[0].body_a, kLog);
+  EXPECT_EQ(told[0].body_b, kHead) << "the part that was struck";
+  EXPECT_NEAR(told[0].value, 10, kAlmost);
+}
+
+TEST(ImpactTable, AFixtureStrikesNobody) {
+  Model model = person_and_log();
+  model.bodies[kLog].fixed = true;
+  EXPECT_TRUE(impacts_of(model, log_strikes_head()).empty());
+}
+
+TEST(ImpactTable, TwoPersonsThatRunIntoEachOtherHaveARow) {
+  Model model = person_and_log();
+  model.bodies[kLog].person = 1;
+  model.persons.push_back({"other", {kLog}});
+  const std::vector<Impact> all = impacts_of(model, log_strikes_head());
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].a.name, "pedestrian");
+  EXPECT_EQ(all[0].b.name, "other");
+  EXPECT_NEAR(all[0].closing_speed, 10, kAlmost);
+}
+
+/// Thrice its weight in 20 ms is more than 0.8 km/h of the log; but nothing moves.
+TEST(ImpactTable, WhoStandsOnSomethingIsNotStruckByIt) {
+  const Model model = person_and_log();
+  Recording run = standing_still(60);
+  for (int i = 1; i < 60; ++i)
+    run.snapshots[i].contacts = {push(kHips, kLog, ShapePair{ShapeKind::round, ShapeKind::round}, {0, 0, 4})};
+  EXPECT_TRUE(impacts_of(model, run).empty());
+  EXPECT_TRUE(told_events(model, run).empty());
+}
+
+TEST(ImpactTable, WhatIsHeldStrikesNobodyBeforeItIsLetGo) {
+  Model model = person_and_log();
+  Joint grip;
+  grip.parent = kHips;
+  grip.child = kLog;
+  model.joints = {grip};
+  Recording run = log_strikes_head();
+  EXPECT_TRUE(impacts_of(model, run).empty());
+  run.events = {{0.02, "joint_broken", kLog, kHips, Vec3::Zero(), 0}};
+  EXPECT_EQ(impacts_of(model, run).size(), 1u);
+}
+
 TEST(ToldEvents, ARigidCollisionIsToldOnceAPair) {
   Model model = person_and_car();
   model.bodies[kHips].person = -1;
