@@ -193,24 +193,45 @@ bool below_hubs(const Model& model, const Snapshot& before, const Party& party, 
          std::all_of(wheels.begin(), wheels.end(), [&](const Wheel& w) { return z < w.hub_B.z() - 0.25 * w.radius; });
 }
 
+/// Does a joint hold something to the vehicle that moves: a trailer, what draws it, a rider?
+bool is_coupled(const Model& model, const Party& party) {
+  return std::any_of(model.joints.begin(), model.joints.end(), [&](const Joint& j) {
+    return j.parent >= 0 && holds(party, j.parent) != holds(party, j.child) &&
+           !model.bodies[holds(party, j.parent) ? j.child : j.parent].fixed;
+  });
+}
+
+/// Why the energy of a phase tells no energy equivalent speed; empty: it does. `by_mass` where no stiffness tells how to share it.
+const char* why_no_ees(const Model& model, const Snapshot& before, const Impact& impact, bool by_mass) {
+  const Party &a = impact.a.party, &b = impact.b.party;
+  if (has_person({a, b})) return "its hardest impact was with a person, who deforms no car";
+  if (!(impact.energy_lost > 0)) return "its hardest impact cost no energy";
+  if (by_mass && is_two_wheeler(model, a) != is_two_wheeler(model, b))
+    return "its hardest impact was that of a two-wheeler and a car, and the scene does not tell their stiffnesses apart: the rule "
+           "of "
+           "masses is that of cars";
+  // a trailer of 300 kg before a car of 1500 kg would get nearly all of what stops both: more than it closed at
+  if (by_mass && (is_coupled(model, a) || is_coupled(model, b)))
+    return "what is coupled to one of the two pressed as well, and the scene does not tell their stiffnesses apart: the rule of "
+           "masses is that of cars by themselves";
+  // an energy equivalent speed is told from what bodywork crushes: that of wheels against a kerb has no such scale
+  const auto fixed = [&](const Party& party) { return model.bodies[party.bodies.front()].fixed; };
+  if ((fixed(a) && below_hubs(model, before, b, impact.point)) || (fixed(b) && below_hubs(model, before, a, impact.point)))
+    return "its hardest impact was that of its wheels with something low, such as a kerb: no bodywork is crushed";
+  return "";
+}
+
 /// The two are pressed together by the same force: each takes up energy as it gives way, in inverse proportion to stiffness. Where
 /// nobody has told their stiffnesses apart they go with the masses, as crash tests of cars of all classes show on the whole.
 void share_energy(const Model& model, const Snapshot& before, Impact& impact) {
-  const int a = impact.a.party.bodies.front(), b = impact.b.party.bodies.front();
-  const Body &A = model.bodies[a], &B = model.bodies[b];
-  if (impact.a.party.person >= 0 || impact.b.party.person >= 0 || !(impact.energy_lost > 0)) return;
+  const Body &A = model.bodies[impact.a.party.bodies.front()], &B = model.bodies[impact.b.party.bodies.front()];
   const double S_a = A.surface.stiffness.at(impact.time), S_b = B.surface.stiffness.at(impact.time);
-  double of_a = B.mass / (A.mass + B.mass);
-  const char* rule = "by mass";
-  if (S_a != S_b) of_a = S_b / (S_a + S_b), rule = "by stiffness";
-  if (A.fixed || B.fixed) of_a = A.fixed ? 0 : 1, rule = "all to the one that moves";
-  // a two-wheeler and a car: no rule of cars' masses is theirs
-  if (rule == std::string("by mass") && is_two_wheeler(model, impact.a.party) != is_two_wheeler(model, impact.b.party)) return;
-  // an energy equivalent speed is told from what bodywork crushes: that of wheels against a kerb has no such scale
-  if ((A.fixed && below_hubs(model, before, impact.b.party, impact.point)) ||
-      (B.fixed && below_hubs(model, before, impact.a.party, impact.point)))
-    return;
-  impact.ees_rule = rule;
+  const bool fixed = A.fixed || B.fixed, by_mass = !fixed && S_a == S_b;
+  impact.no_ees = why_no_ees(model, before, impact, by_mass);
+  if (*impact.no_ees) return;
+  double of_a = by_mass ? B.mass / (A.mass + B.mass) : S_b / (S_a + S_b);
+  if (fixed) of_a = A.fixed ? 0 : 1;
+  impact.ees_rule = fixed ? "all to the one that moves" : by_mass ? "by mass" : "by stiffness";
   const auto speed = [&](double share, double mass) { return std::sqrt(2 * share * impact.energy_lost / mass); };
   if (impact.a.party.vehicle >= 0 && !A.fixed) impact.a.ees = speed(of_a, A.mass);
   if (impact.b.party.vehicle >= 0 && !B.fixed) impact.b.ees = speed(1 - of_a, B.mass);

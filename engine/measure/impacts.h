@@ -51,6 +51,7 @@ struct Impact {
   double friction_limit = kUnknown;  // [-] most it could have been: coefficient of the surfaces and what a dent adds
   double energy_lost = 0;            // [J] deformation and friction between the two
   const char* ees_rule = "";         // how that was shared: "by stiffness", "by mass", "all to the one that moves"
+  const char* no_ees = "";           // why none is told of either; empty: it is
 };
 
 constexpr double kChange = 0.8 / 3.6;  // [m/s] within 20 ms: more is a collision

@@ -1,4 +1,5 @@
 // The table of impacts, and the events told of it.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -69,6 +70,38 @@ TEST(ImpactTable, ATwoWheelerAndACarShareNoEnergyByARuleOfCars) {
   EXPECT_STREQ(car_against_block(500, 20e3, 1200e3, false, 2).at(0).ees_rule, "by stiffness") << "where the scene tells them apart";
   EXPECT_STREQ(car_against_block(500, 20e3, 400e3, true, 2).at(0).ees_rule, "all to the one that moves");
   EXPECT_STREQ(car_against_block(500, 20e3, 400e3, false, 2, 0.6, true).at(0).ees_rule, "by mass") << "a trailer of one axle";
+}
+
+/// What draws a light trailer stops with it what runs into it: by mass the trailer alone would have taken up nearly all of that,
+/// and its speed would pass the one they closed at.
+TEST(ImpactTable, WhatIsCoupledSharesNoEnergyByARuleOfCarsByThemselves) {
+  Model model = person_and_car();
+  model.bodies[kHead].person = model.bodies[kHips].person = -1;
+  model.persons.clear();
+  model.bodies[kHips].mass = 300;
+  model.bodies[kHips].vehicle = 1;
+  model.bodies[kHead].mass = 1500;
+  Vehicle trailer;
+  trailer.name = "trailer";
+  trailer.body = kHips;
+  model.vehicles.push_back(trailer);
+  Joint coupling;
+  coupling.parent = kHead;
+  coupling.child = kHips;
+  Recording run = standing_still(20);
+  for (int i = 0; i < 5; ++i) run.snapshots[i].bodies.own()[kCar].V_WB.v = {13.9, 0, 0};
+  ContactRecord c = push(kCar, kHips, kVehicles, {-9000, 0, 0});
+  c.normal = {-1, 0, 0};
+  c.energy_lost = 0.5 * 1000 * 1800 / 2800.0 * 13.9 * 13.9;  // a plastic blow on both
+  run.snapshots[5].contacts = {c};
+  EXPECT_GT(impacts_of(model, run).at(0).a.ees, 13.9) << "were it not coupled";
+  model.joints = {coupling};
+  const Impact coupled = impacts_of(model, run).at(0);
+  for (const ImpactSide* side : {&coupled.a, &coupled.b}) EXPECT_TRUE(std::isnan(side->ees));
+  EXPECT_STREQ(coupled.ees_rule, "");
+  EXPECT_THAT(coupled.no_ees, testing::HasSubstr("coupled"));
+  model.bodies[kHips].surface.stiffness = 1200e3;
+  EXPECT_STREQ(impacts_of(model, run).at(0).ees_rule, "by stiffness") << "where the scene tells them apart";
 }
 
 TEST(ImpactTable, FrictionIsThatOfEachContactAlongItsOwnSurface) {
