@@ -24,6 +24,9 @@ std::vector<std::string> crowded_cards(const render::Stage&, int width, int heig
 /// Whether a run that could have held a collision held none: no vehicle or person touched anything but the ground and itself.
 bool nothing_touched(const engine::Model&, const engine::Recording&);
 
+/// Names of what is fixed and wheels rolled over in a run: a bump, a kerb. That is road to them, and no contact is told of it.
+std::vector<std::string> under_wheels(const engine::Model&, const engine::Recording&);
+
 /// Whether the moment's picture, width / height = `aspect`, shows nothing of any vehicle, person or body.
 bool is_empty_picture(const engine::Model&, const render::Stage&, const engine::Recording&, const render::Moment&, double aspect);
 

@@ -186,8 +186,12 @@ engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan
   // a run that left something out says so wherever its results go
   std::vector<std::string>& warnings = recording.diagnostics.warnings;
   warnings = warnings_of(scene, recording);
-  if (!wish.quiet && nothing_touched(scene.model, recording))
-    fmt::print(stderr, "crashreel: note: nothing touched: no vehicle or person met anything but the ground in this run\n");
+  if (!wish.quiet && nothing_touched(scene.model, recording)) {
+    const std::vector<std::string> over = under_wheels(scene.model, recording);
+    const std::string rolled = over.empty() ? "nothing touched" : fmt::format("wheels rolled over {}", fmt::join(over, " and "));
+    fmt::print(stderr, "crashreel: note: {}: no vehicle or person met anything {}but the ground in this run\n", rolled,
+               over.empty() ? "" : "else ");
+  }
   if (!wish.quiet) {
     for (const std::string& warning : warnings) fmt::print(stderr, "crashreel: warning: {}\n", warning);
     if (const std::string slow = slow_step(recording); !slow.empty()) fmt::print(stderr, "crashreel: warning: {}\n", slow);

@@ -106,6 +106,21 @@ TEST(Simulate, ARunWithoutATouchSaysSo) {
   EXPECT_EQ(result.err, "crashreel: note: nothing touched: no vehicle or person met anything but the ground in this run\n");
 }
 
+/// A bump is road to wheels: no contact is told of it, and yet it was met.
+TEST(Simulate, NamesWhatWheelsRolledOver) {
+  const Folder folder;
+  folder.write("bump.obj",
+               "v 3 -4 0\nv 3.4 -4 0.05\nv 3.8 -4 0\nv 3 4 0\nv 3.4 4 0.05\nv 3.8 4 0\nf 1 2 5 4\nf 2 3 6 5\nf 1 4 6 3\nf 1 3 2\n"
+               "f 4 5 6\n");
+  folder.write("a.toml",
+               "[simulation]\nduration = \"0.8 s\"\n[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\nspeed = \"5 m/s\"\n"
+               "[[body]]\nname = \"bump\"\nfixed = true\nmesh = \"bump.obj\"\n" +
+                   kPerson + "position = \"9 5 m\"\n");
+  EXPECT_EQ(run(folder, {"simulate", "a.toml", "-o", "out"}).err,
+            "crashreel: note: wheels rolled over bump: no vehicle or person met anything else but the ground in this run\n");
+  EXPECT_THAT(run(folder, {"check", "a.toml"}).err, HasSubstr("nothing touches but wheels and bump: "));
+}
+
 TEST(Render, AStillThatShowsNothingSaysSo) {
   const Folder folder;
   folder.write("a.toml",
