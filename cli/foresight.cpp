@@ -10,6 +10,7 @@
 
 #include "cli/disk_room.h"
 #include "cli/film_plan.h"
+#include "cli/output/summary.h"
 #include "engine/effects/reach.h"
 #include "engine/measure/approach.h"
 #include "engine/plan.h"
@@ -107,6 +108,13 @@ Sentences first_steps(const scenes::Scene& scene) {
     out.push_back(fmt::format("the model diverges at {:.4f} s, body {}, effect {}: {}", failure->time, failure->body,
                               failure->effect, failure->message));
   return out;
+}
+
+/// A scheme asked for that the scene leaves nothing to do.
+Sentences other_scheme(const engine::Model& model) {
+  const engine::Plan plan = engine::compile(model);
+  if (plan.integrated_by == model.settings.scheme) return {};
+  return {scheme_in_words(model, plan)};
 }
 
 Sentences unlikely_speeds(const engine::Model& model) {
@@ -415,9 +423,9 @@ std::vector<std::string> foresee(const scenes::Scene& scene, const std::string& 
   const bool inside = !out.empty();
   const Sentences far = out_of_reach(scene.model);
   for (const Sentences& more :
-       {first_steps(scene), unlikely_speeds(scene.model), unlikely_figures(scene.model), unlikely_ground(scene.model), far,
-        inside || !far.empty() ? Sentences() : misses(scene), blind_cameras(scene), crowded_pages(scene),
-        letters_without_glyph(scene), room_on_disk(scene, output)})
+       {first_steps(scene), other_scheme(scene.model), unlikely_speeds(scene.model), unlikely_figures(scene.model),
+        unlikely_ground(scene.model), far, inside || !far.empty() ? Sentences() : misses(scene), blind_cameras(scene),
+        crowded_pages(scene), letters_without_glyph(scene), room_on_disk(scene, output)})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }
