@@ -180,4 +180,21 @@ TEST(Energy, GravityThatIsOffIsNoWeightInItEither) {
   EXPECT_EQ(run.snapshots.back().energies.potential, 0);
 }
 
+/// A rod on a hinge, given a velocity that is none of a turn about it: what is left is the part of the motion that the joint lets
+/// be.
+TEST(Start, TellsOfAVelocityThatAJointForbids) {
+  Model model = free_space(0.01);
+  model.bodies = {inert(4, {1, 1, 1}, {0, 0, 2})};
+  model.bodies[0].name = "rod";
+  model.joints = {joint_at(model, JointKind::spherical, -1, 0, {0, 0, 2.5})};
+  model.joints[0].name = "hook";
+  model.bodies[0].V_WB = {{3, 0, 0}, {0, -6, 0}};
+  EXPECT_THAT(simulate(model).diagnostics.warnings, IsEmpty()) << "it turns about the hook";
+  model.bodies[0].V_WB = {{3, 0, 0}, {0, 0, 0}};
+  // L about the hook is kept: w = m v l / (I + m l^2) = 6 / 2, so that its centre has 1.5 m/s, and m v (v - w l) / 2 is lost
+  EXPECT_THAT(simulate(model).diagnostics.warnings,
+              ElementsAre(AllOf(HasSubstr("rod starts with a velocity that joint hook forbids, 3 m/s at its point"),
+                                HasSubstr("with 9 J"), HasSubstr("rod starts at 1.5 m/s in place of 3 m/s"))));
+}
+
 }  // namespace
