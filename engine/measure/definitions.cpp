@@ -171,8 +171,9 @@ constexpr Definition kDefinitions[] = {
     {"path_m", "m", "path", "Length of the level path of the vehicle's centre of mass over the run.", "never",
      "to the recorded interval"},
     {"quarter_turns", "", "quarter turns",
-     "How often a vehicle that rolled over turned by 90 degrees about its long axis until it rests, to the nearest: 1 on its "
-     "side, 2 on its roof, 4 on its wheels again. Turns back are taken off. What it does end over end does not count.",
+     "How often a vehicle that rolled over turned by 90 degrees about its long axis until it rests, or the run ends, to the "
+     "nearest: 1 on its side, 2 on its roof, 4 on its wheels again. Turns back are taken off. What it does end over end does not "
+     "count.",
      kNotRolled, "exact to the run; how often it rolls is chaotic", true},
     {"trip_s", "s", "trip",
      "Time at which it last stood on wheels of both sides before it leant by 45 degrees; of one that never did, the start.",
