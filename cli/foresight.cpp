@@ -425,7 +425,7 @@ std::vector<std::string> foresee(const scenes::Scene& scene, const std::string& 
   for (const Sentences& more :
        {first_steps(scene), other_scheme(scene.model), unlikely_speeds(scene.model), unlikely_figures(scene.model),
         unlikely_ground(scene.model), far, inside || !far.empty() ? Sentences() : misses(scene), blind_cameras(scene),
-        crowded_pages(scene), letters_without_glyph(scene), room_on_disk(scene, output)})
+        unfit_riders(scene.model), crowded_pages(scene), letters_without_glyph(scene), room_on_disk(scene, output)})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }

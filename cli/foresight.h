@@ -18,6 +18,9 @@ std::vector<std::string> foresee(const scenes::Scene&, const std::string& output
 /// Who stands inside a vehicle's shell touches nothing there, and a run of it begins without a word.
 std::vector<std::string> inside_vehicles(const engine::Model&);
 
+/// Riders whose hands or feet hold on to the air, or whose legs are too short for what they ride.
+std::vector<std::string> unfit_riders(const engine::Model&);
+
 /// Cards with more lines than a picture of that size has room for in letters that can be read.
 std::vector<std::string> crowded_cards(const render::Stage&, int width, int height);
 

@@ -206,6 +206,7 @@ engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan
 std::vector<std::string> warnings_of(const scenes::Scene& scene, const engine::Recording& recording) {
   std::vector<std::string> out = recording.diagnostics.warnings, seen = scene.stage.warnings;
   for (const std::string& inside : inside_vehicles(scene.model)) seen.push_back(inside);
+  for (const std::string& unfit : unfit_riders(scene.model)) seen.push_back(unfit);
   for (const std::string& warning : seen)
     if (std::find(out.begin(), out.end(), warning) == out.end()) out.push_back(warning);
   return out;

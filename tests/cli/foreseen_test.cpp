@@ -106,6 +106,28 @@ TEST(Simulate, ARunWithoutATouchSaysSo) {
   EXPECT_EQ(result.err, "crashreel: note: nothing touched: no vehicle or person met anything but the ground in this run\n");
 }
 
+/// Hands and feet hold on where the pose has them. Of a child on an adult's bicycle that is in the air.
+TEST(Check, TellsOfRidersWhoDoNotFitWhatTheyRide) {
+  const Folder folder;
+  const auto told = [&](const std::string& mount, const std::string& rider) {
+    folder.write("a.toml", "[simulation]\nduration = \"20 ms\"\n[[vehicle]]\nname = \"m\"\nmodel = \"" + mount +
+                               "\"\nspeed = \"4 m/s\"\n" + kPerson + "rides = \"m\"\n" + rider);
+    const Result check = run(folder, {"check", "a.toml"}), run_of = run(folder, {"simulate", "a.toml", "-o", "out", "--overwrite"});
+    EXPECT_EQ(check.code, 0) << check.err;
+    EXPECT_EQ(check.err.find("does not fit") == std::string::npos, run_of.err.find("does not fit") == std::string::npos);
+    return check.err;
+  };
+  for (const std::string stature : {"1.5 m", "1.75 m", "2 m"}) {
+    EXPECT_EQ(told("bicycle", "pose = \"cyclist\"\nstature = \"" + stature + "\"\n"), "") << stature;
+    EXPECT_EQ(told("motorcycle", "pose = \"motorcyclist\"\nstature = \"" + stature + "\"\n"), "") << stature;
+  }
+  EXPECT_THAT(told("bicycle", "pose = \"cyclist\"\nfigure = \"child-3\"\n"),
+              testing::AllOf(HasSubstr("p does not fit m: "), HasSubstr("left_forearm and right_forearm hold nothing within reach"),
+                             HasSubstr("do not reach down to the axles")));
+  EXPECT_THAT(told("motorcycle", "pose = \"motorcyclist\"\nfigure = \"child-3\"\n"), HasSubstr("p does not fit m: "));
+  EXPECT_THAT(told("bicycle", "pose = \"standing\"\n"), HasSubstr("foot"));
+}
+
 /// A bump is road to wheels: no contact is told of it, and yet it was met.
 TEST(Simulate, NamesWhatWheelsRolledOver) {
   const Folder folder;
