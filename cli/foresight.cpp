@@ -6,9 +6,11 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "cli/disk_room.h"
 #include "cli/film_plan.h"
+#include "cli/output/summary.h"
 #include "engine/effects/reach.h"
 #include "engine/measure/approach.h"
 #include "engine/plan.h"
@@ -106,6 +108,13 @@ Sentences first_steps(const scenes::Scene& scene) {
     out.push_back(fmt::format("the model diverges at {:.4f} s, body {}, effect {}: {}", failure->time, failure->body,
                               failure->effect, failure->message));
   return out;
+}
+
+/// A scheme asked for that the scene leaves nothing to do.
+Sentences other_scheme(const engine::Model& model) {
+  const engine::Plan plan = engine::compile(model);
+  if (plan.integrated_by == model.settings.scheme) return {};
+  return {scheme_in_words(model, plan)};
 }
 
 Sentences unlikely_speeds(const engine::Model& model) {
@@ -301,6 +310,7 @@ Sentences misses(const scenes::Scene& scene) {
   const double end = std::min(model.settings.duration, kLookAhead * model.settings.step);
   engine::State state;
   std::optional<engine::Approach> nearest;
+  std::set<std::string> over;
   for (int piece = 1; piece <= kPieces; ++piece) {
     model.settings.duration = end * piece / kPieces;
     engine::RunOptions options;
@@ -308,13 +318,15 @@ Sentences misses(const scenes::Scene& scene) {
     options.end = &state;
     const engine::Recording recording = engine::simulate(model, plan, options);
     if (recording.failure || !nothing_touched(model, recording)) return {};
+    for (const std::string& name : under_wheels(model, recording)) over.insert(name);
     const auto found = engine::nearest_approach(model, recording);
     if (found && (!nearest || found->distance < nearest->distance)) nearest = found;
     if (recording.end_time() < model.settings.duration - model.settings.step) break;  // all rest
   }
   if (!nearest) return {};
   const std::string until = end < scene.model.settings.duration ? fmt::format(" in the first {:.3g} s", end) : "";
-  return {fmt::format("nothing touches{}: {} and {} come no nearer than {:.2f} m, at {:.2f} s", until,
+  const std::string but = over.empty() ? "" : fmt::format(" but wheels and {}", fmt::join(over, " and "));
+  return {fmt::format("nothing touches{}{}: {} and {} come no nearer than {:.2f} m, at {:.2f} s", but, until,
                       model.bodies[nearest->body_a].name, model.bodies[nearest->body_b].name, nearest->distance, nearest->time)};
 }
 
@@ -344,6 +356,24 @@ std::vector<std::string> crowded_cards(const render::Stage& stage, int width, in
       out.push_back(
           fmt::format("card {} has {} lines, of which {} fit on {}x{} in letters that can be read; the others are left out", i + 1,
                       lines, fitting, width, height));
+  }
+  return out;
+}
+
+std::vector<std::string> under_wheels(const engine::Model& model, const engine::Recording& recording) {
+  constexpr double kAbove = 1e-3;  // [m] the plane: what lies level in it is road
+  constexpr double kTread = 5e-3;  // [m] by which a tread may stand off a box
+  Sentences out;
+  for (const engine::Body& body : model.bodies) {
+    if (!body.fixed || body.person >= 0 || body.vehicle >= 0) continue;
+    const engine::Aabb box = engine::box_at_start(body);
+    const auto on_it = [&](const engine::WheelRecord& wheel) {
+      const bool above = !model.ground.plane || wheel.contact.z() > model.ground.height + kAbove;
+      return wheel.load > 0 && above && ((wheel.contact - box.lower).array() > -kTread).all() &&
+             ((box.upper - wheel.contact).array() > -kTread).all();
+    };
+    const auto rolled = [&](const engine::Snapshot& s) { return std::any_of(s.wheels.begin(), s.wheels.end(), on_it); };
+    if (std::any_of(recording.snapshots.begin(), recording.snapshots.end(), rolled)) out.push_back(body.name);
   }
   return out;
 }
@@ -393,9 +423,9 @@ std::vector<std::string> foresee(const scenes::Scene& scene, const std::string& 
   const bool inside = !out.empty();
   const Sentences far = out_of_reach(scene.model);
   for (const Sentences& more :
-       {first_steps(scene), unlikely_speeds(scene.model), unlikely_figures(scene.model), unlikely_ground(scene.model), far,
-        inside || !far.empty() ? Sentences() : misses(scene), blind_cameras(scene), crowded_pages(scene),
-        letters_without_glyph(scene), room_on_disk(scene, output)})
+       {first_steps(scene), other_scheme(scene.model), unlikely_speeds(scene.model), unlikely_figures(scene.model),
+        unlikely_ground(scene.model), far, inside || !far.empty() ? Sentences() : misses(scene), blind_cameras(scene),
+        unfit_riders(scene.model), crowded_pages(scene), letters_without_glyph(scene), room_on_disk(scene, output)})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }

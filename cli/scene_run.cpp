@@ -186,8 +186,12 @@ engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan
   // a run that left something out says so wherever its results go
   std::vector<std::string>& warnings = recording.diagnostics.warnings;
   warnings = warnings_of(scene, recording);
-  if (!wish.quiet && nothing_touched(scene.model, recording))
-    fmt::print(stderr, "crashreel: note: nothing touched: no vehicle or person met anything but the ground in this run\n");
+  if (!wish.quiet && nothing_touched(scene.model, recording)) {
+    const std::vector<std::string> over = under_wheels(scene.model, recording);
+    const std::string rolled = over.empty() ? "nothing touched" : fmt::format("wheels rolled over {}", fmt::join(over, " and "));
+    fmt::print(stderr, "crashreel: note: {}: no vehicle or person met anything {}but the ground in this run\n", rolled,
+               over.empty() ? "" : "else ");
+  }
   if (!wish.quiet) {
     for (const std::string& warning : warnings) fmt::print(stderr, "crashreel: warning: {}\n", warning);
     if (const std::string slow = slow_step(recording); !slow.empty()) fmt::print(stderr, "crashreel: warning: {}\n", slow);
@@ -202,6 +206,7 @@ engine::Recording run_scene(const scenes::Scene& scene, const engine::Plan& plan
 std::vector<std::string> warnings_of(const scenes::Scene& scene, const engine::Recording& recording) {
   std::vector<std::string> out = recording.diagnostics.warnings, seen = scene.stage.warnings;
   for (const std::string& inside : inside_vehicles(scene.model)) seen.push_back(inside);
+  for (const std::string& unfit : unfit_riders(scene.model)) seen.push_back(unfit);
   for (const std::string& warning : seen)
     if (std::find(out.begin(), out.end(), warning) == out.end()) out.push_back(warning);
   return out;

@@ -17,6 +17,9 @@ struct EffectKind;
 struct Plan {
   std::vector<PlanLine> lines;
   std::vector<const EffectKind*> active;
+  /// What the run is integrated by: rk4 that finds nothing for its stages is stepping, to the last bit.
+  Scheme integrated_by = Scheme::stepping;
+  std::vector<std::string> once_a_step;  // what rk4 or adaptive leave to one solve a step, as stepping does
 
   bool has(std::string_view effect) const {
     return std::any_of(lines.begin(), lines.end(), [effect](const PlanLine& l) { return l.active && l.effect == effect; });

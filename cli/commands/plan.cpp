@@ -178,6 +178,7 @@ int plan(const PlanWish& wish) {
     return kDone;
   }
   print_plan(plan.lines, nullptr);
+  if (const std::string scheme = scheme_in_words(scene.model, plan); !scheme.empty()) print_paragraph("scheme", "", scheme);
   for (const std::string& taken : scene.assumed) print_paragraph("assumed", "", taken);
   for (const std::string& warning : scene.stage.warnings) fmt::print("\nwarning: {}\n", warning);
   return kDone;

@@ -8,6 +8,7 @@
 #include "cli/output/json.h"
 #include "cli/scene_run.h"
 #include "cli/study/quantities.h"
+#include "engine/measure/impacts.h"
 #include "engine/plan.h"
 #include "engine/simulate.h"
 
@@ -15,7 +16,7 @@ namespace cli::inference {
 namespace {
 
 bool is_meeting(const engine::Event& event) {
-  return event.kind == "first_contact" || event.kind == "impact";
+  return event.kind == "first_contact" || event.kind == "impact" || event.kind == "collision";
 }
 
 Json numbers_json(const std::vector<double>& numbers) {
@@ -52,7 +53,8 @@ Answer answer(const scenes::Scene& scene, const std::vector<std::string>& overri
     for (const scenes::Evidence& e : scene.inference.evidence)
       out.predicted.push_back(observe(e, variant.model, recording, metrics));
     out.rests = rest_places(variant.model, recording, metrics);
-    out.touched = std::any_of(recording.events.begin(), recording.events.end(), is_meeting);
+    const std::vector<engine::Event> events = engine::told_events(variant.model, recording);
+    out.touched = std::any_of(events.begin(), events.end(), is_meeting);
   } catch (const scenes::SceneErrors& error) {
     out.status = "refused: " + first_line(error.what());
   }

@@ -24,7 +24,7 @@ struct Answer {
   std::map<std::string, double> outputs;                      // measures by name ("throw_distance_m", "delta_v_mps red")
   std::vector<std::optional<std::vector<double>>> predicted;  // of each piece of evidence
   std::map<std::string, std::array<double, 2>> rests;         // [m] where each person, vehicle and free body came to rest
-  bool touched = false;                                       // a person and a vehicle, or two vehicles, met
+  bool touched = false;                                       // a vehicle or a person met something or somebody
   RunNotes notes;
   bool ok() const { return status == "ok"; }
 };

@@ -14,7 +14,8 @@ bool is_so_far(const engine::Metric& metric, const std::vector<engine::Metric>& 
   const auto on_wheels = [&](const engine::Metric& m) {
     return m.key == "quarter_turns" && m.object == metric.object && std::remainder(m.value, 4) == 0;
   };
-  const bool rolls = metric.key == "roll_distance_m" && std::none_of(all.begin(), all.end(), on_wheels);
+  const bool of_roll = metric.key == "roll_distance_m" || metric.key == "quarter_turns" || metric.key == "ground_strikes";
+  const bool rolls = of_roll && std::none_of(all.begin(), all.end(), on_wheels);
   const bool to_rest = metric.key == "throw_distance_m" || metric.key == "slide_m" || rolls;
   const auto no_rest = [&](const engine::AbsentMetric& a) { return a.key == "rest_s" && a.object == metric.object; };
   return to_rest && std::any_of(absent.begin(), absent.end(), no_rest);

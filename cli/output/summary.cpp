@@ -18,15 +18,8 @@ namespace cli {
 namespace {
 
 const char* name_of(engine::Scheme scheme) {
-  switch (scheme) {
-    case engine::Scheme::stepping:
-      return "stepping";
-    case engine::Scheme::rk4:
-      return "rk4";
-    case engine::Scheme::adaptive:
-      return "adaptive";
-  }
-  return "";
+  constexpr const char* kWords[] = {"stepping", "rk4", "adaptive"};
+  return kWords[static_cast<int>(scheme)];
 }
 
 const char* name_of(engine::ContactLaw law) {
@@ -54,8 +47,11 @@ Json stiffness_json(const engine::Model& model) {
 
 Json settings_json(const engine::Model& model) {
   const engine::Settings& s = model.settings;
+  const engine::Plan plan = engine::compile(model);
   return {{"step_s", s.step},
-          {"integrator", name_of(s.scheme)},
+          {"integrator", name_of(plan.integrated_by)},
+          {"scheme", name_of(s.scheme)},
+          {"once_a_step", plan.once_a_step},
           {"contact_model", name_of(s.contact_law)},
           {"stiffness_N_per_m", stiffness_json(model)},
           {"duration_s", s.duration},
@@ -230,6 +226,17 @@ std::string slow_step(const engine::Recording& recording) {
   if (!step || step->processor_s <= kSlow) return {};
   return fmt::format("the step to {:.4g} s took {:.3g} s of processor time: {}", step->time, step->processor_s,
                      fmt::join(step->bodies, ", "));
+}
+
+std::string scheme_in_words(const engine::Model& model, const engine::Plan& plan) {
+  if (plan.once_a_step.empty()) return {};
+  const std::string asked = name_of(model.settings.scheme), what = fmt::format("{}", fmt::join(plan.once_a_step, ", "));
+  if (plan.integrated_by == model.settings.scheme)
+    return fmt::format("scheme {} solves once a step, as stepping does: {}", asked, what);
+  const bool law = std::find(plan.once_a_step.begin(), plan.once_a_step.end(), "contacts") != plan.once_a_step.end();
+  return fmt::format(
+      "scheme {} is integrated as {}, to the last bit: all it could take into its stages is solved once a step: {}{}", asked,
+      name_of(plan.integrated_by), what, law ? "; contact_law = \"compliant\" would take the contacts" : "");
 }
 
 Json plan_json(const std::vector<engine::PlanLine>& lines) {

@@ -166,6 +166,9 @@ std::string in_words(const Loss& loss, const std::string& whose) {
 }
 
 constexpr const char* kHow = "; [air] has it computed";
+/// Drag coefficients are assumed, and the motion is that without drag: where a touch hangs on it, what follows is not bounded.
+constexpr const char* kEstimate =
+    "; an estimate with usual drag coefficients in still air, of drag by itself: a touch that comes otherwise can change more";
 
 /// Of a scene that says nothing of the air.
 Finding look_at_usual(const Model& model) {
@@ -182,7 +185,7 @@ Finding look_at_usual(const Model& model) {
             "drag, not bounded before the run, for " + source + " gives energy" + how};
   if (loss.share == 0) return {false, "no speed for drag to take", ""};
   return {false, usual ? "worth less than a hundredth of a speed" : "the scene has no [air], vehicle or person",
-          "drag takes at most " + in_words(loss, "which energy bounds at") + how};
+          "drag takes at most " + in_words(loss, "which energy bounds at") + kEstimate + how};
 }
 
 /// The wind on persons that keep their pose until something touches them.
@@ -216,7 +219,7 @@ LeftOut left_out_along(const Model& model, const Recording& run, bool had_air) {
   if (input(model, "air.density")) return push_on_waiting(model);
   const Loss loss = loss_along(model, run, had_air);
   if (loss.share == 0) return {};
-  return {"drag would take " + in_words(loss, "at the most") + " along this run" + kHow, loss.share > kShare};
+  return {"drag would take " + in_words(loss, "at the most") + " along this run" + kEstimate + kHow, loss.share > kShare};
 }
 
 Air air_of(const Model& model) {

@@ -26,6 +26,12 @@ struct LeftOut {
   bool matters = false;  // enough to warn
 };
 
+/// Where an effect acts under a scheme that takes into its stages what it can.
+struct Staged {
+  bool some = false;        // of it acts within them
+  std::string once_a_step;  // what does not: "wheels"; empty: nothing
+};
+
 /// A key of a scene that an effect brings with it; the loader, the reference and the schema read it from here.
 struct SceneKey {
   const char* name;
@@ -115,6 +121,9 @@ struct EffectKind {
   bool (*gives)(const Model&) = nullptr;
   /// [s] before which it cannot matter, proved from the reach; infinity: not in this run. Null: from the start.
   double (*not_before)(const Model&, const Reach&) = nullptr;
+  /// Where it acts under schemes rk4 and adaptive. Null: contacts where their law allows, stops of joints once a step, all else in
+  /// the stages of any scheme.
+  Staged (*staged)(const Model&) = nullptr;
   SceneSection section;
   std::unique_ptr<Effect> (*make)(World&, int self) = nullptr;
   EffectMemory (*first_memory)() = nullptr;

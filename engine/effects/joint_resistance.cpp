@@ -69,6 +69,13 @@ bool in_stages(const Model& model, const Joint& joint) {
   return joint.passive == PassiveTorque::none || joint.passive_share * kStiffestPassiveTorque * largest_inverse * h * h < kStable;
 }
 
+Staged staged_resistance(const Model& model) {
+  std::size_t once = 0, staged = 0;
+  for (const Joint& joint : model.joints)
+    if (resists(joint)) ++(in_stages(model, joint) ? staged : once);
+  return {staged > 0, once > 0 ? "resistance of " + counted(once, "joint") : ""};
+}
+
 /// Of springs and dampers on the child, world axes: torque [N m] as w and, at the child's point, force [N] as v.
 Twist smooth_resistance(const Joint& joint, const JointCoordinates& now, const Twist& relative) {
   Twist out;
@@ -100,6 +107,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
  public:
   static constexpr const char* kName = "joint_resistance";
   static Finding look(const Model& model) { return look_for_joint_resistance(model); }
+  static Staged staged(const Model& model) { return staged_resistance(model); }
   static double not_before(const Model&, const Reach& reach) { return reach.all_joints_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) {
     return std::any_of(model.joints.begin(), model.joints.end(), [](const Joint& joint) {

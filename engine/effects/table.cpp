@@ -1,4 +1,5 @@
 // The table of all effects, in the order of the step, and the plan of a model. Each is defined in the file of its name.
+#include <algorithm>
 #include <array>
 
 #include "engine/effects/effect.h"
@@ -56,6 +57,28 @@ void prove_needless(const Model& model, const EffectKind& effect, const Reach& r
                                         : "nothing: the bound on every speed is that of energy and drive";
 }
 
+Staged staged_of(const EffectKind& effect, const Model& model) {
+  if (effect.staged) return effect.staged(model);
+  const bool in_stages = contacts_in_stages(model.settings);
+  if (effect.takes_part(Hook::find_contacts)) return {in_stages, in_stages ? "" : "contacts"};
+  return {false, effect.takes_part(Hook::find_limits) ? "stops of joints" : ""};
+}
+
+/// Who asks for rk4 is told what of it is left.
+void find_scheme(const Model& model, Plan& plan) {
+  plan.integrated_by = model.settings.scheme;
+  if (plan.integrated_by == Scheme::stepping) return;
+  bool any_in_stages = false;
+  for (const EffectKind* effect : plan.active) {
+    const Staged staged = staged_of(*effect, model);
+    any_in_stages = any_in_stages || staged.some;
+    std::vector<std::string>& once = plan.once_a_step;
+    if (!staged.once_a_step.empty() && std::find(once.begin(), once.end(), staged.once_a_step) == once.end())
+      once.push_back(staged.once_a_step);
+  }
+  if (plan.integrated_by == Scheme::rk4 && !any_in_stages && !plan.once_a_step.empty()) plan.integrated_by = Scheme::stepping;
+}
+
 }  // namespace
 
 Plan compile(const Model& model) {
@@ -80,6 +103,7 @@ Plan compile(const Model& model) {
     if (line.active) plan.active.push_back(effect);
     plan.lines.push_back(std::move(line));
   }
+  find_scheme(model, plan);
   return plan;
 }
 

@@ -182,6 +182,7 @@ class Tyres final : public EffectWith<TyresMemory> {
  public:
   static constexpr const char* kName = "tyres";
   static Finding look(const Model& model) { return look_for_tyres(model); }
+  static Staged staged(const Model&) { return {false, "wheels"}; }
 
   Tyres(World& world, int self) : EffectWith(self) {
     ContactPairs& pairs = world.pairs;

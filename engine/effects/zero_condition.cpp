@@ -8,6 +8,7 @@
 #include "engine/effects/body_pairs.h"
 #include "engine/effects/registration.h"
 #include "engine/effects/riding.h"
+#include "engine/effects/support.h"
 #include "engine/effects/underfoot.h"
 #include "engine/effects/words.h"
 
@@ -75,16 +76,12 @@ bool closes(const Outlook& outlook, const SurfaceContact& touch, int a, int b) {
   return touch.gap - closing * outlook.within <= 0 && closing > 0;
 }
 
-/// What somebody stands, sits or lies on moves away under them.
+/// What has come to bear somebody since the start, or bore them then, moves away under them.
 bool moves_away(const Outlook& outlook, const SurfaceContact& touch, int a, int b) {
-  constexpr double kOn = 5e-3;   // [m]
-  constexpr double kSlip = 0.1;  // [m/s]
-  constexpr double kUp = 0.5;    // [-] what is steeper bears nobody
+  constexpr double kOn = 5e-3;  // [m]
   const Model& model = outlook.world.model;
-  if (!is_part(model, a) || b < 0 || model.bodies[b].fixed || touch.gap > kOn || touch.normal.z() < kUp) return false;
-  const Vec3 under = velocity_at(outlook, b, touch.p_b);
-  const Vec3 own = outlook.at.V_WB[model.persons[model.bodies[a].person].bodies.front()].v;
-  return under.head<2>().norm() > kSlip && (under - own).head<2>().norm() > kSlip;
+  if (!is_part(model, a) || b < 0 || model.bodies[b].fixed || touch.gap > kOn || touch.normal.z() < kBears) return false;
+  return moves_from_under(model, outlook.at, model.bodies[a].person, b, touch.p_b);
 }
 
 /// Sets free who of a pair waits and is touched; what already overlaps is told of where `warn` asks for it. What somebody goes over
@@ -122,6 +119,7 @@ class ZeroCondition final : public Effect {
         wheeled_(wheeled_pairs(world.model)),
         underfoot_(world.model),
         held_(held_by(world)),
+        supports_(supports_at_start(world.model)),
         first_touch_(reach_of(world.model).first_touch) {
     walkers_.reserve(world.model.persons.size());
   }
@@ -143,6 +141,11 @@ class ZeroCondition final : public Effect {
   }
 
   void before_step(World& world, State& state, double step) override {
+    for (const StoodOn& s : supports_) {
+      const Vec3 place = state.X_WB[s.on] * s.place;
+      if (!state.released[s.person] && moves_from_under(world.model, state, s.person, s.on, place))
+        release(world, state, s.part, s.on, place);
+    }
     if (state.time > 0 && state.time + step < first_touch_) return;  // proved: nothing touches
     if (std::all_of(state.released.begin(), state.released.end(), [](char r) { return r != 0; })) return;
     const bool warn = state.time == 0 && !yields(world.model.settings.contact_law, true);
@@ -231,6 +234,7 @@ class ZeroCondition final : public Effect {
   const std::vector<BodyPair> wheeled_;
   const Underfoot underfoot_;
   const std::vector<std::vector<int>> held_;  // by persons
+  const std::vector<StoodOn> supports_;       // of those who wait
   const double first_touch_;                  // [s] proved
   std::vector<int> walkers_;                  // who waits and moves on
   long listed_ = 0;                           // StillBodies::changes when they were

@@ -82,18 +82,7 @@ void absent_at_worst(const Model& model, const Vehicle& v, const std::vector<Imp
     absent.note("pdof_deg", v.name, "its velocity did not change");
     return;
   }
-  const bool person = worst->a.party.person >= 0 || worst->b.party.person >= 0;
-  const bool fixed = model.bodies[worst->a.party.bodies.front()].fixed || model.bodies[worst->b.party.bodies.front()].fixed;
-  const char* reason =
-      "its hardest impact was that of a two-wheeler and a car, and the scene does not tell their stiffnesses "
-      "apart: the rule of masses is that of cars";
-  if (person)
-    reason = "its hardest impact was with a person, who deforms no car";
-  else if (!(worst->energy_lost > 0))
-    reason = "its hardest impact cost no energy";
-  else if (fixed)
-    reason = "its hardest impact was that of its wheels with something low, such as a kerb: no bodywork is crushed";
-  absent.note("ees_mps", v.name, reason);
+  absent.note("ees_mps", v.name, worst->no_ees);
   absent.note("pdof_deg", v.name, worst->impulse.norm() > 0 ? "it lay on its side or roof" : "its velocity did not change");
 }
 

@@ -158,8 +158,9 @@ constexpr Definition kDefinitions[] = {
      "Energy equivalent speed: speed at which the vehicle has as much kinetic energy as its share of the energy lost in that "
      "phase. Two under the same force share it in inverse proportion to stiffness where the scene tells the stiffnesses apart, "
      "else to mass; what is fixed has none. impacts.csv names the rule.",
-     "as delta_v_mps; or the hardest phase was with a person, or of a two-wheeler with a car whose stiffnesses nobody told apart: "
-     "the rule of masses is that of cars; or below the hubs against something fixed, as a kerb: wheels crush no bodywork",
+     "as delta_v_mps; or the hardest phase was with a person, or of a two-wheeler with a car whose stiffnesses nobody told apart, "
+     "or of one with a trailer or a rider: the rule of masses is that of cars by themselves; or below the hubs against something "
+     "fixed, as a kerb: wheels crush no bodywork",
      "the energy contains what friction between the two took", true},
     {"rest_x_m", "m", "rest x", "Place of the vehicle's centre of mass at rest, world x.", kMoving, "to the recorded interval",
      true},
@@ -170,8 +171,9 @@ constexpr Definition kDefinitions[] = {
     {"path_m", "m", "path", "Length of the level path of the vehicle's centre of mass over the run.", "never",
      "to the recorded interval"},
     {"quarter_turns", "", "quarter turns",
-     "How often a vehicle that rolled over turned by 90 degrees about its long axis until it rests, to the nearest: 1 on its "
-     "side, 2 on its roof, 4 on its wheels again. Turns back are taken off. What it does end over end does not count.",
+     "How often a vehicle that rolled over turned by 90 degrees about its long axis until it rests, or the run ends, to the "
+     "nearest: 1 on its side, 2 on its roof, 4 on its wheels again. Turns back are taken off. What it does end over end does not "
+     "count.",
      kNotRolled, "exact to the run; how often it rolls is chaotic", true},
     {"trip_s", "s", "trip",
      "Time at which it last stood on wheels of both sides before it leant by 45 degrees; of one that never did, the start.",

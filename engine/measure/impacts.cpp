@@ -20,8 +20,20 @@ struct Pair {
   Party a, b;
 };
 
+bool has_vehicle(const Pair& pair) {
+  return pair.a.vehicle >= 0 || pair.b.vehicle >= 0;
+}
+
+bool has_person(const Pair& pair) {
+  return pair.a.person >= 0 || pair.b.person >= 0;
+}
+
+/// A vehicle and what it touches; a person and somebody else, or an object that is no fixture.
 bool counts(const Model& model, const ContactRecord& c) {
-  return c.shapes.with_vehicle() && c.body_b >= 0 && (model.bodies[c.body_a].vehicle >= 0 || model.bodies[c.body_b].vehicle >= 0);
+  if (c.body_b < 0) return false;
+  const Body &a = model.bodies[c.body_a], &b = model.bodies[c.body_b];
+  if (a.vehicle >= 0 || b.vehicle >= 0) return c.shapes.with_vehicle();
+  return a.person != b.person && !is_fixture(model, c.body_a) && !is_fixture(model, c.body_b);
 }
 
 bool between(const Pair& pair, const ContactRecord& c) {
@@ -34,8 +46,11 @@ std::vector<Pair> pairs_of(const Model& model, const Recording& recording) {
     for (const ContactRecord& c : s.contacts) {
       if (!counts(model, c) || c.impulse.isZero(0)) continue;
       Party a = party_of(model, c.body_a), b = party_of(model, c.body_b);
-      // the vehicle of lower number first; a vehicle before what it strikes
-      if (b.vehicle >= 0 && (a.vehicle < 0 || b.bodies.front() < a.bodies.front())) std::swap(a, b);
+      // a vehicle before what it strikes, an object before a person; of two alike that of lower number
+      const auto rank = [](const Party& party) {
+        return std::pair(party.vehicle < 0 ? 1 + (party.person >= 0) : 0, party.bodies.front());
+      };
+      if (rank(b) < rank(a)) std::swap(a, b);
       pairs.try_emplace({a.bodies.front(), b.bodies.front()}, Pair{a, b});
     }
   std::vector<Pair> out;
@@ -43,13 +58,15 @@ std::vector<Pair> pairs_of(const Model& model, const Recording& recording) {
   return out;
 }
 
-/// Impulse [N s] on a since the snapshot before, per snapshot.
-std::vector<Vec3> pushes(const Recording& recording, const Pair& pair) {
+/// Impulse [N s] on a since the snapshot before, per snapshot. A child in arms, or a bag in a hand, presses on who holds it and
+/// strikes nobody before it is let go.
+std::vector<Vec3> pushes(const Model& model, const Recording& recording, const Pair& pair) {
+  const double held = has_vehicle(pair) ? -1 : joined_until(model, recording, pair.a, pair.b).value_or(-1);
   std::vector<Vec3> out;
   for (const Snapshot& s : recording.snapshots) {
     Vec3 sum = Vec3::Zero();
     for (const ContactRecord& c : s.contacts)
-      if (between(pair, c)) sum += push_on(pair.a, c);
+      if (s.time > held && between(pair, c)) sum += push_on(pair.a, c);
     out.push_back(sum);
   }
   return out;
@@ -61,13 +78,19 @@ Vec3 velocity_of_point(int b, const Snapshot& s, const Vec3& p) {
   return body.V_WB.v + body.V_WB.w.cross(p - body.X_WB.p);
 }
 
-/// How fast [m/s] a person and a vehicle close where they first touch, of the part that does. Over a phase in which somebody wraps
-/// round a front the mean plane leans by half a right angle: nobody closes along that.
+/// Which of the contacts of a snapshot began first; null where none of the pair pushes.
+const ContactRecord* earliest_of(const Pair& pair, const Snapshot& s) {
+  const ContactRecord* earliest = nullptr;
+  for (const ContactRecord& c : s.contacts)
+    if (between(pair, c) && !c.impulse.isZero(0) && (!earliest || c.begun < earliest->begun)) earliest = &c;
+  return earliest;
+}
+
+/// How fast [m/s] a person and what it meets close where they first touch, of the part that does. Over a phase in which somebody
+/// wraps round a front the mean plane leans by half a right angle: nobody closes along that.
 double first_closing(const Recording& recording, const Pair& pair, std::size_t touch) {
   const Snapshot &before = recording.snapshots[touch > 0 ? touch - 1 : 0], &first = recording.snapshots[touch];
-  const ContactRecord* earliest = nullptr;
-  for (const ContactRecord& c : first.contacts)
-    if (between(pair, c) && !c.impulse.isZero(0) && (!earliest || c.begun < earliest->begun)) earliest = &c;
+  const ContactRecord* earliest = earliest_of(pair, first);
   if (!earliest) return kUnknown;
   // one value for one thing: the recorder saw that touch in its step
   for (const Event& e : recording.events)
@@ -170,24 +193,45 @@ bool below_hubs(const Model& model, const Snapshot& before, const Party& party, 
          std::all_of(wheels.begin(), wheels.end(), [&](const Wheel& w) { return z < w.hub_B.z() - 0.25 * w.radius; });
 }
 
+/// Does a joint hold something to the vehicle that moves: a trailer, what draws it, a rider?
+bool is_coupled(const Model& model, const Party& party) {
+  return std::any_of(model.joints.begin(), model.joints.end(), [&](const Joint& j) {
+    return j.parent >= 0 && holds(party, j.parent) != holds(party, j.child) &&
+           !model.bodies[holds(party, j.parent) ? j.child : j.parent].fixed;
+  });
+}
+
+/// Why the energy of a phase tells no energy equivalent speed; empty: it does. `by_mass` where no stiffness tells how to share it.
+const char* why_no_ees(const Model& model, const Snapshot& before, const Impact& impact, bool by_mass) {
+  const Party &a = impact.a.party, &b = impact.b.party;
+  if (has_person({a, b})) return "its hardest impact was with a person, who deforms no car";
+  if (!(impact.energy_lost > 0)) return "its hardest impact cost no energy";
+  if (by_mass && is_two_wheeler(model, a) != is_two_wheeler(model, b))
+    return "its hardest impact was that of a two-wheeler and a car, and the scene does not tell their stiffnesses apart: the rule "
+           "of "
+           "masses is that of cars";
+  // a trailer of 300 kg before a car of 1500 kg would get nearly all of what stops both: more than it closed at
+  if (by_mass && (is_coupled(model, a) || is_coupled(model, b)))
+    return "what is coupled to one of the two pressed as well, and the scene does not tell their stiffnesses apart: the rule of "
+           "masses is that of cars by themselves";
+  // an energy equivalent speed is told from what bodywork crushes: that of wheels against a kerb has no such scale
+  const auto fixed = [&](const Party& party) { return model.bodies[party.bodies.front()].fixed; };
+  if ((fixed(a) && below_hubs(model, before, b, impact.point)) || (fixed(b) && below_hubs(model, before, a, impact.point)))
+    return "its hardest impact was that of its wheels with something low, such as a kerb: no bodywork is crushed";
+  return "";
+}
+
 /// The two are pressed together by the same force: each takes up energy as it gives way, in inverse proportion to stiffness. Where
 /// nobody has told their stiffnesses apart they go with the masses, as crash tests of cars of all classes show on the whole.
 void share_energy(const Model& model, const Snapshot& before, Impact& impact) {
-  const int a = impact.a.party.bodies.front(), b = impact.b.party.bodies.front();
-  const Body &A = model.bodies[a], &B = model.bodies[b];
-  if (impact.a.party.person >= 0 || impact.b.party.person >= 0 || !(impact.energy_lost > 0)) return;
+  const Body &A = model.bodies[impact.a.party.bodies.front()], &B = model.bodies[impact.b.party.bodies.front()];
   const double S_a = A.surface.stiffness.at(impact.time), S_b = B.surface.stiffness.at(impact.time);
-  double of_a = B.mass / (A.mass + B.mass);
-  const char* rule = "by mass";
-  if (S_a != S_b) of_a = S_b / (S_a + S_b), rule = "by stiffness";
-  if (A.fixed || B.fixed) of_a = A.fixed ? 0 : 1, rule = "all to the one that moves";
-  // a two-wheeler and a car: no rule of cars' masses is theirs
-  if (rule == std::string("by mass") && is_two_wheeler(model, impact.a.party) != is_two_wheeler(model, impact.b.party)) return;
-  // an energy equivalent speed is told from what bodywork crushes: that of wheels against a kerb has no such scale
-  if ((A.fixed && below_hubs(model, before, impact.b.party, impact.point)) ||
-      (B.fixed && below_hubs(model, before, impact.a.party, impact.point)))
-    return;
-  impact.ees_rule = rule;
+  const bool fixed = A.fixed || B.fixed, by_mass = !fixed && S_a == S_b;
+  impact.no_ees = why_no_ees(model, before, impact, by_mass);
+  if (*impact.no_ees) return;
+  double of_a = by_mass ? B.mass / (A.mass + B.mass) : S_b / (S_a + S_b);
+  if (fixed) of_a = A.fixed ? 0 : 1;
+  impact.ees_rule = fixed ? "all to the one that moves" : by_mass ? "by mass" : "by stiffness";
   const auto speed = [&](double share, double mass) { return std::sqrt(2 * share * impact.energy_lost / mass); };
   if (impact.a.party.vehicle >= 0 && !A.fixed) impact.a.ees = speed(of_a, A.mass);
   if (impact.b.party.vehicle >= 0 && !B.fixed) impact.b.ees = speed(1 - of_a, B.mass);
@@ -221,8 +265,7 @@ const char* law_of(const Model& model, const Pair& pair, const ContactRecord& c)
   const Body &A = model.bodies[c.body_a], &B = model.bodies[c.body_b];
   const bool meshes = c.shapes.between_vehicles();
   if (meshes && model_between(A.collision_model, B.collision_model) == CollisionModel::kudlich_slibar) return "kudlich_slibar";
-  const bool person = pair.a.person >= 0 || pair.b.person >= 0;
-  return yields(model.settings.contact_law, person) ? "compliant" : "default_auto";
+  return yields(model.settings.contact_law, has_person(pair)) ? "compliant" : "default_auto";
 }
 
 /// To the end of the phase; exchanges at instants last from the first to the last of them.
@@ -245,9 +288,13 @@ Impact impact_of(const Model& model, const Recording& recording, const Pair& pai
   out.duration = duration_of(recording, pair, span, out.time);
   out.a = side_of(model, recording, pair.a, span);
   out.b = side_of(model, recording, pair.b, span);
-  const bool person = pair.a.person >= 0 || pair.b.person >= 0;
+  if (const ContactRecord* first = earliest_of(pair, recording.snapshots[touch])) {
+    out.a.part = holds(pair.a, first->body_a) ? first->body_a : first->body_b;
+    out.b.part = holds(pair.a, first->body_a) ? first->body_b : first->body_a;
+  }
   const auto at_point = [&](const Party& party) { return velocity_of_point(party.bodies.front(), before, out.point); };
-  out.closing_speed = person ? first_closing(recording, pair, touch) : -(at_point(pair.a) - at_point(pair.b)).dot(out.normal);
+  out.closing_speed =
+      has_person(pair) ? first_closing(recording, pair, touch) : -(at_point(pair.a) - at_point(pair.b)).dot(out.normal);
   if (const auto told = told_closing(recording, out)) out.closing_speed = *told;
   // two that touch already and are pressed harder, as by a third one, or dragged: nothing closes
   if (!(out.closing_speed > 0)) out.closing_speed = kUnknown;
@@ -258,6 +305,19 @@ Impact impact_of(const Model& model, const Recording& recording, const Pair& pai
   }
   share_energy(model, before, out);
   return out;
+}
+
+/// Whether what a person and an object, or two persons, exchange is a collision: in the phase one of them changes its velocity
+/// along the push by more than 0.8 km/h. Who stands on a box, or leans on somebody, exchanges as much as its weight and changes
+/// nothing.
+bool strikes(const Model& model, const Recording& recording, const Impact& impact) {
+  const Snapshot &before = recording.snapshots[impact.span.first > 0 ? impact.span.first - 1 : 0],
+                 &after = recording.snapshots[impact.span.last];
+  const Vec3 on_a = impact.impulse.normalized();
+  const auto gained = [&](const Party& party, const Vec3& along) {
+    return (velocity_of(model, party, after) - velocity_of(model, party, before)).dot(along);
+  };
+  return std::max(gained(impact.a.party, on_a), gained(impact.b.party, -on_a)) > kChange;
 }
 
 }  // namespace
@@ -302,11 +362,13 @@ std::vector<Impact> impacts_of(const Model& model, const Recording& recording) {
     for (const Party* party : {&pair.a, &pair.b})
       if (!model.bodies[party->bodies.front()].fixed) lighter = std::min(lighter, mass_of(model, *party));
     int phase = 0;
-    const std::vector<Vec3> push = pushes(recording, pair);
+    const std::vector<Vec3> push = pushes(model, recording, pair);
     for (const Stretch& span : stretches(recording, push, kChange * lighter)) {
       const std::size_t touch = phase == 0 ? touch_of(recording, push, span.first) : span.first;
-      out.push_back(impact_of(model, recording, pair, span, touch));
-      out.back().phase = ++phase;
+      Impact impact = impact_of(model, recording, pair, span, touch);
+      if (!has_vehicle(pair) && !strikes(model, recording, impact)) continue;
+      impact.phase = ++phase;
+      out.push_back(std::move(impact));
     }
   }
   std::stable_sort(out.begin(), out.end(), [](const Impact& a, const Impact& b) { return a.time < b.time; });
@@ -342,8 +404,10 @@ std::vector<Event> told_events(const Model& model, const Recording& recording) {
     const bool told = std::any_of(recording.events.begin(), recording.events.end(), [&](const Event& e) {
       return e.kind == "impact" && std::minmax(e.body_a, e.body_b) == std::minmax(a, b);
     });
-    if (i.phase > 1 || i.a.party.person >= 0 || i.b.party.person >= 0 || told) continue;
-    out.push_back({i.time, "collision", a, b, i.point, i.closing_speed, i.normal, Vec3::Zero()});
+    const Pair pair{i.a.party, i.b.party};
+    // a person and a vehicle have their first contact
+    if (i.phase > 1 || (has_person(pair) && has_vehicle(pair)) || told) continue;
+    out.push_back({i.time, "collision", i.a.part, i.b.part, i.point, i.closing_speed, i.normal, Vec3::Zero()});
   }
   std::stable_sort(out.begin(), out.end(), [](const Event& a, const Event& b) { return a.time < b.time; });
   return out;

@@ -1,4 +1,5 @@
-// The table of impacts: one row a collision phase of a vehicle with a vehicle, a person or an object.
+// The table of impacts: one row a collision phase of a vehicle with a vehicle, a person or an object, and of a person with an
+// object or another person.
 #pragma once
 
 #include <limits>
@@ -21,6 +22,7 @@ struct Stretch {
 struct ImpactSide {
   Party party;
   std::string name;
+  int part = -1;                                                 // body that was touched first
   double speed_before = kUnknown, speed_after = kUnknown;        // [m/s] of the centre of mass
   double yaw_rate_before = kUnknown, yaw_rate_after = kUnknown;  // [rad/s] about the vertical
   Vec3 delta_v = Vec3::Zero();  // [m/s] world: change of velocity in the phase less what tyres and gravity did meanwhile
@@ -30,7 +32,9 @@ struct ImpactSide {
 
 /// One collision phase. It begins with the first touch of a stretch in which the two exchange more than 0.8 km/h times the lighter
 /// mass within 20 ms, and ends when they no longer do, after 250 ms at most (49 CFR 563.5 and 563.7, which define the event and the
-/// delta-v of event data recorders so). Two that never exchange as much have one phase of a tenth of the most they do.
+/// delta-v of event data recorders so). Two that never exchange as much have one phase of a tenth of the most they do. Without a
+/// vehicle there is a phase only where one of the two changes its velocity along the push by more than 0.8 km/h: who stands on a
+/// box is not struck by it. Nor is who holds something, for as long as it is held, or who comes down on what is fixed.
 struct Impact {
   int phase = 1;  // of this pair, from 1
   Stretch span;
@@ -47,6 +51,7 @@ struct Impact {
   double friction_limit = kUnknown;  // [-] most it could have been: coefficient of the surfaces and what a dent adds
   double energy_lost = 0;            // [J] deformation and friction between the two
   const char* ees_rule = "";         // how that was shared: "by stiffness", "by mass", "all to the one that moves"
+  const char* no_ees = "";           // why none is told of either; empty: it is
 };
 
 constexpr double kChange = 0.8 / 3.6;  // [m/s] within 20 ms: more is a collision
@@ -65,8 +70,8 @@ const Impact* hardest_impact(const std::vector<Impact>&, int vehicle);
 /// was struck.
 std::optional<ImpactSide> struck_through_coupling(const Model&, const Recording&, const std::vector<Impact>&, int vehicle);
 
-/// The recorded events, and a "collision" where two vehicles, or a vehicle and an object, have their first phase: what is rigid
-/// has no event of its own. `value` is the closing speed. In order of time.
+/// The recorded events, and a "collision" where two have their first phase that have no event of their own: all but a person and a
+/// vehicle, which have their first contact. `value` is the closing speed. In order of time.
 std::vector<Event> told_events(const Model&, const Recording&);
 
 }  // namespace engine

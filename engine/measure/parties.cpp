@@ -71,6 +71,18 @@ std::vector<int> joined_for_good(const Model& model, std::vector<int> joined) {
   return joined;
 }
 
+std::optional<double> joined_until(const Model& model, const Recording& recording, const Party& a, const Party& b) {
+  const auto between = [&](int x, int y) { return (holds(a, x) && holds(b, y)) || (holds(b, x) && holds(a, y)); };
+  const auto joints =
+      std::count_if(model.joints.begin(), model.joints.end(), [&](const Joint& j) { return between(j.parent, j.child); });
+  if (joints == 0) return std::nullopt;
+  long broken = 0;
+  double last = 0;
+  for (const Event& e : recording.events)
+    if (e.kind == "joint_broken" && between(e.body_a, e.body_b)) ++broken, last = e.time;
+  return broken < joints ? recording.end_time() : last;
+}
+
 std::optional<double> rest_of(const Model& model, const Recording& recording, const Party& party) {
   // a trailer rests with what tows it: what is joined for good has one rest, named by one of its bodies
   const std::vector<int> joined = joined_for_good(model, party.bodies);

@@ -34,6 +34,9 @@ std::vector<char> trunks_of(const Model&);
 /// The bodies given and all that are joined to them for good, as a trailer to what tows it.
 std::vector<int> joined_for_good(const Model&, std::vector<int> bodies);
 
+/// When [s] the last joint between the two broke; the end of the run where one holds, nothing where there never was one.
+std::optional<double> joined_until(const Model&, const Recording&, const Party&, const Party&);
+
 /// When it came to rest for good, if it did within the run: its own bodies, not what it rode or what rode it.
 /// A person rests with its trunk.
 std::optional<double> rest_of(const Model&, const Recording&, const Party&);

@@ -45,21 +45,6 @@ bool pushed_by_vehicle(const Model& model, const Party& party, const Snapshot& s
   });
 }
 
-/// When a rider was off what it rode: the last of the joints between them broke. Nothing where there were none; the end of the run
-/// where one holds.
-std::optional<double> off_mount(const Model& model, const Recording& recording, int p) {
-  const int mount = model.persons[p].mount;
-  const auto between = [&](int a, int b) { return a >= 0 && a == mount && b >= 0 && model.bodies[b].person == p; };
-  const auto joints = std::count_if(model.joints.begin(), model.joints.end(),
-                                    [&](const Joint& j) { return between(j.parent, j.child) || between(j.child, j.parent); });
-  if (joints == 0) return std::nullopt;
-  long broken = 0;
-  double last = 0;
-  for (const Event& e : recording.events)
-    if (e.kind == "joint_broken" && (between(e.body_a, e.body_b) || between(e.body_b, e.body_a))) ++broken, last = e.time;
-  return broken < joints ? recording.end_time() : last;
-}
-
 /// On the ground, or on what stands on it for good.
 bool on_ground(const Model& model, const Party& party, const Snapshot& s) {
   return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
@@ -200,8 +185,8 @@ std::optional<Throw> throw_of_person(const Model& model, const Recording& record
   }
   // a rider that nothing but its mount was struck with leaves when that lets go of it
   if (!t.separated && t.landed) t.separated = t.hit;
-  if (const auto off = off_mount(model, recording, p); off && t.separated)
-    t.separated = std::min(std::max(*t.separated, *off), t.landed.value_or(t.end));
+  const auto off = person.mount >= 0 ? joined_until(model, recording, party, party_of(model, person.mount)) : std::nullopt;
+  if (off && t.separated) t.separated = std::min(std::max(*t.separated, *off), t.landed.value_or(t.end));
   t.lay = !t.landed && lies_at(model, recording, {p, -1, trunk_of(model, p)}, t.hit);
   t.flew = t.landed && flew_between(recording, party, *t.separated, *t.landed);
   add_phases(model, recording, party, t);

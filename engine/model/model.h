@@ -78,6 +78,11 @@ struct Settings {
   std::map<std::string, Force> effects;  // forced effects by name
 };
 
+/// Compliant contacts act as forces in the stages of Runge and Kutta, not by impulses.
+inline bool contacts_in_stages(const Settings& settings) {
+  return settings.contact_law == ContactLaw::compliant && settings.scheme != Scheme::stepping;
+}
+
 struct Model {
   std::vector<Body> bodies;
   std::vector<Joint> joints;

@@ -29,6 +29,38 @@ void BoundsWatch::watch_compression(const Constraint& c, double time, double dur
   compression_ = std::max(compression_, depth);
 }
 
+/// A panel that is dented leaves the part its own share of the depth. What has no panels, a box or a wall, keeps its shape.
+void BoundsWatch::note_press(const Model& model, const Constraint& c, int part, int by) {
+  if (!is_part(model, part)) return;
+  const bool is_a = part == c.a.record, dented = by >= 0 && model.bodies[by].vehicle >= 0;
+  const double share = !dented ? 1 : is_a ? c.spring.share_a : 1 - c.spring.share_a;
+  presses_.push_back({part, by, (is_a ? 1 : -1) * c.frame.col(0), -c.gap, -share * c.gap, c.spring.thickness});
+}
+
+/// Half of its thickness is what one side may press in (scenes/README.md), and what two may together. Whatever the dents hold of
+/// it, surfaces that overlap by all of the thickness have met through the part.
+double BoundsWatch::Squeeze::excess() const {
+  const double thickness = std::min(one.thickness, other.thickness);
+  return std::max((one.own + other.own) / (0.5 * thickness), (one.depth + other.depth) / thickness);
+}
+
+/// Each contact by itself knows one side, and gives it the same room as if there were no other.
+void BoundsWatch::watch_squeezes(const World& world, const std::vector<Constraint>& conditions, double time) {
+  constexpr double kOpposite = -0.5;  // [-] normals less than 60 degrees from straight against each other
+  presses_.clear();
+  for (const Constraint& c : conditions) {
+    if (!is_contact(c) || !is_compliant(c) || c.shapes.one_person || c.impulse[0] <= 0 || c.gap >= 0) continue;
+    note_press(world.model, c, c.a.record, c.b.record);
+    note_press(world.model, c, c.b.record, c.a.record);
+  }
+  for (std::size_t i = 0; i < presses_.size(); ++i)
+    for (std::size_t k = i + 1; k < presses_.size(); ++k) {
+      const Squeeze now{time, presses_[i], presses_[k]};
+      if (now.one.part != now.other.part || now.one.normal.dot(now.other.normal) > kOpposite) continue;
+      if (now.excess() > 1 && (squeezed_.one.part < 0 || now.excess() > squeezed_.excess())) squeezed_ = now;
+    }
+}
+
 /// What rigid contacts and joints promise to keep. What overlaps at the start is told by itself, and takes its time to part.
 void BoundsWatch::watch(const World& world, const Constraint& c, double time, double duration) {
   if (is_compliant(c)) {
@@ -56,6 +88,12 @@ void BoundsWatch::close(const World& world, Diagnostics& diagnostics) const {
         name(too_deep_.body_a) + " was pressed " + told(1e3 * too_deep_.amount) + " mm into " + name(too_deep_.body_b) +
         at(too_deep_) +
         ", more than its thickness: do not rely on what it does from there on; more stiffness or a shorter step may hold it out");
+  if (squeezed_.one.part >= 0)
+    warnings.push_back(name(squeezed_.one.part) + " was pressed " + told(1e3 * squeezed_.one.depth) + " mm by " +
+                       name(squeezed_.one.by) + " and " + told(1e3 * squeezed_.other.depth) + " mm by " + name(squeezed_.other.by) +
+                       " from the other side at " + std::to_string(std::lround(1e3 * squeezed_.time)) +
+                       " ms, together more than half its thickness: the contact law holds for less, do not rely on forces and "
+                       "motion from there on");
   if (world.log.unsettled.amount > kToldUnsettled)
     warnings.push_back("the forces between " + name(world.log.unsettled.body_a) + " and " + name(world.log.unsettled.body_b) +
                        at(world.log.unsettled) + " were solved to " + told(world.log.unsettled.amount) +

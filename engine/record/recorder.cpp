@@ -66,6 +66,7 @@ void Recorder::tally(const World& world, const std::vector<Constraint>& conditio
     else if (c.kind == ConstraintKind::wheel)
       tyre_impulse_[world.model.bodies[c.a.record].vehicle] += c.frame * c.impulse;
   }
+  if (duration > 0) bounds_.watch_squeezes(world, conditions, time);
 }
 
 void Recorder::tally_contact(const World& world, const Constraint& c, double time, double duration) {

@@ -17,9 +17,4 @@ inline double impact_speed(const StepContext& s) {
   return std::max(2 * s.world.model.settings.gravity.norm() * s.length, 0.01);
 }
 
-/// Compliant contacts act as forces in the stages of Runge and Kutta, not by impulses.
-inline bool contacts_in_stages(const Settings& settings) {
-  return settings.contact_law == ContactLaw::compliant && settings.scheme != Scheme::stepping;
-}
-
 }  // namespace engine

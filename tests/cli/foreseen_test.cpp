@@ -106,6 +106,43 @@ TEST(Simulate, ARunWithoutATouchSaysSo) {
   EXPECT_EQ(result.err, "crashreel: note: nothing touched: no vehicle or person met anything but the ground in this run\n");
 }
 
+/// Hands and feet hold on where the pose has them. Of a child on an adult's bicycle that is in the air.
+TEST(Check, TellsOfRidersWhoDoNotFitWhatTheyRide) {
+  const Folder folder;
+  const auto told = [&](const std::string& mount, const std::string& rider) {
+    folder.write("a.toml", "[simulation]\nduration = \"20 ms\"\n[[vehicle]]\nname = \"m\"\nmodel = \"" + mount +
+                               "\"\nspeed = \"4 m/s\"\n" + kPerson + "rides = \"m\"\n" + rider);
+    const Result check = run(folder, {"check", "a.toml"}), run_of = run(folder, {"simulate", "a.toml", "-o", "out", "--overwrite"});
+    EXPECT_EQ(check.code, 0) << check.err;
+    EXPECT_EQ(check.err.find("does not fit") == std::string::npos, run_of.err.find("does not fit") == std::string::npos);
+    return check.err;
+  };
+  for (const std::string stature : {"1.5 m", "1.75 m", "2 m"}) {
+    EXPECT_EQ(told("bicycle", "pose = \"cyclist\"\nstature = \"" + stature + "\"\n"), "") << stature;
+    EXPECT_EQ(told("motorcycle", "pose = \"motorcyclist\"\nstature = \"" + stature + "\"\n"), "") << stature;
+  }
+  EXPECT_THAT(told("bicycle", "pose = \"cyclist\"\nfigure = \"child-3\"\n"),
+              testing::AllOf(HasSubstr("p does not fit m: "), HasSubstr("left_forearm and right_forearm hold nothing within reach"),
+                             HasSubstr("do not reach down to the axles")));
+  EXPECT_THAT(told("motorcycle", "pose = \"motorcyclist\"\nfigure = \"child-3\"\n"), HasSubstr("p does not fit m: "));
+  EXPECT_THAT(told("bicycle", "pose = \"standing\"\n"), HasSubstr("foot"));
+}
+
+/// A bump is road to wheels: no contact is told of it, and yet it was met.
+TEST(Simulate, NamesWhatWheelsRolledOver) {
+  const Folder folder;
+  folder.write("bump.obj",
+               "v 3 -4 0\nv 3.4 -4 0.05\nv 3.8 -4 0\nv 3 4 0\nv 3.4 4 0.05\nv 3.8 4 0\nf 1 2 5 4\nf 2 3 6 5\nf 1 4 6 3\nf 1 3 2\n"
+               "f 4 5 6\n");
+  folder.write("a.toml",
+               "[simulation]\nduration = \"0.8 s\"\n[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\nspeed = \"5 m/s\"\n"
+               "[[body]]\nname = \"bump\"\nfixed = true\nmesh = \"bump.obj\"\n" +
+                   kPerson + "position = \"9 5 m\"\n");
+  EXPECT_EQ(run(folder, {"simulate", "a.toml", "-o", "out"}).err,
+            "crashreel: note: wheels rolled over bump: no vehicle or person met anything else but the ground in this run\n");
+  EXPECT_THAT(run(folder, {"check", "a.toml"}).err, HasSubstr("nothing touches but wheels and bump: "));
+}
+
 TEST(Render, AStillThatShowsNothingSaysSo) {
   const Folder folder;
   folder.write("a.toml",

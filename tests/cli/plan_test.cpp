@@ -37,6 +37,40 @@ TEST(Plan, NamesEveryEffectWithItsReason) {
   EXPECT_GT(active.size(), 3U);
 }
 
+/// rk4 takes springs of joints and yielding contacts into its stages. Where a scene has neither it is stepping to the last bit, and
+/// that is what a summary tells.
+TEST(Plan, TellsTheSchemeThatIsIntegratedWith) {
+  const Folder folder;
+  folder.write("ball.toml", kBall);
+  const auto summary = [&](std::vector<std::string> set) {
+    std::vector<std::string> words = {"simulate", "ball.toml", "-o", "out", "--overwrite", "--json"};
+    for (const std::string& s : set) words.insert(words.end(), {"--set", s});
+    const Result result = run(folder, words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return Json::parse(contents(folder / "out/summary.json"));
+  };
+  const auto hash = [](const Json& of) { return of.at("recording").at("hash").get<std::string>(); };
+  const Json stepping = summary({}), rk4 = summary({"simulation.scheme=rk4"});
+  EXPECT_EQ(hash(rk4), hash(stepping));
+  EXPECT_EQ(rk4.at("settings").at("integrator"), "stepping");
+  EXPECT_EQ(rk4.at("settings").at("scheme"), "rk4");
+  EXPECT_EQ(rk4.at("settings").at("once_a_step"), Json::array({"contacts"}));
+  EXPECT_TRUE(stepping.at("settings").at("once_a_step").empty());
+  const std::string law = "simulation.contact_law=compliant";
+  const Json yields = summary({law}), in_stages = summary({law, "simulation.scheme=rk4"});
+  EXPECT_NE(hash(in_stages), hash(yields));
+  EXPECT_EQ(in_stages.at("settings").at("integrator"), "rk4");
+
+  const std::string told =
+      "scheme rk4 is integrated as stepping, to the last bit: all it could take into its stages is solved once a "
+      "step: contacts; contact_law = \"compliant\" would take the contacts";
+  const std::vector<std::string> asked = {"ball.toml", "--set", "simulation.scheme=rk4"};
+  std::vector<std::string> check = {"check"}, plan = {"plan"};
+  for (auto* command : {&check, &plan}) command->insert(command->end(), asked.begin(), asked.end());
+  EXPECT_THAT(run(folder, check).err, HasSubstr(told));
+  EXPECT_THAT(run(folder, plan).out, HasSubstr("scheme rk4 is integrated as stepping"));
+}
+
 TEST(Plan, NamesTheCriterionOfEveryRow) {
   const Folder folder;
   const Result result = plan_of_ball(folder);

@@ -75,6 +75,21 @@ TEST(Simulate, CountsTurnsInWholesAndHasOneNumberForStraightFromBehind) {
   EXPECT_THAT(text, testing::ContainsRegex("rest_heading_deg car +-179\\.9\n"));
 }
 
+/// A car that still moves may turn on; one that is on its wheels again has turned.
+TEST(Simulate, MarksTurnsThatAreNotOver) {
+  const Folder folder;
+  folder.write("a.toml",
+               "[simulation]\nduration = \"0.02 s\"\n[[vehicle]]\nname = \"car\"\nmodel = \"sedan\"\nspeed = \"9 m/s\"\n");
+  const scenes::Scene scene = scenes::load(folder / "a.toml");
+  const engine::Recording run = engine::simulate(scene.model);
+  const auto text = [&](double turns) {
+    return cli::summary_text(scene, run, {{"quarter_turns", "car", turns}, {"roll_distance_m", "car", 7}});
+  };
+  EXPECT_THAT(text(3), testing::ContainsRegex("quarter_turns car +3 so far, still moving at the end\n"));
+  EXPECT_THAT(text(3), testing::ContainsRegex("roll_distance_m car +7\\.00 so far, still moving at the end\n"));
+  EXPECT_THAT(text(4), testing::ContainsRegex("quarter_turns car +4\n"));
+}
+
 TEST(Simulate, PrintsOneColumnUnderWhatWasChanged) {
   const Folder folder;
   const std::string scene = std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/sedan_pedestrian_40kmh.toml";

@@ -119,7 +119,10 @@ TEST(AirDrag, IsLeftOutOfFreeBodiesWithAWarning) {
   EXPECT_FALSE(air_line(compile(model).lines).active);
   const Recording without = simulate(model);
   EXPECT_EQ(without.snapshots.back().bodies[0].V_WB.v.x(), 30);
-  EXPECT_THAT(without.diagnostics.warnings, testing::ElementsAre(testing::HasSubstr("[air] has it computed")));
+  // coefficients are assumed, and what a touch makes of the difference is not bounded: no fact
+  const auto told = testing::AllOf(testing::HasSubstr("an estimate with usual drag coefficients"),
+                                   testing::HasSubstr("can change more"), testing::HasSubstr("[air] has it computed"));
+  EXPECT_THAT(without.diagnostics.warnings, testing::ElementsAre(told));
 
   // without a section there is no air to switch on, which is told
   model.settings.effects["air_drag"] = Force::on;
@@ -155,6 +158,7 @@ TEST(AirDrag, TakesNoMoreThanThePlanSays) {
     double most = 0;
     const std::string text = air_line(compile(model).lines).left_out;
     ASSERT_EQ(std::sscanf(text.c_str(), "drag takes at most %lf m/s", &most), 1) << text;
+    EXPECT_THAT(text, testing::HasSubstr("an estimate with usual drag coefficients"));
     const double k = 1.2 * drag_of_ball(0.1, 5);
     double taken = 0;
     const Recording run = simulate(model);

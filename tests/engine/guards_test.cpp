@@ -180,4 +180,52 @@ TEST(Energy, GravityThatIsOffIsNoWeightInItEither) {
   EXPECT_EQ(run.snapshots.back().energies.potential, 0);
 }
 
+/// Somebody's part, 20 cm thick, before a block of 600 kg that comes at a speed, and before a wall or nothing.
+Model pressed_part(double speed, bool wall) {
+  Model model = free_space(0.2);
+  model.settings.contact_law = ContactLaw::persons_yield;
+  model.bodies = {solid({{0.1, 0.16, 0.1}, 3}, 20, {0, 0, 0}), solid({{0.2, 0.5, 0.5}, 30}, 600, {-0.31, 0, 0})};
+  model.bodies[0].name = "person/hips";
+  model.bodies[0].person = 0;
+  model.persons = {of_one_part(0)};
+  model.bodies[1].name = "block";
+  model.bodies[1].V_WB.v.x() = speed;
+  if (!wall) return model;
+  model.bodies.push_back(solid({{0.2, 0.5, 0.5}, 30}, 1, {0.31, 0, 0}));
+  model.bodies[2].name = "wall";
+  model.bodies[2].fixed = true;
+  return model;
+}
+
+/// Each side by itself keeps within half of the thickness; both together do not.
+TEST(BoundsWatch, TellsOfAPartThatIsPressedFromTwoSides) {
+  EXPECT_THAT(simulate(pressed_part(5, false)).diagnostics.warnings, IsEmpty()) << "thrown off";
+  EXPECT_THAT(simulate(pressed_part(0.5, true)).diagnostics.warnings, IsEmpty()) << "1 cm";
+  const Recording run = simulate(pressed_part(5, true));
+  EXPECT_THAT(run.diagnostics.warnings,
+              ElementsAre(AllOf(HasSubstr("person/hips was pressed"), HasSubstr("mm by wall"), HasSubstr("mm by block"),
+                                HasSubstr("from the other side"), HasSubstr("more than half its thickness"))));
+  double deepest = 0;
+  for (const Snapshot& s : run.snapshots)
+    for (const ContactRecord& c : s.contacts) deepest = std::max(deepest, c.depth);
+  EXPECT_LT(deepest, 0.12) << "either side alone would have warned of nothing";
+}
+
+/// A rod on a hinge, given a velocity that is none of a turn about it: what is left is the part of the motion that the joint lets
+/// be.
+TEST(Start, TellsOfAVelocityThatAJointForbids) {
+  Model model = free_space(0.01);
+  model.bodies = {inert(4, {1, 1, 1}, {0, 0, 2})};
+  model.bodies[0].name = "rod";
+  model.joints = {joint_at(model, JointKind::spherical, -1, 0, {0, 0, 2.5})};
+  model.joints[0].name = "hook";
+  model.bodies[0].V_WB = {{3, 0, 0}, {0, -6, 0}};
+  EXPECT_THAT(simulate(model).diagnostics.warnings, IsEmpty()) << "it turns about the hook";
+  model.bodies[0].V_WB = {{3, 0, 0}, {0, 0, 0}};
+  // L about the hook is kept: w = m v l / (I + m l^2) = 6 / 2, so that its centre has 1.5 m/s, and m v (v - w l) / 2 is lost
+  EXPECT_THAT(simulate(model).diagnostics.warnings,
+              ElementsAre(AllOf(HasSubstr("rod starts with a velocity that joint hook forbids, 3 m/s at its point"),
+                                HasSubstr("with 9 J"), HasSubstr("rod starts at 1.5 m/s in place of 3 m/s"))));
+}
+
 }  // namespace

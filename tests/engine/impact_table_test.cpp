@@ -1,4 +1,5 @@
 // The table of impacts, and the events told of it.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -69,6 +70,38 @@ TEST(ImpactTable, ATwoWheelerAndACarShareNoEnergyByARuleOfCars) {
   EXPECT_STREQ(car_against_block(500, 20e3, 1200e3, false, 2).at(0).ees_rule, "by stiffness") << "where the scene tells them apart";
   EXPECT_STREQ(car_against_block(500, 20e3, 400e3, true, 2).at(0).ees_rule, "all to the one that moves");
   EXPECT_STREQ(car_against_block(500, 20e3, 400e3, false, 2, 0.6, true).at(0).ees_rule, "by mass") << "a trailer of one axle";
+}
+
+/// What draws a light trailer stops with it what runs into it: by mass the trailer alone would have taken up nearly all of that,
+/// and its speed would pass the one they closed at.
+TEST(ImpactTable, WhatIsCoupledSharesNoEnergyByARuleOfCarsByThemselves) {
+  Model model = person_and_car();
+  model.bodies[kHead].person = model.bodies[kHips].person = -1;
+  model.persons.clear();
+  model.bodies[kHips].mass = 300;
+  model.bodies[kHips].vehicle = 1;
+  model.bodies[kHead].mass = 1500;
+  Vehicle trailer;
+  trailer.name = "trailer";
+  trailer.body = kHips;
+  model.vehicles.push_back(trailer);
+  Joint coupling;
+  coupling.parent = kHead;
+  coupling.child = kHips;
+  Recording run = standing_still(20);
+  for (int i = 0; i < 5; ++i) run.snapshots[i].bodies.own()[kCar].V_WB.v = {13.9, 0, 0};
+  ContactRecord c = push(kCar, kHips, kVehicles, {-9000, 0, 0});
+  c.normal = {-1, 0, 0};
+  c.energy_lost = 0.5 * 1000 * 1800 / 2800.0 * 13.9 * 13.9;  // a plastic blow on both
+  run.snapshots[5].contacts = {c};
+  EXPECT_GT(impacts_of(model, run).at(0).a.ees, 13.9) << "were it not coupled";
+  model.joints = {coupling};
+  const Impact coupled = impacts_of(model, run).at(0);
+  for (const ImpactSide* side : {&coupled.a, &coupled.b}) EXPECT_TRUE(std::isnan(side->ees));
+  EXPECT_STREQ(coupled.ees_rule, "");
+  EXPECT_THAT(coupled.no_ees, testing::HasSubstr("coupled"));
+  model.bodies[kHips].surface.stiffness = 1200e3;
+  EXPECT_STREQ(impacts_of(model, run).at(0).ees_rule, "by stiffness") << "where the scene tells them apart";
 }
 
 TEST(ImpactTable, FrictionIsThatOfEachContactAlongItsOwnSurface) {
@@ -203,6 +236,92 @@ TEST(ImpactTable, AnExchangeAtAnInstantHasTimeAndClosingSpeedOfItsEventAndLastsN
   EXPECT_EQ(all[0].time, 0.0437);
   EXPECT_EQ(all[0].closing_speed, 10.3);
   EXPECT_EQ(all[0].duration, 0.0) << "not the rest of the recorded interval";
+}
+
+/// A body of 5 kg, nobody's part, where the car of other runs is.
+constexpr int kLog = kCar;
+
+Model person_and_log() {
+  Model model = person_and_car();
+  model.vehicles.clear();
+  model.bodies[kLog].vehicle = -1;
+  model.bodies[kLog].mass = 5;
+  model.bodies[kLog].shape = HyperEllipsoid{};
+  return model;
+}
+
+/// The log comes at 10 m/s along x, strikes the head at 0.05 s and goes on at 2 m/s; the head takes up what it has lost.
+Recording log_strikes_head() {
+  Recording run = standing_still(20);
+  for (int i = 0; i < 20; ++i) {
+    run.snapshots[i].bodies.own()[kLog].V_WB.v = {i < 5 ? 10.0 : 2.0, 0, 0};
+    run.snapshots[i].bodies.own()[kHead].V_WB.v = {i < 5 ? 0.0 : 4.0, 0, 0};
+  }
+  ContactRecord c = push(kHead, kLog, ShapePair{ShapeKind::round, ShapeKind::round}, {40, 0, 0});
+  c.normal = Vec3::UnitX();
+  c.begun = 0.043;
+  run.snapshots[5].contacts = {c};
+  return run;
+}
+
+TEST(ImpactTable, AnObjectThatStrikesAPersonHasARowAndAnEvent) {
+  const Model model = person_and_log();
+  const Recording run = log_strikes_head();
+  const std::vector<Impact> all = impacts_of(model, run);
+  ASSERT_EQ(all.size(), 1u);
+  const Impact& i = all[0];
+  EXPECT_EQ(i.a.party.bodies, std::vector<int>{kLog});
+  EXPECT_EQ(i.b.name, "pedestrian");
+  EXPECT_EQ(i.time, 0.043);
+  EXPECT_NEAR(i.closing_speed, 10, kAlmost);
+  EXPECT_NEAR(i.impulse.x(), -40, kAlmost) << "on the log";
+  EXPECT_NEAR(i.b.speed_after, 1, kAlmost) << "40 N s on 40 kg";
+  for (const ImpactSide* side : {&i.a, &i.b}) EXPECT_TRUE(std::isnan(side->ees) && std::isnan(side->pdof)) << "those of vehicles";
+  const std::vector<Event> told = told_events(model, run);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].kind, "collision");
+  EXPECT_EQ(told[0].body_a, kLog);
+  EXPECT_EQ(told[0].body_b, kHead) << "the part that was struck";
+  EXPECT_NEAR(told[0].value, 10, kAlmost);
+}
+
+TEST(ImpactTable, AFixtureStrikesNobody) {
+  Model model = person_and_log();
+  model.bodies[kLog].fixed = true;
+  EXPECT_TRUE(impacts_of(model, log_strikes_head()).empty());
+}
+
+TEST(ImpactTable, TwoPersonsThatRunIntoEachOtherHaveARow) {
+  Model model = person_and_log();
+  model.bodies[kLog].person = 1;
+  model.persons.push_back({"other", {kLog}});
+  const std::vector<Impact> all = impacts_of(model, log_strikes_head());
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].a.name, "pedestrian");
+  EXPECT_EQ(all[0].b.name, "other");
+  EXPECT_NEAR(all[0].closing_speed, 10, kAlmost);
+}
+
+/// Thrice its weight in 20 ms is more than 0.8 km/h of the log; but nothing moves.
+TEST(ImpactTable, WhoStandsOnSomethingIsNotStruckByIt) {
+  const Model model = person_and_log();
+  Recording run = standing_still(60);
+  for (int i = 1; i < 60; ++i)
+    run.snapshots[i].contacts = {push(kHips, kLog, ShapePair{ShapeKind::round, ShapeKind::round}, {0, 0, 4})};
+  EXPECT_TRUE(impacts_of(model, run).empty());
+  EXPECT_TRUE(told_events(model, run).empty());
+}
+
+TEST(ImpactTable, WhatIsHeldStrikesNobodyBeforeItIsLetGo) {
+  Model model = person_and_log();
+  Joint grip;
+  grip.parent = kHips;
+  grip.child = kLog;
+  model.joints = {grip};
+  Recording run = log_strikes_head();
+  EXPECT_TRUE(impacts_of(model, run).empty());
+  run.events = {{0.02, "joint_broken", kLog, kHips, Vec3::Zero(), 0}};
+  EXPECT_EQ(impacts_of(model, run).size(), 1u);
 }
 
 TEST(ToldEvents, ARigidCollisionIsToldOnceAPair) {

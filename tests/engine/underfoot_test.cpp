@@ -124,8 +124,9 @@ TEST(Walker, OnSomethingThatMovesStaysOnIt) {
 
 /// What somebody stands on drives off: they are free from the start, or from when it has a speed of its own, and come down.
 TEST(Walker, IsReleasedByWhatMovesAwayUnderfoot) {
-  for (const double speed : {0.0, 2.0}) {
-    Model model = walker(1.001, 1.5);  // a hair above, so that the table does not press
+  // a hair above, so that the table does not press, and centimetres, as somebody is put on a roof
+  for (const auto& [speed, above] : {std::pair(0.0, 1e-3), {2.0, 1e-3}, {0.0, 8e-3}, {0.2, 8e-3}, {0.2, 0.04}}) {
+    Model model = walker(1 + above, 1.5);
     model.bodies[0].V_WB.v.setZero();
     Body table = solid({{0.5, 0.5, 0.5}, 30}, 100, {-1, 0, 0.5});
     table.name = "table";
