@@ -16,11 +16,9 @@ bool came_with_its_front(const Model& model, const Recording& recording, const E
   double first = head.time;
   for (const Event& e : recording.events)
     if (e.kind == "first_contact" && e.body_b == head.body_b && holds(person, e.body_a)) first = std::min(first, e.time);
-  const Snapshot* before = &recording.snapshots.front();
-  for (const Snapshot& s : recording.snapshots)
-    if (s.time <= first) before = &s;
-  const BodyState& vehicle = before->bodies[head.body_b];
-  const Vec3 person_B = vehicle.X_WB.q.conjugate() * (velocity_of(model, person, *before) - vehicle.V_WB.v);
+  const Snapshot& before = found_at(recording, first);
+  const BodyState& vehicle = before.bodies[head.body_b];
+  const Vec3 person_B = vehicle.X_WB.q.conjugate() * (velocity_of(model, person, before) - vehicle.V_WB.v);
   constexpr double kNears = 0.3;  // [m/s] slower, it rides along: who slides off a roof did not wrap round the front
   return -person_B.x() > std::max(kNears, std::abs(person_B.y()));
 }

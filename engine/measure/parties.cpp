@@ -91,6 +91,14 @@ std::optional<double> rest_of(const Model& model, const Recording& recording, co
   return std::nullopt;
 }
 
+const Snapshot& found_at(const Recording& recording, double time) {
+  // a time that was reckoned may fall a rounding behind the snapshot it means
+  const double until = time + 1e-9 * recording.interval;
+  const auto& all = recording.snapshots;
+  const auto after = std::upper_bound(all.begin(), all.end(), until, [](double t, const Snapshot& s) { return t < s.time; });
+  return after == all.begin() ? *after : *(after - 1);
+}
+
 bool is_fixture(const Model& model, int body) {
   return body >= 0 && model.bodies[body].fixed && model.bodies[body].vehicle < 0;
 }

@@ -41,6 +41,10 @@ std::optional<double> joined_until(const Model&, const Recording&, const Party&,
 /// A person rests with its trunk.
 std::optional<double> rest_of(const Model&, const Recording&, const Party&);
 
+/// The last recorded instant that is not after `time`: what an impact at that time found. A state between two instants holds part
+/// of what the impact did.
+const Snapshot& found_at(const Recording&, double time);
+
 /// A wall, a kerb, a pavement: a body that is fixed and no vehicle. It strikes nobody on foot, and to come down on it is to land.
 bool is_fixture(const Model&, int body);
 

@@ -86,13 +86,12 @@ std::optional<double> as_fast(const Model& model, const Recording& recording, co
   const auto faster = [&](const Snapshot& s) {
     return velocity_of(model, party, s).dot(t.along) >= s.bodies[t.vehicle].V_WB.v.dot(t.along);
   };
-  bool slower = false;  // who was as fast before, a rider that runs into the vehicle, is not taken along by it
+  // who was as fast before, a rider that runs into the vehicle, is not taken along by it
+  const Snapshot& before = found_at(recording, t.hit);
+  if (faster(before)) return std::nullopt;
   for (const Snapshot& s : recording.snapshots) {
     if (s.time >= to) break;
-    if (s.time <= t.hit)
-      slower = !faster(s);
-    else if (slower && faster(s))
-      return s.time;
+    if (s.time > before.time && faster(s)) return s.time;
   }
   return std::nullopt;
 }
@@ -152,7 +151,7 @@ Throw thrown_from(const Model& model, const Recording& recording, const Party& p
   if (t.rest && *t.rest < t.hit) t.rest.reset();
   t.end = t.rest.value_or(recording.end_time());
   const Snapshot at_hit = recording.at(t.hit);
-  t.along = heading_of(model, at_hit, touch.other, mount);
+  t.along = heading_of(model, found_at(recording, t.hit), touch.other, mount);
   t.thrown = centre_of_mass(model, party, recording.at(t.end)) - centre_of_mass(model, party, at_hit);
   t.thrown.z() = 0;
   return t;

@@ -130,6 +130,28 @@ TEST(ThrowMetrics, ACarThatBacksThrowsTheWayItGoes) {
   EXPECT_TRUE(value_of(out, "carried_m")) << "as fast as the car, though against its axis";
 }
 
+/// A rider at 8 m/s along x and a car at 6 m/s along y touch between two recorded instants; the blow turns the mount round. The
+/// throw goes along the way the faster of the two came, and not along a mean of its ways before and after.
+TEST(ThrowMetrics, TheWayOfAThrowIsThatBeforeTheTouchWhereverItFallsBetweenTwoInstants) {
+  const Model model = rider_and_car();
+  for (const double touch : {1.0, 1.2, 1.5, 1.9}) {
+    Recording run = struck_along_y();
+    for (Snapshot& s : run.snapshots) {
+      auto& bodies = s.bodies.own();
+      bodies.emplace_back();
+      bodies[kCar].V_WB.v = {0, 6, 0};
+      bodies[kMount].V_WB.v = s.time <= 1 ? Vec3(8, 0, 0) : Vec3(-1, 5, 0);
+    }
+    run.snapshots[1].contacts.clear();
+    run.events.front().time = touch;
+    std::vector<Metric> out;
+    measure_throw(model, run, 0, out);
+    const Throw thrown = throw_of_person(model, run, 0).value();
+    EXPECT_NEAR(thrown.along.x(), 1, kAlmost) << touch;
+    EXPECT_NEAR(value_of(out, "throw_across_m").value(), thrown.thrown.y(), kAlmost) << touch;
+  }
+}
+
 /// A pavement, a wall: bodies that are fixed.
 TEST(ThrowMetrics, WhatIsFixedStrikesNobodyOnFootAndBearsWhoComesDownOnIt) {
   Model model = person_and_car();
