@@ -52,7 +52,7 @@ void warn_of_idle_impacts(const World& world, std::vector<std::string>& warnings
 }  // namespace
 
 Recorder::Recorder(const World& world, const State& state)
-    : rest_(world), events_(world, state), tyre_impulse_(world.model.vehicles.size(), Vec3::Zero()) {
+    : rest_(world), events_(world, state), necks_(world), tyre_impulse_(world.model.vehicles.size(), Vec3::Zero()) {
   tallies_.reserve(kRoom);
 }
 
@@ -71,6 +71,7 @@ void Recorder::tally(const World& world, const std::vector<Constraint>& conditio
 
 void Recorder::tally_contact(const World& world, const Constraint& c, double time, double duration) {
   events_.watch(world, c, time - duration);  // the push began with the step
+  necks_.note(world, c);
   if (c.impulse[0] <= 0 && c.gap > 0) return;
   auto at = std::lower_bound(tallies_.begin(), tallies_.end(), c.key, [](const Tally& t, std::uint64_t k) { return t.key < k; });
   if (at == tallies_.end() || at->key != c.key) at = tallies_.insert(at, Tally{c.key, {}, 0, Vec3::Zero()});
@@ -94,9 +95,15 @@ void Recorder::tally_contact(const World& world, const Constraint& c, double tim
   at->duration += duration;
 }
 
+void Recorder::follow(const World& world, const State& state, Recording& recording) {
+  necks_.follow(world, state);
+  accelerometers_.follow(world, state, recording);
+}
+
 void Recorder::sample(const World& world, const State& state, Recording& recording) {
   events_.watch_step(world, state);
   rest_.watch_step(world, state);
+  necks_.follow(world, state);
   accelerometers_.sample(world, state, recording);
 }
 
@@ -190,6 +197,7 @@ void Recorder::finish(const World& world, const State& state, Recording& recordi
   recording.diagnostics = world.log.diagnostics;
   energy_.close(world, recording.diagnostics);
   bounds_.close(world, recording.diagnostics);
+  necks_.close(world, recording.diagnostics.warnings);
   warn_of_idle_impacts(world, recording.diagnostics.warnings);
   // the depth of a compliant contact is a deformation, not an error
   for (const ContactRecord& c : recording.snapshots.back().contacts)

@@ -9,6 +9,7 @@
 #include "engine/record/bounds_watch.h"
 #include "engine/record/energy_watch.h"
 #include "engine/record/event_watch.h"
+#include "engine/record/neck_watch.h"
 #include "engine/record/rest_watch.h"
 #include "engine/world.h"
 
@@ -24,7 +25,7 @@ class Recorder {
   /// End of every step: what snapshots are too seldom for.
   void sample(const World&, const State&, Recording&);
   /// At the end of every part of a divided step but the last.
-  void follow(const World& world, const State& state, Recording& recording) { accelerometers_.follow(world, state, recording); }
+  void follow(const World&, const State&, Recording&);
 
   /// Writes a snapshot with everything tallied since the one before.
   void snapshot(const World&, const State&, Recording&);
@@ -52,6 +53,7 @@ class Recorder {
   EventWatch events_;
   BoundsWatch bounds_;
   EnergyWatch energy_;
+  NeckWatch necks_;
   Accelerometers accelerometers_;
   std::vector<Tally> tallies_;      // sorted by key
   std::size_t exchanges_told_ = 0;  // of RunLog::exchanges

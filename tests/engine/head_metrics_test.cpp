@@ -1,6 +1,7 @@
 // What is measured of a head: criteria, speed and place of its impact, wrap-around.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -51,6 +52,26 @@ TEST(HeadInjury, OfAFallDoesNotHangOnTheStep) {
   }
   EXPECT_GT(hic15[1], 500);
   EXPECT_NEAR(hic15[0] / hic15[1], 1, 0.05) << "first order in a step of 0.06 rad of the spring, to the power of 2.5";
+}
+
+/// All of the body stands behind a head that falls crown first, by a neck that no joint lets give way.
+TEST(HeadInjury, OfAHeadThatTheBodyPressesOnIsWarnedOf) {
+  // sqrt(2 g height) sqrt(k m): 5.4 kN or 38 kN, where twice 3.9 kN are told of
+  for (const double height : {0.02, 1.0}) {
+    Model model = test::on_ground(0.6, 1e-3);
+    model.settings.contact_law = ContactLaw::persons_yield;
+    Body head = test::ball(0.1, 4.5, {0, 0, 0.1 + height}), above = test::ball(0.2, 70, {0, 0, 0.45 + height});
+    head.surface.stiffness = above.surface.stiffness = 1e6;
+    head.person = above.person = 0;
+    model.bodies = {head, above};
+    model.joints = {test::joint_at(model, JointKind::spherical, 1, 0, {0, 0, 0.22 + height})};
+    model.persons = {test::of_one_part(0)};
+    model.persons[0].bodies = {0, 1};
+    const auto& warnings = simulate(model).diagnostics.warnings;
+    const bool told = std::any_of(warnings.begin(), warnings.end(),
+                                  [](const std::string& w) { return w.find("the neck of") != std::string::npos; });
+    EXPECT_EQ(told, height > 0.5) << height;
+  }
 }
 
 TEST(HeadInjury, RigidImpactsSayWhyTheyHaveNone) {
