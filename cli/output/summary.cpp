@@ -134,6 +134,7 @@ Json impacts_json(const std::vector<engine::Impact>& impacts) {
       const auto key = [of = side](const char* before, const char* after) { return fmt::format("{}_{}_{}", before, of, after); };
       row[key("delta_v", "mps")] = s->delta_v.norm();
       row[key("delta_v", "vector_mps")] = vector_json(s->delta_v);
+      row[key("own_delta_v", "mps")] = s->own_delta_v.norm();
       row[key("pdof", "deg")] = number_json(s->pdof);
       row[key("ees", "mps")] = number_json(s->ees);
       row[key("speed", "before_mps")] = number_json(s->speed_before);

@@ -174,9 +174,8 @@ ImpactSide side_of(const Model& model, const Recording& recording, const Party& 
   const int root = party.bodies.front();
   side.yaw_rate_before = before.bodies[root].V_WB.w.z();
   side.yaw_rate_after = after.bodies[root].V_WB.w.z();
-  if (model.bodies[root].fixed) return side;
+  if (model.bodies[root].fixed || party.vehicle < 0) return side;
   side.delta_v = v1 - v0 - model.settings.gravity * (after.time - before.time);
-  if (party.vehicle < 0) return side;
   side.delta_v -= done_by_tyres(model, recording, party, span);
   side.delta_v.z() = 0;  // as the field counts it: in the plane of the road
   side.pdof = pdof_of(before.bodies[root].X_WB.q, side.delta_v);
@@ -280,6 +279,19 @@ double duration_of(const Recording& recording, const Pair& pair, const Stretch& 
   return last - from;
 }
 
+/// What the pair alone did to each: all there is to tell of a person or an object.
+void tell_shares(const Model& model, const Pair& pair, Impact& impact) {
+  const auto tell = [&](ImpactSide& side, const Vec3& impulse) {
+    if (model.bodies[side.party.bodies.front()].fixed) return;
+    side.own_delta_v = impulse / mass_of(model, side.party);
+    // things fall on heads: without a vehicle there is no plane that the blow lies in
+    if (has_vehicle(pair)) side.own_delta_v.z() = 0;
+    if (side.party.vehicle < 0) side.delta_v = side.own_delta_v;
+  };
+  tell(impact.a, impact.impulse);
+  tell(impact.b, -impact.impulse);
+}
+
 Impact impact_of(const Model& model, const Recording& recording, const Pair& pair, const Stretch& span, std::size_t touch) {
   Impact out;
   out.span = span;
@@ -288,6 +300,7 @@ Impact impact_of(const Model& model, const Recording& recording, const Pair& pai
   out.duration = duration_of(recording, pair, span, out.time);
   out.a = side_of(model, recording, pair.a, span);
   out.b = side_of(model, recording, pair.b, span);
+  tell_shares(model, pair, out);
   if (const ContactRecord* first = earliest_of(pair, recording.snapshots[touch])) {
     out.a.part = holds(pair.a, first->body_a) ? first->body_a : first->body_b;
     out.b.part = holds(pair.a, first->body_a) ? first->body_b : first->body_a;

@@ -25,9 +25,13 @@ struct ImpactSide {
   int part = -1;                                                 // body that was touched first
   double speed_before = kUnknown, speed_after = kUnknown;        // [m/s] of the centre of mass
   double yaw_rate_before = kUnknown, yaw_rate_after = kUnknown;  // [rad/s] about the vertical
-  Vec3 delta_v = Vec3::Zero();  // [m/s] world: change of velocity in the phase less what tyres and gravity did meanwhile
-  double pdof = kUnknown;       // [deg] vehicles only, and only of one that stands on its wheels
-  double ees = kUnknown;        // [m/s] vehicles only
+  // [m/s] world; in the plane of the road where a vehicle takes part. Of a vehicle the change of velocity in the phase, less what
+  // tyres and gravity did meanwhile: what a third one did is in it. Of others the same as own_delta_v: who stands or lies is borne
+  // by the ground meanwhile, and that is no blow.
+  Vec3 delta_v = Vec3::Zero();
+  Vec3 own_delta_v = Vec3::Zero();  // [m/s] world: impulse of this pair alone over the mass
+  double pdof = kUnknown;           // [deg] vehicles only, and only of one that stands on its wheels
+  double ees = kUnknown;            // [m/s] vehicles only
 };
 
 /// One collision phase. It begins with the first touch of a stretch in which the two exchange more than 0.8 km/h times the lighter

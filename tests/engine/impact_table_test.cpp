@@ -285,6 +285,27 @@ TEST(ImpactTable, AnObjectThatStrikesAPersonHasARowAndAnEvent) {
   EXPECT_NEAR(told[0].value, 10, kAlmost);
 }
 
+/// The ground bears who stands while a vehicle brushes them: their delta-v is what the vehicle gave, and not gravity's 50 ms.
+TEST(ImpactTable, APersonsDeltaVIsWhatThePairGaveIt) {
+  Model model = person_and_car();
+  Recording run = standing_still(20);
+  double mass = 0;
+  for (const int b : model.persons[0].bodies) mass += model.bodies[b].mass;
+  for (const int i : {5, 8}) {
+    ContactRecord c = push(kCar, kHips, kVehicles, {-20, 0, -5});
+    c.normal = {-1, 0, 0};
+    c.begun = 0.005 * i - 0.002;
+    run.snapshots[static_cast<std::size_t>(i)].contacts = {c};
+  }
+  const Impact impact = impacts_of(model, run).at(0);
+  const ImpactSide& person = impact.a.party.person >= 0 ? impact.a : impact.b;
+  const ImpactSide& car = impact.a.party.person >= 0 ? impact.b : impact.a;
+  const double given = std::abs(impact.impulse.x());
+  EXPECT_NEAR(person.delta_v.norm(), given / mass, 1e-12);
+  EXPECT_NEAR(person.own_delta_v.norm(), given / mass, 1e-12);
+  EXPECT_NEAR(car.own_delta_v.norm(), given / model.bodies[kCar].mass, 1e-12);
+}
+
 TEST(ImpactTable, AFixtureStrikesNobody) {
   Model model = person_and_log();
   model.bodies[kLog].fixed = true;
