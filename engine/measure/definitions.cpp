@@ -197,8 +197,10 @@ constexpr Definition kDefinitions[] = {
      "What of the vehicle took the hardest push of it, by the names of head_impact_panel.", kNoStrike, "on an edge either of two",
      true},
     {"roll_drag_factor", "", "roll drag factor",
-     "Mean deceleration over the roll distance as a share of gravity: v^2 / 2 g d, v the level speed of the centre of mass at the "
-     "trip; of one that ends on its wheels less the square of what it has then (Orlowski, Moffatt, Bundorf and Holcomb, SAE "
+     "Mean deceleration over the roll distance as a share of gravity: (v^2 / 2 g + h) / d, v the level speed of the centre of mass "
+     "at "
+     "the trip, h by how much lower the ground is at the end; of one that ends on its wheels less the square of what it has then "
+     "(Orlowski, Moffatt, Bundorf and Holcomb, SAE "
      "890857, 1989).",
      "as roll_distance_m, or it is still rolling when the run ends; or it struck a vehicle or an object on the way, such as the "
      "kerb that tripped it: what that took is no drag",

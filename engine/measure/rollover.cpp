@@ -153,7 +153,11 @@ void measure_rollover(const Model& model, const Recording& recording, const std:
   out.push_back({"roll_distance_m", vehicle.name, way});
   measure_strikes(model, vehicle, ground_strikes(model, recording, party, trip->time, end), out);
   const auto square = [&](const Snapshot& s) { return velocity_of(model, party, s).head<2>().squaredNorm(); };
-  const double lost = square(*trip) - (upright ? square(*upright) : 0), g = model.settings.gravity.norm();
+  const double g = model.settings.gravity.norm();
+  const auto ground = [&](const Snapshot& s) { return model.ground.height_below(centre_of_mass(model, party, s)).value_or(0); };
+  // down a bank gravity gives what the ground takes
+  const double fall = ground(*trip) - ground(upright ? *upright : recording.at(end));
+  const double lost = square(*trip) - (upright ? square(*upright) : 0) + 2 * g * fall;
   const bool struck = struck_something(impacts, v, trip->time, upright ? upright->time : end);
   if ((rest || upright) && way > 0 && g > 0 && !struck) out.push_back({"roll_drag_factor", vehicle.name, lost / (2 * g * way)});
 }

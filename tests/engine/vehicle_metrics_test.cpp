@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "engine/measure/impacts.h"
@@ -172,6 +173,17 @@ TEST(Rollover, OfACylinderHasItsQuarterTurnsAndTheDragThatStopsIt) {
     }
   // what it lies on is seldom level: to the nearest quarter
   EXPECT_EQ(value_of(rollover_of(model, rolled_like_a_cylinder(2.3)), "quarter_turns"), 2.0);
+}
+
+/// Down a bank gravity gives what the ground takes: a fall of a tenth of the way is a tenth more drag.
+TEST(Rollover, DragDownABankHasTheFallInIt) {
+  Model model = car_with_a_track();
+  const Recording run = rolled_like_a_cylinder(4, 0);
+  const double level = value_of(rollover_of(model, run), "roll_drag_factor").value();
+  model.ground.plane = false;
+  model.ground.terrain = std::make_shared<TriangleMesh>(
+      std::vector<Vec3>{{-50, -200, -20}, {50, -200, -20}, {50, 0, 0}, {-50, 0, 0}}, std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
+  EXPECT_NEAR(value_of(rollover_of(model, run), "roll_drag_factor").value(), level + 0.1, 1e-6);
 }
 
 /// Back on its wheels at 2 m/s it has rolled over, however far it coasts.
