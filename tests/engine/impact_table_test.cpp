@@ -104,6 +104,31 @@ TEST(ImpactTable, WhatIsCoupledSharesNoEnergyByARuleOfCarsByThemselves) {
   EXPECT_STREQ(impacts_of(model, run).at(0).ees_rule, "by stiffness") << "where the scene tells them apart";
 }
 
+/// What a rider gives through the holds is in the energy that a wall takes from a motorcycle: none is told of the one.
+TEST(ImpactTable, ARidersEnergyIsNotThatOfTheMountAlone) {
+  Model model = person_and_car();
+  model.bodies[kHips].person = -1;
+  model.bodies[kHips].fixed = true;
+  model.bodies[kHips].shape = model.bodies[kCar].shape;
+  model.bodies[kHead].mass = 500;
+  model.persons[0].bodies = {kHead};
+  Joint hold;
+  hold.parent = kCar;
+  hold.child = kHead;
+  Recording run = standing_still(20);
+  for (int i = 0; i < 5; ++i) run.snapshots[i].bodies.own()[kCar].V_WB.v = run.snapshots[i].bodies.own()[kHead].V_WB.v = {10, 0, 0};
+  ContactRecord c = push(kCar, kHips, kVehicles, {-15000, 0, 0});
+  c.normal = {-1, 0, 0};
+  c.point = {2, 0, 0.6};
+  c.energy_lost = 0.5 * 1500 * 100;
+  run.snapshots[5].contacts = {c};
+  EXPECT_GT(impacts_of(model, run).at(0).a.ees, 12) << "were it not held";
+  model.joints = {hold};
+  const Impact held = impacts_of(model, run).at(0);
+  EXPECT_TRUE(std::isnan(held.a.ees));
+  EXPECT_THAT(held.no_ees, testing::HasSubstr("coupled"));
+}
+
 TEST(ImpactTable, FrictionIsThatOfEachContactAlongItsOwnSurface) {
   // a limb lies in an edge: two faces at right angles, each with half of the friction it could have; dents make it 0.4 and 0.6
   Model model = person_and_car();

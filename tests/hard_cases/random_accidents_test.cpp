@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <string>
+#include <vector>
 
 #include "tests/hard_cases/accident.h"
 #include "tests/hard_cases/hard_case.h"
@@ -30,13 +32,13 @@ double deepest(const engine::Recording& recording, bool of_vehicles) {
 
 /// How deep a run may leave anything. Where nothing yields: as asked of a struck person. Where persons do: an adult's trunk is 23
 /// to 25 cm from front to back, and what is pressed in further has gone through it. Each part that goes beyond its own thickness is
-/// told.
+/// told, and a neck that carries what none does: both are what such a blow is.
 struct Law {
   const char* name;
   double depth;  // [m]
-  const char* may_warn;
+  std::vector<std::string> may_warn;
 };
-constexpr Law kLaws[] = {{"default_auto", 2e-3, "nothing"}, {"persons_yield", 0.25, "more than its thickness"}};
+const Law kLaws[] = {{"default_auto", 2e-3, {}}, {"persons_yield", 0.25, {"more than its thickness", "the neck of"}}};
 
 class RandomAccidents : public testing::TestWithParam<std::tuple<int, Law>> {};
 INSTANTIATE_TEST_SUITE_P(Group, RandomAccidents, testing::Combine(testing::Range(0, kGroups), testing::ValuesIn(kLaws)),
@@ -58,7 +60,10 @@ TEST_P(RandomAccidents, SayThatTheyAreRight) {
     const auto& d = it.diagnostics;
     const double share = std::abs(it.snapshots.back().energies.residual) / (1e4 + energy(it.snapshots.front()));
     const std::string which = fmt::format("accident {}:\n{}", seed, accident(seed, law.name));
-    for (const std::string& warning : d.warnings) EXPECT_NE(warning.find(law.may_warn), std::string::npos) << which << warning;
+    for (const std::string& warning : d.warnings)
+      EXPECT_TRUE(std::any_of(law.may_warn.begin(), law.may_warn.end(),
+                              [&warning](const std::string& may) { return warning.find(may) != std::string::npos; }))
+          << which << warning;
     EXPECT_LT(share, 1e-3) << which;  // as of the crushed child; at a walk 10 J of what the limbs themselves carry
     EXPECT_LT(deepest(it, false), law.depth) << which;
     EXPECT_LT(d.max_joint_gap, 1e-9) << which;                  // a thousand times what rounding leaves
