@@ -155,7 +155,7 @@ constexpr Definition kDefinitions[] = {
      "from the front, 90 from the right, -90 from the left, 180 from behind.",
      "as delta_v_mps; or the vehicle leant by 45 degrees or more: on its side or roof", "with delta-v", true, true},
     {"ees_mps", "m/s", "EES",
-     "Energy equivalent speed: speed at which the vehicle, with who rides it, has as much kinetic energy as its share of the "
+     "Energy equivalent speed: speed at which the vehicle has as much kinetic energy as its share of the "
      "energy lost in that "
      "phase. Two under the same force share it in inverse proportion to stiffness where the scene tells the stiffnesses apart, "
      "else to mass; what is fixed has none. impacts.csv names the rule.",
