@@ -141,10 +141,8 @@ constexpr Definition kDefinitions[] = {
     {"delta_v_mps", "m/s", "delta-v",
      "Change of the velocity of the centre of mass in the plane of the road over the collision phase, less what tyres and "
      "gravity did meanwhile; of several phases that of the largest impulse along the road; of what was not struck itself that in "
-     "which "
-     "the vehicle coupled to it was. What a rider or a third one does in the "
-     "same "
-     "time is part of it; of a two-wheeler's tyres counts what they do under its weight and the rider's, to both. Begin and end of "
+     "which the vehicle coupled to it was. What a rider or a third one does in the same time is part of it; of a two-wheeler's "
+     "tyres counts what they do under its weight and the rider's, to both. Begin and end of "
      "the phase as 49 CFR 563.5 says: exchange of more than 0.8 km/h of the lighter mass within 20 ms, 250 ms at most.",
      kNoDeltaV,
      "no staged collisions are compared; for a delta-v that CRASH works out from damage the 95 % limits are 9 to 25 % (Smith and "
@@ -155,8 +153,7 @@ constexpr Definition kDefinitions[] = {
      "from the front, 90 from the right, -90 from the left, 180 from behind.",
      "as delta_v_mps; or the vehicle leant by 45 degrees or more: on its side or roof", "with delta-v", true, true},
     {"ees_mps", "m/s", "EES",
-     "Energy equivalent speed: speed at which the vehicle has as much kinetic energy as its share of the "
-     "energy lost in that "
+     "Energy equivalent speed: speed at which the vehicle has as much kinetic energy as its share of the energy lost in that "
      "phase. Two under the same force share it in inverse proportion to stiffness where the scene tells the stiffnesses apart, "
      "else to mass; what is fixed has none. impacts.csv names the rule.",
      "as delta_v_mps; or the hardest phase was with a person, or of a two-wheeler with a car whose stiffnesses nobody told apart, "
@@ -199,10 +196,8 @@ constexpr Definition kDefinitions[] = {
      true},
     {"roll_drag_factor", "", "roll drag factor",
      "Mean deceleration over the roll distance as a share of gravity: (v^2 / 2 g + h) / d, v the level speed of the centre of mass "
-     "at "
-     "the trip, h by how much lower the ground is at the end; of one that ends on its wheels less the square of what it has then "
-     "(Orlowski, Moffatt, Bundorf and Holcomb, SAE "
-     "890857, 1989).",
+     "at the trip, h by how much lower the ground is at the end; of one that ends on its wheels less the square of what it has "
+     "then (Orlowski, Moffatt, Bundorf and Holcomb, SAE 890857, 1989).",
      "as roll_distance_m, or it is still rolling when the run ends; or it struck a vehicle or an object on the way, such as the "
      "kerb that tripped it: what that took is no drag",
      kRolls, true},

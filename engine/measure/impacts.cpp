@@ -212,11 +212,11 @@ const char* why_no_ees(const Model& model, const Snapshot& before, const Impact&
   if (by_mass && (is_coupled(model, a) || is_coupled(model, b)))
     return "what is coupled to one of the two pressed as well, and the scene does not tell their stiffnesses apart: the rule of "
            "masses is that of cars by themselves";
-  // an energy equivalent speed is told from what bodywork crushes: that of wheels against a kerb has no such scale
   const auto fixed = [&](const Party& party) { return model.bodies[party.bodies.front()].fixed; };
   // what a rider or a trailer gave through its holds is in the energy, and not in the mass
   if ((fixed(a) && is_coupled(model, b)) || (fixed(b) && is_coupled(model, a)))
     return "what is coupled to it pressed on what is fixed as well: the energy is not that of the one alone";
+  // an energy equivalent speed is told from what bodywork crushes: that of wheels against a kerb has no such scale
   if ((fixed(a) && below_hubs(model, before, b, impact.point)) || (fixed(b) && below_hubs(model, before, a, impact.point)))
     return "its hardest impact was that of its wheels with something low, such as a kerb: no bodywork is crushed";
   return "";

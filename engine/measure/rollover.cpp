@@ -154,10 +154,14 @@ void measure_rollover(const Model& model, const Recording& recording, const std:
   measure_strikes(model, vehicle, ground_strikes(model, recording, party, trip->time, end), out);
   const auto square = [&](const Snapshot& s) { return velocity_of(model, party, s).head<2>().squaredNorm(); };
   const double g = model.settings.gravity.norm();
-  const auto ground = [&](const Snapshot& s) { return model.ground.height_below(centre_of_mass(model, party, s)).value_or(0); };
-  // down a bank gravity gives what the ground takes
-  const double fall = ground(*trip) - ground(upright ? *upright : recording.at(end));
-  const double lost = square(*trip) - (upright ? square(*upright) : 0) + 2 * g * fall;
+  const auto ground = [&](const Snapshot& s) {
+    Vec3 place = centre_of_mass(model, party, s);
+    place.z() = model.ground.height_below(place).value_or(0);
+    return place;
+  };
+  // down a bank, or on ground that is tilted as a whole, gravity gives what the ground takes
+  const double given = model.settings.gravity.dot(ground(upright ? *upright : recording.at(end)) - ground(*trip));
+  const double lost = square(*trip) - (upright ? square(*upright) : 0) + 2 * given;
   const bool struck = struck_something(impacts, v, trip->time, upright ? upright->time : end);
   if ((rest || upright) && way > 0 && g > 0 && !struck) out.push_back({"roll_drag_factor", vehicle.name, lost / (2 * g * way)});
 }

@@ -150,6 +150,14 @@ TEST(Deck, OfWhateverItIsMadeIsRoad) {
   }
 }
 
+void add_ramp(Model& model, const std::shared_ptr<TriangleMesh>& mesh) {
+  Body ramp;
+  ramp.name = "ramp";
+  ramp.fixed = true;
+  ramp.shape = MeshShape{mesh, {}};
+  model.bodies.push_back(ramp);
+}
+
 /// A wedge that stands on the road: where the springs give way at its thin end, its underside is no wall.
 TEST(Ramp, OfAThinEndIsDrivenUpAtAnySpeed) {
   constexpr double kLength = 8, kRise = 1.41;
@@ -159,11 +167,7 @@ TEST(Ramp, OfAThinEndIsDrivenUpAtAnySpeed) {
   for (const double speed : {15.0, 20.0, 30.0, 40.0}) {
     Model model = on_ground(0.9 * (5 + kLength) / speed);
     add_reference_car(model, -5, speed);
-    Body ramp;
-    ramp.name = "ramp";
-    ramp.fixed = true;
-    ramp.shape = MeshShape{wedge, {}};
-    model.bodies.push_back(ramp);
+    add_ramp(model, wedge);
     const Recording run = simulate(model);
     // height takes its share; at the kink each axle loses at most what goes across the ramp, sin(10 deg)^2 / 2 of the speed, 1.5 %
     const double kept = std::sqrt(speed * speed - 2 * kGravity * kRise);
@@ -182,14 +186,11 @@ TEST(Ramp, ThatIsAnOpenSheetIsDrivenOff) {
     // until both axles are past the lip
     Model model = on_ground((5 + kLength + kAxles) / speed);
     add_reference_car(model, -5, speed);
-    Body ramp;
-    ramp.name = "ramp";
-    ramp.fixed = true;
-    ramp.shape = MeshShape{sheet, {}};
-    model.bodies.push_back(ramp);
+    add_ramp(model, sheet);
     const Recording run = simulate(model);
-    // the kink at the foot takes sin(5.7 deg)^2 / 2 of the speed from each axle, half of a percent
-    EXPECT_GT(run.snapshots.back().bodies[0].V_WB.v.norm(), 0.97 * std::sqrt(speed * speed - 2 * kGravity * kRise)) << speed;
+    // the kink at the foot takes sin(5.7 deg)^2 / 2 of the speed from each axle, half of a percent; the springs keep as much
+    // swinging
+    EXPECT_GT(run.snapshots.back().bodies[0].V_WB.v.norm(), 0.985 * std::sqrt(speed * speed - 2 * kGravity * kRise)) << speed;
   }
 }
 
