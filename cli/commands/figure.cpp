@@ -89,8 +89,10 @@ render::PersonFacts facts_of(const engine::Model& model, const engine::Recording
   return facts;
 }
 
-/// The first collision phase of every pair; later ones of two that rub against each other would fill the sheet.
-std::vector<std::string> impact_lines(const std::vector<engine::Impact>& impacts) {
+/// The first collision phase of every pair; later ones of two that rub against each other would fill the sheet. And what several
+/// that strike a vehicle at once did to it: each of their rows holds part of the others'.
+std::vector<std::string> impact_lines(const engine::Model& model, const engine::Recording& recording) {
+  const std::vector<engine::Impact> impacts = engine::impacts_of(model, recording);
   std::vector<std::string> out;
   std::size_t later = 0;
   for (const engine::Impact& i : impacts) {
@@ -103,6 +105,11 @@ std::vector<std::string> impact_lines(const std::vector<engine::Impact>& impacts
                               i.a.delta_v.norm(), i.b.delta_v.norm()));
   }
   if (later > 0) out.push_back(fmt::format("and {} later {} of the same: impacts.csv", later, later == 1 ? "phase" : "phases"));
+  for (int v = 0; v < static_cast<int>(model.vehicles.size()); ++v)
+    if (const auto event = engine::hardest_event(model, recording, impacts, v);
+        event && event->phases > 1 &&
+        !model.bodies[static_cast<std::size_t>(model.vehicles[static_cast<std::size_t>(v)].body)].fixed)
+      out.push_back(fmt::format("{}: delta-v {:.2f} m/s of {} phases together", event->name, event->delta_v.norm(), event->phases));
   return out;
 }
 
@@ -132,7 +139,7 @@ int draw_figures(const FigureWish& wish) {
   recording.events = engine::told_events(scene.model, recording);
   if (recording.failure) scene.stage.warnings.push_back(fmt::format("the model diverged at {:.3f} s", recording.failure->time));
   const std::vector<engine::Metric> metrics = engine::measure(scene.model, recording);
-  job.impacts = impact_lines(engine::impacts_of(scene.model, recording));
+  job.impacts = impact_lines(scene.model, recording);
   for (int p = 0; p < static_cast<int>(scene.model.persons.size()); ++p)
     job.persons.push_back(facts_of(scene.model, recording, p, metrics));
 

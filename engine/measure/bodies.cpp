@@ -76,10 +76,8 @@ void measure_vehicle(const Model& model, const Recording& recording, const std::
     out.push_back({"rest_heading_deg", vehicle.name, math::atan2(ahead.y(), ahead.x()) * 180 / std::numbers::pi});
   }
   if (model.bodies[vehicle.body].fixed) return;
-  const Impact* hardest = hardest_impact(impacts, v);
-  const std::optional<ImpactSide> through = struck_through_coupling(model, recording, impacts, v);
-  if (!hardest && !through) return;
-  const ImpactSide* worst = through ? &*through : hardest->a.party.vehicle == v ? &hardest->a : &hardest->b;
+  const std::optional<ImpactSide> worst = hardest_event(model, recording, impacts, v);
+  if (!worst) return;
   out.push_back({"delta_v_mps", vehicle.name, worst->delta_v.norm()});
   if (std::isfinite(worst->ees)) out.push_back({"ees_mps", vehicle.name, worst->ees});
   if (std::isfinite(worst->pdof)) out.push_back({"pdof_deg", vehicle.name, worst->pdof});

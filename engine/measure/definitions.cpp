@@ -139,22 +139,25 @@ constexpr Definition kDefinitions[] = {
     {"peak_acceleration_mps2", "m/s^2", "peak acceleration",
      "Largest acceleration of a part's centre, mean over a step; free fall counts one g.", kNoForce, "grows with stiffness"},
     {"delta_v_mps", "m/s", "delta-v",
-     "Change of the velocity of the centre of mass in the plane of the road over the collision phase, less what tyres and "
-     "gravity did meanwhile; of several phases that of the largest impulse along the road; of what was not struck itself that in "
-     "which the vehicle coupled to it was. What a rider or a third one does in the same time is part of it; of a two-wheeler's "
-     "tyres counts what they do under its weight and the rider's, to both. Begin and end of "
-     "the phase as 49 CFR 563.5 says: exchange of more than 0.8 km/h of the lighter mass within 20 ms, 250 ms at most.",
+     "Change of the velocity of the centre of mass in the plane of the road over the event of its hardest collision phase, that of "
+     "the largest impulse along the road, less what tyres and gravity did meanwhile; of what was not struck itself over that in "
+     "which the vehicle coupled to it was. Phases of one vehicle that overlap or follow within 20 ms are one event, whoever "
+     "struck it; of a longer one the 250 ms with that phase in which the velocity changes most. What a rider does in the same time "
+     "is part of it; of a two-wheeler's tyres counts what they do under its weight and the rider's, to both. Begin and end of a "
+     "phase "
+     "as 49 CFR 563.5 says: exchange of more than 0.8 km/h of the lighter mass within 20 ms, 250 ms at most.",
      kNoDeltaV,
      "no staged collisions are compared; for a delta-v that CRASH works out from damage the 95 % limits are 9 to 25 % (Smith and "
      "Noga 1982)",
      true},
     {"pdof_deg", "deg", "PDOF",
-     "Direction in the plane of the road that delta-v's force came from, against the vehicle's heading just before the phase: 0 "
+     "Direction in the plane of the road that delta-v's force came from, against the vehicle's heading just before the event: 0 "
      "from the front, 90 from the right, -90 from the left, 180 from behind.",
      "as delta_v_mps; or the vehicle leant by 45 degrees or more: on its side or roof", "with delta-v", true, true},
     {"ees_mps", "m/s", "EES",
-     "Energy equivalent speed: speed at which the vehicle has as much kinetic energy as its share of the energy lost in that "
-     "phase. Two under the same force share it in inverse proportion to stiffness where the scene tells the stiffnesses apart, "
+     "Energy equivalent speed: speed at which the vehicle has as much kinetic energy as its share of the energy lost in the "
+     "hardest phase. Two under the same force share it in inverse proportion to stiffness where the scene tells the stiffnesses "
+     "apart, "
      "else to mass; what is fixed has none. impacts.csv names the rule.",
      "as delta_v_mps; or the hardest phase was with a person, or of a two-wheeler with a car whose stiffnesses nobody told apart, "
      "or of one with a trailer or a rider: the rule of masses is that of cars by themselves; or below the hubs against something "

@@ -335,6 +335,58 @@ bool strikes(const Model& model, const Recording& recording, const Impact& impac
   return std::max(gained(impact.a.party, on_a), gained(impact.b.party, -on_a)) > kChange;
 }
 
+bool strikes_vehicle(const Impact& impact, int vehicle) {
+  return impact.a.party.vehicle == vehicle || impact.b.party.vehicle == vehicle;
+}
+
+/// [N s] in the plane of the road, as delta-v: what lies on a vehicle presses it down for long.
+double level_push(const Impact& impact) {
+  return impact.impulse.head<2>().norm();
+}
+
+/// When a stretch begins: its first push may be as old as the snapshot before.
+double begin_of(const Recording& recording, const Stretch& span) {
+  return recording.snapshots[span.first > 0 ? span.first - 1 : 0].time;
+}
+
+/// A phase of the vehicle, and those of it that overlap or follow within the window, one by one.
+Stretch event_of(const Recording& recording, const std::vector<Impact>& impacts, int vehicle, const Impact& of) {
+  const auto end = [&](const Stretch& span) { return recording.snapshots[span.last].time; };
+  Stretch event = of.span;
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (const Impact& i : impacts) {
+      const double apart = std::max(begin_of(recording, i.span) - end(event), begin_of(recording, event) - end(i.span));  // [s]
+      if (!strikes_vehicle(i, vehicle) || apart > kWindow + 1e-9) continue;
+      const Stretch both{std::min(event.first, i.span.first), std::max(event.last, i.span.last)};
+      grown = grown || both.first < event.first || both.last > event.last;
+      event = both;
+    }
+  }
+  return event;
+}
+
+/// What the event around a phase of a vehicle did to a party: itself, or what is coupled to it.
+ImpactSide side_in_event(const Model& model, const Recording& recording, const std::vector<Impact>& impacts, int vehicle,
+                         const Impact& hardest, const Party& party) {
+  const Stretch event = event_of(recording, impacts, vehicle, hardest);
+  std::optional<ImpactSide> most;
+  for (std::size_t first = event.first; first <= hardest.span.first; ++first) {
+    Stretch part{first, first};
+    while (part.last < event.last && recording.snapshots[part.last + 1].time - begin_of(recording, part) <= kLongest + 1e-9)
+      ++part.last;
+    part.last = std::max(part.last, first == hardest.span.first ? hardest.span.last : first);
+    if (part.last < hardest.span.last) continue;
+    ImpactSide side = side_of(model, recording, party, part);
+    side.phases = static_cast<int>(std::count_if(impacts.begin(), impacts.end(), [&](const Impact& i) {
+      return strikes_vehicle(i, vehicle) && i.span.first <= part.last && i.span.last >= part.first;
+    }));
+    if (!most || side.delta_v.norm() > most->delta_v.norm()) most = std::move(side);
+    if (part.last == event.last) break;  // the whole of it, or of its end
+  }
+  return *most;
+}
+
 }  // namespace
 
 std::vector<Stretch> stretches(const Recording& recording, const std::vector<Vec3>& push, double bound) {
@@ -392,24 +444,28 @@ std::vector<Impact> impacts_of(const Model& model, const Recording& recording) {
 
 const Impact* hardest_impact(const std::vector<Impact>& impacts, int vehicle) {
   const Impact* out = nullptr;
-  // in the plane of the road, as its delta-v: what lies on a vehicle presses it down for long
-  const auto push = [](const Impact& i) { return i.impulse.head<2>().norm(); };
   for (const Impact& i : impacts)
-    if ((i.a.party.vehicle == vehicle || i.b.party.vehicle == vehicle) && (!out || push(i) > push(*out))) out = &i;
+    if (strikes_vehicle(i, vehicle) && (!out || level_push(i) > level_push(*out))) out = &i;
   return out;
 }
 
-std::optional<ImpactSide> struck_through_coupling(const Model& model, const Recording& recording,
-                                                  const std::vector<Impact>& impacts, int vehicle) {
-  const int body = model.vehicles[vehicle].body;
-  const Impact* hardest = nullptr;
-  for (int other = 0; other < static_cast<int>(model.vehicles.size()); ++other) {
-    if (other == vehicle || !jointed(model, body, model.vehicles[other].body)) continue;
-    const Impact* of = hardest_impact(impacts, other);
-    if (of && (!hardest || of->impulse.head<2>().norm() > hardest->impulse.head<2>().norm())) hardest = of;
+std::optional<ImpactSide> hardest_event(const Model& model, const Recording& recording, const std::vector<Impact>& impacts,
+                                        int vehicle) {
+  const Party party = party_of(model, model.vehicles[vehicle].body);
+  if (const Impact* hardest = hardest_impact(impacts, vehicle)) {
+    ImpactSide out = side_in_event(model, recording, impacts, vehicle, *hardest, party);
+    out.ees = (hardest->a.party.vehicle == vehicle ? hardest->a : hardest->b).ees;
+    return out;
   }
-  if (!hardest || hardest_impact(impacts, vehicle)) return std::nullopt;
-  return side_of(model, recording, party_of(model, body), hardest->span);
+  const Impact* hardest = nullptr;
+  int struck = -1;
+  for (int other = 0; other < static_cast<int>(model.vehicles.size()); ++other) {
+    if (other == vehicle || !jointed(model, party.bodies.front(), model.vehicles[other].body)) continue;
+    const Impact* of = hardest_impact(impacts, other);
+    if (of && (!hardest || level_push(*of) > level_push(*hardest))) hardest = of, struck = other;
+  }
+  if (!hardest) return std::nullopt;
+  return side_in_event(model, recording, impacts, struck, *hardest, party);
 }
 
 std::vector<Event> told_events(const Model& model, const Recording& recording) {

@@ -32,6 +32,7 @@ struct ImpactSide {
   Vec3 own_delta_v = Vec3::Zero();  // [m/s] world: impulse of this pair alone over the mass
   double pdof = kUnknown;           // [deg] vehicles only, and only of one that stands on its wheels
   double ees = kUnknown;            // [m/s] vehicles only
+  int phases = 1;                   // that delta_v is of
 };
 
 /// One collision phase. It begins with the first touch of a stretch in which the two exchange more than 0.8 km/h times the lighter
@@ -70,9 +71,11 @@ std::vector<Impact> impacts_of(const Model&, const Recording&);
 /// where there is none.
 const Impact* hardest_impact(const std::vector<Impact>&, int vehicle);
 
-/// What the hardest phase of a vehicle coupled to it did to one that was not struck itself, without an EES; nothing where neither
-/// was struck.
-std::optional<ImpactSide> struck_through_coupling(const Model&, const Recording&, const std::vector<Impact>&, int vehicle);
+/// What the event of its hardest phase did to a vehicle, or to one that was not struck itself that of one coupled to it, without an
+/// EES; nothing where neither was struck. Phases of one vehicle that overlap, or follow within 20 ms, are one event, whoever struck
+/// it (49 CFR 563.5); of a longer one those 250 ms with all of the hardest phase in which the velocity changes most. EES is that of
+/// the hardest phase.
+std::optional<ImpactSide> hardest_event(const Model&, const Recording&, const std::vector<Impact>&, int vehicle);
 
 /// The recorded events, and a "collision" where two have their first phase that have no event of their own: all but a person and a
 /// vehicle, which have their first contact. `value` is the closing speed. In order of time.

@@ -60,6 +60,57 @@ TEST(VehicleMetrics, DeltaVIsThatOfTheLargestImpulseWhateverAThirdOneDidMeanwhil
   EXPECT_NEAR(value_of(out, "delta_v_mps").value(), 6, 1e-9);
 }
 
+/// A car of 1000 kg strikes a person from 0.05 s and 20 ms later a block, both for some time: it is as if one had struck it. A push
+/// long after them is another event.
+TEST(VehicleMetrics, PhasesThatOverlapAreOneEventWhoeverStruck) {
+  Model model = person_and_car();
+  model.settings.gravity.setZero();
+  model.bodies[kHead].person = -1;
+  model.persons[0].bodies = {kHips};
+  Recording run = standing_still(60);
+  double speed = 10;
+  for (int i = 0; i < 60; ++i) {
+    const bool person = i >= 5 && i < 15, block = i >= 7 && i < 10;
+    speed -= (person ? 0.1 : 0) + (block ? 0.5 : 0) - (i == 50 ? 1 : 0);
+    run.snapshots[i].bodies.own()[kCar].V_WB.v = {speed, 0, 0};
+    if (person) run.snapshots[i].contacts.push_back(push(kHips, kCar, kOnVehicle, {100, 0, 0}));
+    if (block) run.snapshots[i].contacts.push_back(push(kHead, kCar, kOnVehicle, {500, 0, 0}));
+  }
+  run.snapshots[50].contacts.push_back(push(kHips, kCar, kOnVehicle, {-1000, 0, 0}));
+  const std::vector<Impact> impacts = impacts_of(model, run);
+  ASSERT_EQ(impacts.size(), 3u);
+  const auto car = [](const Impact& i) { return i.a.party.vehicle == 0 ? i.a : i.b; };
+  EXPECT_NEAR(car(impacts[0]).own_delta_v.norm(), 1.0, kAlmost);
+  EXPECT_NEAR(car(impacts[1]).own_delta_v.norm(), 1.5, kAlmost);
+  const ImpactSide event = hardest_event(model, run, impacts, 0).value();
+  EXPECT_EQ(event.phases, 2);
+  EXPECT_NEAR(event.delta_v.norm(), 2.5, 1e-9);
+  std::vector<Metric> out;
+  measure_vehicle(model, run, impacts, 0, out);
+  EXPECT_NEAR(value_of(out, "delta_v_mps").value(), 2.5, 1e-9);
+}
+
+/// Pressed by somebody for a quarter of a second, and stopped by a block at its end: both do not fit into 250 ms.
+TEST(VehicleMetrics, OfALongEventCountThe250MillisecondsThatChangeMostWithTheHardestPhase) {
+  Model model = person_and_car();
+  model.settings.gravity.setZero();
+  model.bodies[kHead].person = -1;
+  model.persons[0].bodies = {kHips};
+  Recording run = standing_still(60);
+  double speed = 10;
+  for (int i = 0; i < 60; ++i) {
+    const bool person = i >= 5 && i < 29, block = i >= 30 && i < 35;
+    speed -= (person ? 0.02 : 0) + (block ? 1 : 0);
+    run.snapshots[i].bodies.own()[kCar].V_WB.v = {speed, 0, 0};
+    if (person) run.snapshots[i].contacts.push_back(push(kHips, kCar, kOnVehicle, {20, 0, 0}));
+    if (block) run.snapshots[i].contacts.push_back(push(kHead, kCar, kOnVehicle, {1000, 0, 0}));
+  }
+  std::vector<Metric> out;
+  measure_vehicle(model, run, impacts_of(model, run), 0, out);
+  // 250 ms that end with the block: its 5 m/s, and 19 of the 24 pushes of the person
+  EXPECT_NEAR(value_of(out, "delta_v_mps").value(), 5 + 19 * 0.02, 1e-9);
+}
+
 /// What a trailer is struck with reaches the car that draws it: its own change of velocity in that phase, and no EES.
 TEST(VehicleMetrics, WhatDrawsAStruckTrailerHasADeltaV) {
   Model model = person_and_car();
