@@ -17,7 +17,8 @@ constexpr const char* kHic =
     "as good as the stiffness of head and panel (engine/geometry/panels.h); grows as speed to the 2.5, faster where the panel "
     "bottoms out";
 constexpr const char* kPhase =
-    "measured along the line from first touch to rest, so that the distances of all phases sum to throw_distance_m";
+    "to the recorded interval; measured along the line from first touch to rest, so that the distances of all phases sum to "
+    "throw_distance_m";
 constexpr const char* kMoving = "still moving when the run ends, or still for less than 0.25 s";
 constexpr const char* kNoDeltaV = "neither the vehicle nor one coupled to it touched a person, vehicle or object, or it is fixed";
 constexpr const char* kNotRolled = "the vehicle did not roll onto its side or farther; or it is a two-wheeler";

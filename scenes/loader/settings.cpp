@@ -107,6 +107,12 @@ void read_settings(Builder& builder, std::optional<Reader> reader) {
   s.gravity = {g * engine::math::sin(slope), 0, -g * engine::math::cos(slope)};
   if (slope == 0) s.gravity = {0, 0, -g};
   if (s.step > 0 && s.record_interval < s.step) r.fail("record_interval", "must not be shorter than the step");
+  // a collision is told from what is exchanged within 20 ms, and a flight from 50 ms without a touch
+  constexpr double kCoarse = 10e-3;  // [s] up to there delta-v of the cases stays as it is at 1 ms
+  if (s.record_interval > kCoarse && r.has("record_interval"))
+    r.warn("record_interval",
+           "is longer than 10 ms: delta-v, PDOF, EES, the table of impacts and the phases of a throw are read off "
+           "the recorded instants and come out wrong; 5 ms is a good value");
   if (auto effects = r.table("effects")) {
     for (const Entry& entry : effects->value().entries)
       s.effects[entry.key] = static_cast<engine::Force>(effects->choice(entry.key));

@@ -18,6 +18,15 @@ TEST(SceneErrorTexts, BrokenToml) {
   EXPECT_EQ(lines[0], "case.toml:1:11: the text has no closing quote; write title = \"x\"");
 }
 
+/// Of 20 ms the flagship's delta-v came out as 0.29 instead of 0.47 m/s, without a word.
+TEST(SceneWarnings, IntervalsTooLongForCollisionsAreTold) {
+  const auto warnings = [](const std::string& interval) {
+    return folder().load("[simulation]\nrecord_interval = \"" + interval + "\"\n" + kBall).warnings;
+  };
+  EXPECT_THAT(warnings("11 ms"), ElementsAre(::testing::HasSubstr("simulation.record_interval is longer than 10 ms: delta-v")));
+  EXPECT_THAT(warnings("10 ms"), ElementsAre());
+}
+
 TEST(SceneErrorTexts, KeysTheParserCannotStand) {
   // each of these once ended the process inside the parser
   std::string endless;
