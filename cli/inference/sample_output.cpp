@@ -253,7 +253,7 @@ std::string in_words(const scenes::Uncertain& u) {
       out = fmt::format("uniform {:g} to {:g}{}", n[0] / u.unit.factor, n[1] / u.unit.factor, unit);
       break;
     case scenes::Spread::normal:
-      out = fmt::format("normal {:g} with standard deviation {:g}{}", n[0] / u.unit.factor, n[1] / u.unit.factor, unit);
+      out = fmt::format("normal {:g}{} with standard deviation {:g}{}", n[0] / u.unit.factor, unit, n[1] / u.unit.factor, unit);
       break;
     case scenes::Spread::triangular:
       out = fmt::format("triangular {:g}, {:g}, {:g}{}", n[0] / u.unit.factor, n[1] / u.unit.factor, n[2] / u.unit.factor, unit);

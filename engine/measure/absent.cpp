@@ -63,6 +63,7 @@ void absent_head(const Model& model, const Recording& recording, int p, Absences
   if (!struck) {
     absent.note("head_impact_s", person.name, "no vehicle touched the head");
   } else {
+    absent.note("head_impact_panel", person.name, "the head met a wheel or a two-wheeler, or the mesh tells no panels");
     absent.note("wrap_around_distance_m", person.name, "the head met no front, or a place no tape from the front reaches");
   }
   const std::string law = why_no_head_injury(model);

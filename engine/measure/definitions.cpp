@@ -102,7 +102,8 @@ constexpr Definition kDefinitions[] = {
      "What of the vehicle the head touches first: bonnet (with the tops of the wings and the scuttle before the windscreen), "
      "windscreen (with the frame of the pane), a_pillar, roof_edge, roof, front, side, side_window, rear (with the lid of a boot), "
      "rear_window, underside; from the material drawn nearest and the place (scenes/loader/panels.h).",
-     "no vehicle touched the head, or the mesh tells no panels", "on an edge either of two", true},
+     "no vehicle touched the head; or it met a wheel or a two-wheeler, or the mesh tells no panels", "on an edge either of two",
+     true},
     {"head_impact_vehicle_x_m", "m", "x on the vehicle", "Place of that touch in the axes of the vehicle's mesh, forward.", kNoHead,
      "as wrap-around distance"},
     {"head_impact_vehicle_y_m", "m", "y on the vehicle", "The same to the left.", kNoHead, "as wrap-around distance"},

@@ -38,7 +38,9 @@ void measure_place(const Model& model, const Recording& recording, const Event& 
   if (shape->panels) {
     const Vec3 normal_M = shape->X_BM.q.conjugate() * (X_WB.q.conjugate() * e.normal);
     panel = panel_at(*shape->mesh, *shape->panels, point_M, normal_M);
-    if (panel != Panel::unknown) out.push_back({"head_impact_panel", name, 0, name_of(panel)});
+    // the names are those of cars: a handlebar is no lid of a boot
+    if (panel != Panel::unknown && !is_two_wheeler(model, party_of(model, e.body_b)))
+      out.push_back({"head_impact_panel", name, 0, name_of(panel)});
   }
   out.push_back({"head_impact_vehicle_x_m", name, point_M.x()});
   out.push_back({"head_impact_vehicle_y_m", name, point_M.y()});

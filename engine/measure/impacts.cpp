@@ -132,10 +132,6 @@ double pdof_of(const Quat& q_WB, const Vec3& push) {
   return math::atan2(left, -push.dot(ahead)) * 180 / std::numbers::pi;
 }
 
-bool is_two_wheeler(const Model& model, const Party& party) {
-  return party.vehicle >= 0 && model.vehicles[party.vehicle].wheels.size() == 2 && !has_track(model.vehicles[party.vehicle]);
-}
-
 /// Mass [kg] of a vehicle with who rides it.
 double mass_with_riders(const Model& model, const Party& party) {
   double mass = mass_of(model, party);

@@ -18,6 +18,10 @@ bool holds(const Party& party, int body) {
   return std::find(party.bodies.begin(), party.bodies.end(), body) != party.bodies.end();
 }
 
+bool is_two_wheeler(const Model& model, const Party& party) {
+  return party.vehicle >= 0 && model.vehicles[party.vehicle].wheels.size() == 2 && !has_track(model.vehicles[party.vehicle]);
+}
+
 double mass_of(const Model& model, const Party& party) {
   double mass = 0;
   for (const int b : party.bodies) mass += model.bodies[b].mass;

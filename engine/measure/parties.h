@@ -21,6 +21,8 @@ Party party_of(const Model&, int body);
 
 bool holds(const Party&, int body);
 
+bool is_two_wheeler(const Model&, const Party&);
+
 double mass_of(const Model&, const Party&);
 Vec3 centre_of_mass(const Model&, const Party&, const Snapshot&);
 Vec3 velocity_of(const Model&, const Party&, const Snapshot&);

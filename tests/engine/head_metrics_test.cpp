@@ -155,6 +155,25 @@ TEST(HeadMetrics, WrapAroundHangsOnHowTheyMetAndNotOnHowTheHeadComesDown) {
   EXPECT_NEAR(value_of(out, "wrap_around_distance_m").value(), 1.0 + 1.5, kAlmost);
 }
 
+/// The names of panels are those of cars, and wheels have none: what is not told has a reason.
+TEST(HeadMetrics, ATwoWheelerHasNoPanelsOfCarsAndSaysSo) {
+  for (const std::size_t wheels : {1u, 2u}) {
+    Model model = person_and_car();
+    MeshShape shape{box({-2, -0.8, -0.2}, {2, 0.8, 0.5}), Pose{}};
+    shape.panels = std::make_shared<const Panels>(Panels(shape.mesh->triangles().size(), Panel::rear));
+    model.bodies[kCar].shape = shape;
+    model.vehicles[0].wheels.resize(wheels, model.vehicles[0].wheels[0]);
+    const Recording run = head_on_bonnet();
+    std::vector<Metric> out;
+    measure_head(model, run, 0, out);
+    const std::vector<AbsentMetric> absent = absent_metrics(model, run, out);
+    const auto named = [](const auto& m) { return m.key == "head_impact_panel"; };
+    EXPECT_EQ(std::any_of(out.begin(), out.end(), named), wheels == 1);
+    EXPECT_EQ(std::any_of(absent.begin(), absent.end(), named), wheels == 2);
+    EXPECT_FALSE(value_of(out, "wrap_around_distance_m")) << "behind the front there is no tape, named or not";
+  }
+}
+
 TEST(HeadMetrics, NoTapeGoesToAWindowAtTheSide) {
   for (const Panel panel : {Panel::bonnet, Panel::side_window}) {
     Model model = person_and_car();
