@@ -142,7 +142,7 @@ Json impacts_json(const std::vector<engine::Impact>& impacts) {
       row[key("yaw_rate", "before_radps")] = number_json(s->yaw_rate_before);
       row[key("yaw_rate", "after_radps")] = number_json(s->yaw_rate_after);
     }
-    row["energy_lost_J"] = i.energy_lost;
+    row["energy_lost_J"] = number_json(i.energy_lost);
     if (*i.ees_rule) row["ees_rule"] = i.ees_rule;
     out.push_back(row);
   }

@@ -294,6 +294,7 @@ Impact impact_of(const Model& model, const Recording& recording, const Pair& pai
   Impact out;
   out.span = span;
   out.time = sum_contacts(recording, pair, span, out);
+  if (out.energy_lost < 0) out.energy_lost = kUnknown;
   const Snapshot& before = recording.snapshots[span.first > 0 ? span.first - 1 : 0];
   out.duration = duration_of(recording, pair, span, out.time);
   out.a = side_of(model, recording, pair.a, span);

@@ -54,7 +54,8 @@ struct Impact {
   Vec3 impulse = Vec3::Zero();       // [N s] on a, world
   double friction_used = kUnknown;   // [-] tangential over normal impulse, each contact along its own surface
   double friction_limit = kUnknown;  // [-] most it could have been: coefficient of the surfaces and what a dent adds
-  double energy_lost = 0;            // [J] deformation and friction between the two
+  double energy_lost = 0;            // [J] deformation and friction between the two. Unknown where more came back: what an
+                                     // earlier phase stored, or what pushing a depth apart gave
   const char* ees_rule = "";         // how that was shared: "by stiffness", "by mass", "all to the one that moves"
   const char* no_ees = "";           // why none is told of either; empty: it is
 };

@@ -129,6 +129,12 @@ TEST(ImpactTable, ARidersEnergyIsNotThatOfTheMountAlone) {
   EXPECT_THAT(held.no_ees, testing::HasSubstr("coupled"));
 }
 
+TEST(ImpactTable, NoCollisionIsSaidToLoseLessThanNothing) {
+  EXPECT_TRUE(std::isnan(car_against_block(500, -1.5).at(0).energy_lost));
+  EXPECT_STREQ(car_against_block(500, -1.5).at(0).ees_rule, "");
+  EXPECT_EQ(car_against_block(500, 0).at(0).energy_lost, 0);
+}
+
 TEST(ImpactTable, FrictionIsThatOfEachContactAlongItsOwnSurface) {
   // a limb lies in an edge: two faces at right angles, each with half of the friction it could have; dents make it 0.4 and 0.6
   Model model = person_and_car();
