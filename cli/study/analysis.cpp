@@ -103,6 +103,16 @@ void ask_second_scheme(const Study& study, Judgement& judgement, const std::vect
   }
 }
 
+/// Where the spread swamps what the step does, medians settle the width; but what is printed is the scene's own answer, and its
+/// range holds those of this and finer steps too.
+void hold_own_answers(const SeriesResult& ladder, Judgement& judgement, const std::vector<std::size_t>& at) {
+  const auto own = [&](std::size_t k) { return ladder.settings[at[k]].answers.at(judgement.quantity).value; };
+  const std::size_t n = at.size(), third = n > 3 ? n - 3 : 0;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = std::min(i, third); k < n; ++k)
+      judgement.convergence.band[i] = std::max(judgement.convergence.band[i], std::abs(own(k) - own(i)));
+}
+
 void settle_reference(Judgement& judgement, const std::vector<Level>& levels, const std::map<std::string, double>& closed_form) {
   const Convergence& c = judgement.convergence;
   judgement.reference = c.limit;
@@ -262,6 +272,7 @@ void judge(Study& study, const std::map<std::string, double>& closed_form) {
     if (levels.size() < 2) continue;
     judgement.convergence = converge(levels);
     ask_second_scheme(study, judgement, levels);
+    if (judgement.cloud) hold_own_answers(ladder, judgement, at);
     for (std::size_t i = 0; i < levels.size(); ++i)
       judgement.convergence.band[i] = std::min(judgement.convergence.band[i], widest_error(name, levels[i].value));
     if (!judgement.cloud && !is_defect(name)) judgement.besides = besides_the_step(study, name);

@@ -145,6 +145,27 @@ TEST(Judge, ARangeOfTwoSchemesIsWhatBothSpan) {
   EXPECT_NEAR(study.series[0].settings[0].answers.at("travel_m").uncertainty, 17.4 - 14, 1e-9);
 }
 
+/// A head criterion jumps from step to step while the medians of its ensembles stand still: the range holds the runs themselves.
+TEST(Judge, ARangeHoldsTheOwnAnswersOfFinerStepsWhereMediansStandStill) {
+  Study study;
+  SeriesResult ladder;
+  ladder.series.steps = true;
+  const double own[] = {470, 465, 468, 430, 455}, middle[] = {455, 454, 453, 453.5, 453.2};
+  for (int k = 0; k < 5; ++k) {
+    SettingResult result;
+    result.setting.fineness = 4e-3 / std::pow(2.0, k);
+    result.setting.members = 8;
+    result.answers["hic15"] = {true, own[k], own[k] - 15, own[k] + 15, middle[k], 0, 0};
+    ladder.settings.push_back(result);
+  }
+  study.series.push_back(ladder);
+  judge(study, {});
+  const auto width = [&](std::size_t k) { return study.series[0].settings[k].answers.at("hic15").uncertainty; };
+  EXPECT_GE(width(2), 468 - 430);
+  EXPECT_GE(width(0), 470 - 430);
+  EXPECT_GE(width(4), 455 - 430);
+}
+
 /// Two angles between 0 and 180 degrees are never farther apart than that, whatever two schemes say.
 TEST(Judge, NoErrorIsWiderThanItsMeasure) {
   Study study;
