@@ -277,14 +277,36 @@ double duration_of(const Recording& recording, const Pair& pair, const Stretch& 
   return last - from;
 }
 
-/// What the pair alone did to each: all there is to tell of a person or an object.
-void tell_shares(const Model& model, const Pair& pair, Impact& impact) {
+/// Velocity [m/s] that all who struck a person or an object gave it in a phase, walls too: a car presses who stands between it and
+/// another with twice what both change. Not what bears it, nor what it holds.
+Vec3 given_to(const Model& model, const Recording& recording, const Party& party, const Stretch& span) {
+  std::map<int, double> held;  // [s] by the first body of who is joined to it
+  Vec3 impulse = Vec3::Zero();
+  for (std::size_t i = span.first; i <= span.last; ++i)
+    for (const ContactRecord& c : recording.snapshots[i].contacts) {
+      const bool first = holds(party, c.body_a);
+      if (c.body_b < 0 || first == holds(party, c.body_b) || c.impulse.isZero(0)) continue;
+      const int other = first ? c.body_b : c.body_a;
+      if (is_ground(model, c.shapes, other, first ? c.normal : Vec3(-c.normal))) continue;
+      if (model.bodies[other].vehicle < 0) {
+        const Party partner = party_of(model, other);
+        const auto [known, is_new] = held.try_emplace(partner.bodies.front(), -1);
+        if (is_new) known->second = joined_until(model, recording, party, partner).value_or(-1);
+        if (recording.snapshots[i].time <= known->second) continue;
+      }
+      impulse += push_on(party, c);
+    }
+  return impulse / mass_of(model, party);
+}
+
+/// What the pair alone did to each; of a person or an object also what others did meanwhile.
+void tell_shares(const Model& model, const Recording& recording, const Pair& pair, Impact& impact) {
   const auto tell = [&](ImpactSide& side, const Vec3& impulse) {
     if (model.bodies[side.party.bodies.front()].fixed) return;
     side.own_delta_v = impulse / mass_of(model, side.party);
+    if (side.party.vehicle < 0) side.delta_v = given_to(model, recording, side.party, impact.span);
     // things fall on heads: without a vehicle there is no plane that the blow lies in
-    if (has_vehicle(pair)) side.own_delta_v.z() = 0;
-    if (side.party.vehicle < 0) side.delta_v = side.own_delta_v;
+    if (has_vehicle(pair)) side.own_delta_v.z() = side.delta_v.z() = 0;
   };
   tell(impact.a, impact.impulse);
   tell(impact.b, -impact.impulse);
@@ -299,7 +321,7 @@ Impact impact_of(const Model& model, const Recording& recording, const Pair& pai
   out.duration = duration_of(recording, pair, span, out.time);
   out.a = side_of(model, recording, pair.a, span);
   out.b = side_of(model, recording, pair.b, span);
-  tell_shares(model, pair, out);
+  tell_shares(model, recording, pair, out);
   if (const ContactRecord* first = earliest_of(pair, recording.snapshots[touch])) {
     out.a.part = holds(pair.a, first->body_a) ? first->body_a : first->body_b;
     out.b.part = holds(pair.a, first->body_a) ? first->body_b : first->body_a;

@@ -26,8 +26,8 @@ struct ImpactSide {
   double speed_before = kUnknown, speed_after = kUnknown;        // [m/s] of the centre of mass
   double yaw_rate_before = kUnknown, yaw_rate_after = kUnknown;  // [rad/s] about the vertical
   // [m/s] world; in the plane of the road where a vehicle takes part. Of a vehicle the change of velocity in the phase, less what
-  // tyres and gravity did meanwhile: what a third one did is in it. Of others the same as own_delta_v: who stands or lies is borne
-  // by the ground meanwhile, and that is no blow.
+  // tyres and gravity did meanwhile: what a third one did is in it. Of others what all who struck it gave it meanwhile: who stands
+  // or lies is borne by the ground, and that is no blow.
   Vec3 delta_v = Vec3::Zero();
   Vec3 own_delta_v = Vec3::Zero();  // [m/s] world: impulse of this pair alone over the mass
   double pdof = kUnknown;           // [deg] vehicles only, and only of one that stands on its wheels

@@ -337,6 +337,32 @@ TEST(ImpactTable, APersonsDeltaVIsWhatThePairGaveIt) {
   EXPECT_NEAR(car.own_delta_v.norm(), given / model.bodies[kCar].mass, 1e-12);
 }
 
+/// A car presses a person of 40 kg with 200 N s against a wall, which gives 180 back: they change their velocity by 0.5 m/s, and
+/// not by 5. What they stand on is no blow, whether ground or pavement.
+TEST(ImpactTable, WhoIsPressedFromTwoSidesHasTheDeltaVOfBoth) {
+  constexpr int kWall = 3, kPavement = 4;
+  Model model = person_and_car();
+  model.bodies.resize(5);
+  model.bodies[kWall].fixed = model.bodies[kPavement].fixed = true;
+  Recording run = standing_still(20);
+  for (Snapshot& s : run.snapshots) s.bodies.own().resize(5);
+  const auto with_normal = [](ContactRecord c, const Vec3& normal) {
+    c.normal = normal;
+    return c;
+  };
+  run.snapshots[5].contacts = {
+      with_normal(push(kHips, kCar, kOnVehicle, {200, 0, 0}), Vec3::UnitX()),
+      with_normal(push(kHips, kWall, kOnVehicle, {-180, 0, 0}), -Vec3::UnitX()),
+      with_normal(push(kHips, kPavement, kOnVehicle, {-30, 0, 40}), Vec3::UnitZ()),
+  };
+  const std::vector<Impact> impacts = impacts_of(model, run);
+  const auto with_car =
+      std::find_if(impacts.begin(), impacts.end(), [](const Impact& i) { return i.a.party.vehicle == 0 && i.b.party.person == 0; });
+  ASSERT_NE(with_car, impacts.end());
+  EXPECT_NEAR(with_car->b.delta_v.x(), 0.5, kAlmost);
+  EXPECT_NEAR(with_car->b.own_delta_v.x(), 5, kAlmost);
+}
+
 TEST(ImpactTable, AFixtureStrikesNobody) {
   Model model = person_and_log();
   model.bodies[kLog].fixed = true;
