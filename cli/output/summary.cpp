@@ -339,6 +339,18 @@ std::string decided(const engine::Metric& metric, const std::vector<engine::Metr
   return ", of " + name + (came_down ? ": scatters widely" : "");
 }
 
+/// Beside a criterion of one kind of touch: when its window begins, and by whom.
+std::string struck_at(const engine::Metric& metric, const std::vector<engine::Metric>& all) {
+  if (metric.key != "hic15_vehicle" && metric.key != "hic15_ground" && metric.key != "hic15_object") return "";
+  std::string when, by;
+  for (const engine::Metric& m : all) {
+    if (m.object != metric.object) continue;
+    if (m.key == metric.key + "_s") when = fmt::format(" at {:.3f} s", m.value);
+    if (m.key == metric.key + "_by" && metric.key != "hic15_ground") by = ", by " + m.text;
+  }
+  return when + by;
+}
+
 /// Beside the way of who came down and was taken along again: no friction follows from it.
 const char* dragged(const engine::Metric& metric, const scenes::Scene& scene, const engine::Recording& recording) {
   if (metric.key != "slide_m") return "";
@@ -401,11 +413,11 @@ std::string summary_text(const scenes::Scene& scene, const engine::Recording& re
     const engine::Definition* known = engine::definition_of(metric.key);
     if (!is_shown(metric, known, absent)) continue;
     line(metric.object.empty() ? metric.key : metric.key + " " + metric.object,
-         metric.text.empty()
-             ? digits_of(metric, known, is_person(scene, metric.object)) + decided(metric, metrics, scene, recording) +
-                   (is_so_far(metric, metrics, absent) ? " so far, still moving at the end" : "") + backwards(metric) +
-                   dragged(metric, scene, recording)
-             : metric.text);
+         metric.text.empty() ? digits_of(metric, known, is_person(scene, metric.object)) + struck_at(metric, metrics) +
+                                   decided(metric, metrics, scene, recording) +
+                                   (is_so_far(metric, metrics, absent) ? " so far, still moving at the end" : "") +
+                                   backwards(metric) + dragged(metric, scene, recording)
+                             : metric.text);
   }
   // whose it is, where another has it
   std::vector<std::string> missing_names;

@@ -1,5 +1,6 @@
 // Head injury criteria, of the whole course and of what the head did against each partner.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -8,15 +9,17 @@
 
 namespace engine {
 
-double hic(const std::vector<double>& t, const std::vector<double>& a, double window) {
+HicWindow hic_window(const std::vector<double>& t, const std::vector<double>& a, double window) {
   std::vector<double> sum(t.size(), 0);
   for (std::size_t i = 1; i < t.size(); ++i) sum[i] = sum[i - 1] + a[i] * (t[i] - t[i - 1]);
-  double best = 0;
+  HicWindow best;
   for (std::size_t i = 0; i < t.size(); ++i)
     for (std::size_t k = i + 1; k < t.size() && t[k] - t[i] <= window * (1 + 1e-9); ++k) {
       const double span = t[k] - t[i];
       const double mean = (sum[k] - sum[i]) / span;
-      if (mean > 0) best = std::max(best, span * mean * mean * std::sqrt(mean));  // mean^2.5, without the powers of any exponent
+      if (mean <= 0) continue;
+      const double value = span * mean * mean * std::sqrt(mean);  // mean^2.5, without the powers of any exponent
+      if (value > best.value) best = {value, t[i], t[k]};
     }
   return best;
 }
@@ -51,21 +54,20 @@ constexpr double kAround = 0.005;  // [s] kept before and after a touch: windows
 /// ground counts as ground. object: what is thrown, dropped or carried, and other persons.
 enum class Partner { none, vehicle, ground, object };
 
+Partner partner_of(const Model& model, const ContactRecord& c, int head) {
+  if (c.body_a != head && c.body_b != head) return Partner::none;
+  const int other = c.body_a == head ? c.body_b : c.body_a;
+  if (c.shapes.on_ground() || is_fixture(model, other)) return Partner::ground;
+  if (c.shapes.on_vehicle()) return Partner::vehicle;
+  return model.bodies[other].person != model.bodies[head].person ? Partner::object : Partner::none;
+}
+
 Partner partner_in(const Model& model, const Snapshot& s, int head) {
-  double by_vehicle = 0, by_ground = 0, by_object = 0;
-  for (const ContactRecord& c : s.contacts) {
-    if (c.body_a != head && c.body_b != head) continue;
-    const int other = c.body_a == head ? c.body_b : c.body_a;
-    if (c.shapes.on_ground() || is_fixture(model, other))
-      by_ground += c.normal_impulse;
-    else if (c.shapes.on_vehicle())
-      by_vehicle += c.normal_impulse;
-    else if (model.bodies[other].person != model.bodies[head].person)
-      by_object += c.normal_impulse;
-  }
-  if (std::max({by_vehicle, by_ground, by_object}) <= 0) return Partner::none;
-  if (by_vehicle >= std::max(by_ground, by_object)) return Partner::vehicle;
-  return by_ground >= by_object ? Partner::ground : Partner::object;
+  std::array<double, 4> pushed{};  // [N s]
+  for (const ContactRecord& c : s.contacts)
+    if (const Partner partner = partner_of(model, c, head); partner != Partner::none)
+      pushed[static_cast<std::size_t>(partner)] += c.normal_impulse;
+  return static_cast<Partner>(std::max_element(pushed.begin(), pushed.end()) - pushed.begin());
 }
 
 /// Times at which the head is pushed by the partner wanted, neighbours run together. They reach not into the other's.
@@ -102,7 +104,9 @@ Course course_in(const HeadMotion& head, const Span& span) {
 }
 
 struct Criteria {
-  double hic15 = 0, hic36 = 0, clip = 0;
+  HicWindow hic15;
+  double hic36 = 0, clip = 0;
+  Span worst;  // of hic15
   bool any = false;
 };
 
@@ -113,11 +117,34 @@ Criteria criteria(const HeadMotion& head, const std::vector<Span>& spans) {
     const Course c = course_in(head, span);
     if (c.time.size() < 2) continue;
     out.any = true;
-    out.hic15 = std::max(out.hic15, hic(c.time, c.acceleration, 0.015));
+    if (const HicWindow of = hic_window(c.time, c.acceleration, 0.015); of.value > out.hic15.value)
+      out.hic15 = of, out.worst = span;
     out.hic36 = std::max(out.hic36, hic(c.time, c.acceleration, 0.036));
     out.clip = std::max(out.clip, three_ms_clip(c.time, c.acceleration));
   }
   return out;
+}
+
+/// Who of one kind pushed the head hardest in a stretch.
+StruckAtWorst hardest_in(const Model& model, const Recording& recording, int head, Partner wanted, const Span& span) {
+  std::map<int, double> pushed, upwards;  // [N s] by body
+  for (const Snapshot& s : recording.snapshots)
+    for (const ContactRecord& c : s.contacts) {
+      if (s.time <= span.from || s.time > span.to || partner_of(model, c, head) != wanted) continue;
+      const int other = c.body_a == head ? c.body_b : c.body_a;
+      pushed[other] += c.normal_impulse;
+      upwards[other] += bears(c.normal) ? c.normal_impulse : 0;
+    }
+  const auto hardest =
+      std::max_element(pushed.begin(), pushed.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (hardest == pushed.end()) return {};
+  return {hardest->first, upwards[hardest->first] > 0.5 * hardest->second};
+}
+
+std::string name_of_party(const Model& model, int body) {
+  if (body < 0) return "the road";
+  const Party party = party_of(model, body);
+  return party.person >= 0 ? model.persons[party.person].name : model.bodies[party.bodies.front()].name;
 }
 
 }  // namespace
@@ -126,18 +153,8 @@ StruckAtWorst struck_at_worst(const Model& model, const Recording& recording, in
   const int part = model.persons[p].head;
   for (const HeadMotion& head : recording.heads) {
     if (head.person != p) continue;
-    Span worst;
-    double most = 0;
-    for (const Span& span : touches(model, recording, part, Partner::ground))
-      if (const double hic15 = criteria(head, {span}).hic15; hic15 > most) most = hic15, worst = span;
-    std::map<int, double> pushed, upwards;  // [N s] by body
-    for (const Snapshot& s : recording.snapshots)
-      for (const ContactRecord& c : s.contacts)
-        if (c.body_a == part && s.time > worst.from && s.time <= worst.to && (c.shapes.on_ground() || is_fixture(model, c.body_b)))
-          pushed[c.body_b] += c.normal_impulse, upwards[c.body_b] += bears(c.normal) ? c.normal_impulse : 0;
-    const auto hardest =
-        std::max_element(pushed.begin(), pushed.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (hardest != pushed.end()) return {hardest->first, upwards[hardest->first] > 0.5 * hardest->second};
+    const Criteria ground = criteria(head, touches(model, recording, part, Partner::ground));
+    return hardest_in(model, recording, part, Partner::ground, ground.worst);
   }
   return {};
 }
@@ -154,18 +171,22 @@ void measure_injury(const Model& model, const Recording& recording, int p, std::
       if (!spans->empty()) first = std::min(first, spans->front().from);
     if (first == 1e300) return;
     const Criteria whole = criteria(head, {{first, 1e300}});
-    out.push_back({"hic15", person.name, whole.hic15});
+    out.push_back({"hic15", person.name, whole.hic15.value});
     out.push_back({"hic36", person.name, whole.hic36});
     out.push_back({"three_ms_g", person.name, whole.clip});
-    const auto note = [&](const std::vector<Span>& spans, const char* hic15, const char* clip) {
+    const auto note = [&](const std::vector<Span>& spans, Partner partner, const std::string& name) {
       const Criteria of = criteria(head, spans);
       if (!of.any) return;
-      out.push_back({hic15, person.name, of.hic15});
-      out.push_back({clip, person.name, of.clip});
+      out.push_back({"hic15_" + name, person.name, of.hic15.value});
+      out.push_back({"three_ms_" + name + "_g", person.name, of.clip});
+      if (!(of.hic15.value > 0)) return;
+      out.push_back({"hic15_" + name + "_s", person.name, of.hic15.from});
+      const int by = hardest_in(model, recording, person.head, partner, of.worst).body;
+      out.push_back({"hic15_" + name + "_by", person.name, 0, name_of_party(model, by)});
     };
-    note(car, "hic15_vehicle", "three_ms_vehicle_g");
-    note(road, "hic15_ground", "three_ms_ground_g");
-    note(thing, "hic15_object", "three_ms_object_g");
+    note(car, Partner::vehicle, "vehicle");
+    note(road, Partner::ground, "ground");
+    note(thing, Partner::object, "object");
   }
 }
 

@@ -72,10 +72,20 @@ void measure_vehicle(const Model&, const Recording&, const std::vector<Impact>&,
 /// rest.
 void measure_rollover(const Model&, const Recording&, const std::vector<Impact>&, int vehicle, std::vector<Metric>&);
 
+/// A head injury criterion, and where it has it.
+struct HicWindow {
+  double value = 0;
+  double from = 0, to = 0;  // [s] of the window that gives it
+};
+
 /// Head injury criterion: max over windows of at most `window` [s] of (t2 - t1) (mean of a)^2.5. a [g] of an index is the mean over
 /// the time since the one before, that of the first is not looked at: the integral is the change of speed. Windows begin and end at
 /// the times given.
-double hic(const std::vector<double>& times, const std::vector<double>& acceleration_g, double window);
+HicWindow hic_window(const std::vector<double>& times, const std::vector<double>& acceleration_g, double window);
+
+inline double hic(const std::vector<double>& times, const std::vector<double>& acceleration_g, double window) {
+  return hic_window(times, acceleration_g, window).value;
+}
 
 /// Largest level [g] that is held for 3 ms without a break, by the same means.
 double three_ms_clip(const std::vector<double>& times, const std::vector<double>& acceleration_g);

@@ -20,7 +20,7 @@ TEST(Simulate, PrintsNoMoreDigitsThanAMeasureBears) {
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, testing::ContainsRegex("head_impact_s pedestrian +[0-9]\\.[0-9][0-9][0-9]\n"));
   EXPECT_THAT(result.out, testing::ContainsRegex("wrap_around_distance_m pedestrian [0-9]\\.[0-9][0-9]\n"));
-  EXPECT_THAT(result.out, testing::ContainsRegex("hic15_vehicle pedestrian +[0-9]+\n"));
+  EXPECT_THAT(result.out, testing::ContainsRegex("hic15_vehicle pedestrian +[0-9]+ at 0\\.[0-9]{3} s, by sedan\n"));
   EXPECT_THAT(result.out, testing::ContainsRegex("pdof_deg sedan +[0-9]+\\.[0-9]\n"));
   // the head has struck the bonnet, and its blow is the worst: nothing is the road's
   EXPECT_THAT(result.out, testing::ContainsRegex("hic15 pedestrian +[0-9]+\n"));
@@ -58,7 +58,7 @@ TEST(Simulate, NamesTheWallThatDecidedAHeadInjuryCriterion) {
                      shape);
     const Result result = run(folder, {"simulate", "a.toml", "-o", "out", "--overwrite"});
     ASSERT_EQ(result.code, 0) << result.err;
-    EXPECT_THAT(result.out, testing::ContainsRegex("hic15_ground p +[0-9]+, of wall\n")) << shape;
+    EXPECT_THAT(result.out, testing::ContainsRegex("hic15_ground p +[0-9]+ at 0\\.[0-9]{3} s, of wall\n")) << shape;
     EXPECT_THAT(result.out, testing::Not(testing::HasSubstr("of the road"))) << shape;
   }
 }

@@ -84,6 +84,12 @@ inline std::optional<double> value_of(const std::vector<Metric>& metrics, const 
   return std::nullopt;
 }
 
+inline std::string text_of(const std::vector<Metric>& metrics, const std::string& key) {
+  for (const Metric& m : metrics)
+    if (m.key == key) return m.text;
+  return "";
+}
+
 constexpr ShapePair kOnGround{}, kOnVehicle{ShapeKind::round, ShapeKind::mesh}, kVehicles{ShapeKind::mesh, ShapeKind::mesh};
 
 inline ContactRecord push(int a, int b, const ShapePair& shapes, const Vec3& impulse) {

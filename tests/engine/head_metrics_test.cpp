@@ -227,6 +227,7 @@ TEST(HeadMetrics, TapeGoesOverNothingThatLiesAboveTheHead) {
 
 TEST(HeadMetrics, CriteriaAreToldApartByPartner) {
   Model model = person_and_car();
+  model.bodies[kCar].name = "sedan";
   model.settings.contact_law = ContactLaw::compliant;
   Recording run;
   run.interval = 0.005;
@@ -252,6 +253,11 @@ TEST(HeadMetrics, CriteriaAreToldApartByPartner) {
   EXPECT_NEAR(value_of(out, "hic15_vehicle").value(), 829.3, 1);
   EXPECT_NEAR(value_of(out, "hic15_ground").value(), 414.6, 1);
   EXPECT_EQ(value_of(out, "hic15"), value_of(out, "hic15_vehicle"));
+  // the best window of a half sine is its middle 0.664, where the criterion is flat: to two samples
+  EXPECT_NEAR(value_of(out, "hic15_vehicle_s").value(), 0.2 + 0.168 * 0.02, 2.1e-4);
+  EXPECT_NEAR(value_of(out, "hic15_ground_s").value(), 0.6 + 0.168 * 0.01, 2.1e-4);
+  EXPECT_EQ(text_of(out, "hic15_vehicle_by"), "sedan");
+  EXPECT_EQ(text_of(out, "hic15_ground_by"), "the road");
   run.snapshots[41].contacts.clear();
   for (Snapshot& s : run.snapshots) std::erase_if(s.contacts, [](const ContactRecord& c) { return c.shapes.on_vehicle(); });
   out.clear();
@@ -323,11 +329,13 @@ TEST(HeadMetrics, ABlowByAnObjectIsOneOfAnObject) {
     model.vehicles.clear();
     model.bodies[kCar].vehicle = -1;
     model.bodies[kCar].person = own ? 0 : -1;
+    model.bodies[kCar].name = "brick";
     model.bodies[kCar].shape = HyperEllipsoid{};
     const Recording run = pushed_at_50_g(push(kCar, kHead, {ShapeKind::round, ShapeKind::round}, {5, 0, 0}));
     std::vector<Metric> out;
     measure_injury(model, run, 0, out);
     EXPECT_EQ(value_of(out, "hic15_object").has_value(), !own);
+    EXPECT_EQ(text_of(out, "hic15_object_by"), own ? "" : "brick");
     EXPECT_EQ(value_of(out, "hic15").has_value(), !own);
     EXPECT_FALSE(value_of(out, "hic15_vehicle") || value_of(out, "hic15_ground"));
   }
@@ -338,11 +346,13 @@ TEST(HeadMetrics, AWallIsNoVehicleToAHead) {
   model.settings.contact_law = ContactLaw::compliant;
   model.bodies[kCar].vehicle = -1;
   model.bodies[kCar].fixed = true;
+  model.bodies[kCar].name = "wall";
   const Recording run = pushed_at_50_g(push(kHead, kCar, kOnVehicle, {5, 0, 0}));
   std::vector<Metric> out;
   measure_injury(model, run, 0, out);
   EXPECT_FALSE(value_of(out, "hic15_vehicle"));
   EXPECT_TRUE(value_of(out, "hic15_ground"));
+  EXPECT_EQ(text_of(out, "hic15_ground_by"), "wall");
 }
 
 TEST(HeadMetrics, StruckHeadSaysWhyItHasNoCriterion) {
