@@ -13,6 +13,7 @@
 #include "cli/output/recording_file.h"
 #include "cli/output/summary.h"
 #include "cli/process.h"
+#include "engine/measure/glance.h"
 #include "engine/simulate.h"
 #include "scenes/loader/value.h"
 
@@ -207,6 +208,7 @@ std::vector<std::string> warnings_of(const scenes::Scene& scene, const engine::R
   std::vector<std::string> out = recording.diagnostics.warnings, seen = scene.stage.warnings;
   for (const std::string& inside : inside_vehicles(scene.model)) seen.push_back(inside);
   for (const std::string& unfit : unfit_riders(scene.model)) seen.push_back(unfit);
+  for (const std::string& glance : engine::doubtful_glances(scene.model, recording)) seen.push_back(glance);
   for (const std::string& warning : seen)
     if (std::find(out.begin(), out.end(), warning) == out.end()) out.push_back(warning);
   return out;

@@ -100,7 +100,13 @@ std::vector<std::string> impact_lines(const engine::Model& model, const engine::
       ++later;
       continue;
     }
-    const std::string closing = std::isfinite(i.closing_speed) ? fmt::format("closing {:.2f} m/s, ", i.closing_speed) : "";
+    std::string closing;
+    if (std::isfinite(i.closing_speed)) {
+      constexpr double kSquare = 1.05;  // [-] less: they meet square
+      const bool aslant = i.relative_speed > kSquare * i.closing_speed;
+      closing = aslant ? fmt::format("relative {:.2f} m/s, of it closing {:.2f}, ", i.relative_speed, i.closing_speed)
+                       : fmt::format("closing {:.2f} m/s, ", i.closing_speed);
+    }
     out.push_back(fmt::format("{} / {}  {:.3f} s: {}delta-v {:.2f} / {:.2f} m/s", i.a.name, i.b.name, i.time, closing,
                               i.a.delta_v.norm(), i.b.delta_v.norm()));
   }

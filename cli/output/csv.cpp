@@ -97,7 +97,8 @@ void write_impacts(const std::vector<engine::Impact>& impacts, WholeFile& file) 
       "phase,time_s,duration_s,body_a,body_b,law,x_m,y_m,z_m,nx,ny,nz,closing_speed_mps,impulse_x_Ns,impulse_y_Ns,impulse_z_Ns,"
       "friction_used,friction_limit,delta_v_a_mps,delta_v_b_mps,pdof_a_deg,pdof_b_deg,ees_a_mps,ees_b_mps,speed_a_before_mps,"
       "speed_a_after_mps,speed_b_before_mps,speed_b_after_mps,yaw_rate_a_before_radps,yaw_rate_a_after_radps,"
-      "yaw_rate_b_before_radps,yaw_rate_b_after_radps,energy_lost_J,ees_rule,own_delta_v_a_mps,own_delta_v_b_mps\n");
+      "yaw_rate_b_before_radps,yaw_rate_b_after_radps,energy_lost_J,ees_rule,own_delta_v_a_mps,own_delta_v_b_mps,relative_speed_"
+      "mps\n");
   for (const engine::Impact& i : impacts) {
     std::string row = fmt::format("{},{},{},{},{},{}", i.phase, i.time, i.duration, field(i.a.name), field(i.b.name), i.law);
     for (const double value : {i.point.x(),
@@ -128,7 +129,8 @@ void write_impacts(const std::vector<engine::Impact>& impacts, WholeFile& file) 
                                i.b.yaw_rate_after,
                                i.energy_lost})
       row += "," + number(value);
-    file.write(row + "," + i.ees_rule + "," + number(i.a.own_delta_v.norm()) + "," + number(i.b.own_delta_v.norm()) + "\n");
+    file.write(row + "," + i.ees_rule + "," + number(i.a.own_delta_v.norm()) + "," + number(i.b.own_delta_v.norm()) + "," +
+               number(i.relative_speed) + "\n");
   }
 }
 

@@ -127,6 +127,7 @@ Json impacts_json(const std::vector<engine::Impact>& impacts) {
                 {"point_m", vector_json(i.point)},
                 {"normal", vector_json(i.normal)},
                 {"closing_speed_mps", number_json(i.closing_speed)},
+                {"relative_speed_mps", number_json(i.relative_speed)},
                 {"impulse_Ns", vector_json(i.impulse)},
                 {"friction_used", number_json(i.friction_used)},
                 {"friction_limit", number_json(i.friction_limit)}};

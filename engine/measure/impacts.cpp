@@ -101,6 +101,15 @@ double first_closing(const Recording& recording, const Pair& pair, std::size_t t
   return -(velocity_of_point(earliest->body_a, before, p) - velocity_of_point(earliest->body_b, before, p)).dot(earliest->normal);
 }
 
+/// How fast [m/s] the parts that touch first go past or towards each other there.
+double relative_speed_of(const Recording& recording, const Pair& pair, std::size_t touch, const Impact& impact) {
+  const Snapshot &before = recording.snapshots[touch > 0 ? touch - 1 : 0], &first = recording.snapshots[touch];
+  const ContactRecord* earliest = earliest_of(pair, first);
+  if (!earliest) return kUnknown;
+  const Vec3& p = has_person(pair) ? earliest->point : impact.point;
+  return (velocity_of_point(earliest->body_a, before, p) - velocity_of_point(earliest->body_b, before, p)).norm();
+}
+
 /// Snapshot of the touch that leads to a pair's first phase: a hand or a foot may be met first, and too softly to count. Along with
 /// the car since then, the part met next tells no closing speed any more.
 std::size_t touch_of(const Recording& recording, const std::vector<Vec3>& push, std::size_t first) {
@@ -332,6 +341,7 @@ Impact impact_of(const Model& model, const Recording& recording, const Pair& pai
   if (const auto told = told_closing(recording, out)) out.closing_speed = *told;
   // two that touch already and are pressed harder, as by a third one, or dragged: nothing closes
   if (!(out.closing_speed > 0)) out.closing_speed = kUnknown;
+  out.relative_speed = std::max(relative_speed_of(recording, pair, has_person(pair) ? touch : span.first, out), out.closing_speed);
   for (const ContactRecord& c : recording.snapshots[span.first].contacts) {
     if (!between(pair, c) || c.impulse.isZero(0)) continue;
     out.law = law_of(model, pair, c);

@@ -51,6 +51,7 @@ struct Impact {
   Vec3 normal = Vec3::UnitZ();       // unit, from b to a: of the contact plane, mean by impulse
   double closing_speed = kUnknown;   // [m/s] along the normal at the point, before; with a person those of the first touch. Of two
                                      // that touch already, and do not close, there is none
+  double relative_speed = kUnknown;  // [m/s] of which that is the part along the normal
   Vec3 impulse = Vec3::Zero();       // [N s] on a, world
   double friction_used = kUnknown;   // [-] tangential over normal impulse, each contact along its own surface
   double friction_limit = kUnknown;  // [-] most it could have been: coefficient of the surfaces and what a dent adds

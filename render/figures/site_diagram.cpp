@@ -39,6 +39,15 @@ std::vector<double> times_of_interest(const PersonFacts& p, const engine::Record
   return out;
 }
 
+bool leaves_mark(const engine::WheelRecord& wheel) {
+  return wheel.slip > kSkids && wheel.load > 0;
+}
+
+bool any_skids(const engine::Recording& recording) {
+  return std::any_of(recording.snapshots.begin(), recording.snapshots.end(),
+                     [](const engine::Snapshot& s) { return std::any_of(s.wheels.begin(), s.wheels.end(), leaves_mark); });
+}
+
 void draw_skids(cairo_t* c, const Site& site) {
   grey(c, 0.6);
   cairo_set_line_width(c, std::max(0.3, 1000 * 0.18 / site.plan.denominator));
@@ -47,7 +56,7 @@ void draw_skids(cairo_t* c, const Site& site) {
     bool open = false;
     for (const engine::Snapshot& s : snapshots) {
       const engine::WheelRecord& wheel = s.wheels[w];
-      const bool skids = wheel.slip > kSkids && wheel.load > 0;
+      const bool skids = leaves_mark(wheel);
       const Point2 p = site.plan.at(wheel.contact);
       if (skids && open)
         cairo_line_to(c, p.x(), p.y());
@@ -191,11 +200,11 @@ std::vector<LengthShown> all_dimensions(cairo_t* c, const Site& site) {
 constexpr double kKeyLine = 4.4, kKeyLetters = 2.9;  // [mm]
 constexpr double kDisc = 2.6;                        // [mm] radius of a number's circle
 
-/// A circle's number and its middle [mm], and how far to the right of the circle the name reaches.
+/// A circle's number and its middle [mm], the place it means, and how far to the right of the circle the name reaches.
 struct Numbered {
   const PersonFacts* person;
   int number;
-  Point2 at;
+  Point2 at, place;
   double name = 0;
 };
 
@@ -207,21 +216,26 @@ std::vector<Numbered> numbers_of(cairo_t* c, const Site& site) {
     const double name = site.job.persons.size() > 1 ? text_width(c, facts.name, kKeyLetters) + 1.6 : 0;
     int number = 0;
     for (const double t : times_of_interest(facts, site.recording)) {
-      Point2 p = site.plan.at(centre_of_mass(facts, site.recording, t)) + Point2(0, -11);
+      const Point2 place = site.plan.at(centre_of_mass(facts, site.recording, t));
+      Point2 p = place + Point2(0, -11);
       const auto taken = [&](const Numbered& other) {
         if (name <= 0) return (other.at - p).norm() < 2 * kDisc + 0.4;
         const bool beside = p.x() + name > other.at.x() - 2 * kDisc && other.at.x() + other.name > p.x() - 2 * kDisc;
         return beside && std::abs(other.at.y() - p.y()) < 2 * kDisc + 0.4;
       };
       while (std::any_of(out.begin(), out.end(), taken)) p.y() -= 1;
-      out.push_back({&facts, ++number, p, name});
+      out.push_back({&facts, ++number, p, place, name});
     }
   }
   return out;
 }
 
 void draw_numbers(cairo_t* c, const Site& site) {
-  for (const auto& [facts, number, p, name] : numbers_of(c, site)) {
+  const std::vector<Numbered> numbers = numbers_of(c, site);
+  grey(c, 0.3);
+  cairo_set_line_width(c, 0.15);
+  for (const Numbered& n : numbers) draw_line(c, n.at.x(), n.at.y(), n.place.x(), n.place.y());
+  for (const auto& [facts, number, p, place, name] : numbers) {
     if (name > 0) {
       cairo_set_source_rgb(c, 1, 1, 1);
       cairo_rectangle(c, p.x() + kDisc, p.y() - 1.6, name, 3.4);
@@ -314,6 +328,53 @@ void draw_key(cairo_t* c, const std::vector<std::string>& lines, double y) {
   }
 }
 
+bool is_vehicle(const Stage& stage, int body) {
+  return std::any_of(stage.wheels.begin(), stage.wheels.end(), [&](const WheelActor& w) { return w.body == body; });
+}
+
+/// Which vehicle an outline is, and by a chevron where its front is.
+void draw_name(cairo_t* c, const Site& site, const MeshActor& vehicle, const engine::Pose& X_WB) {
+  Point2 lower(1e9, 1e9), upper(-1e9, -1e9);  // [m] of the outline, body axes
+  for (const Point2& p : seen_from_above(*vehicle.mesh, vehicle.X_BM)) lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
+  const auto at = [&](double x, double y) { return site.plan.at(X_WB * Vec3(x, y, 0)); };
+  const double tip = upper.x() - 0.06 * (upper.x() - lower.x()), half = 0.16 * (upper.y() - lower.y()),
+               middle = 0.5 * (lower.y() + upper.y());
+  const Point2 front = at(tip, middle), left = at(tip - 2 * half, middle + half), right = at(tip - 2 * half, middle - half);
+  grey(c, 0.3);
+  cairo_set_line_width(c, 0.25);
+  draw_line(c, left.x(), left.y(), front.x(), front.y());
+  draw_line(c, right.x(), right.y(), front.x(), front.y());
+  const Point2 centre = at(0.5 * (lower.x() + upper.x()), middle), rear = at(lower.x(), middle), ahead = front - centre;
+  constexpr double kChevron = 4, kBehind = 3;  // [mm] beside a name within, from the rear to one without
+  const bool within = (front - rear).norm() > text_width(c, vehicle.name, kKeyLetters) + 2 * kChevron;
+  cairo_save(c);
+  if (within) {
+    cairo_translate(c, centre.x(), centre.y());
+    const double angle = std::atan2(ahead.y(), ahead.x());
+    cairo_rotate(c, std::abs(angle) > M_PI / 2 ? angle + M_PI : angle);
+    // beside its middle, where ways lead
+    const double width = 1000 / site.plan.denominator * (upper.y() - lower.y());
+    draw_text(c, 0, 1 - 0.22 * width, vehicle.name, kKeyLetters, Align::centre);
+  } else {
+    const Point2 back = -ahead.normalized(), p = rear + kBehind * back;
+    const Align align = back.x() > 0.5 ? Align::left : back.x() < -0.5 ? Align::right : Align::centre;
+    draw_text(c, p.x(), p.y() + 1, vehicle.name, kKeyLetters, align);
+  }
+  cairo_restore(c);
+}
+
+/// At both times; once where it stands for both.
+void draw_names(cairo_t* c, const Site& site, double first) {
+  for (const MeshActor& actor : site.stage.meshes) {
+    if (actor.body < 0 || !is_vehicle(site.stage, actor.body)) continue;
+    const engine::Snapshot end = site.recording.at(site.recording.end_time()), then = site.recording.at(first);
+    draw_name(c, site, actor, pose(end, actor.body));
+    const double apart = (site.plan.at(pose(end, actor.body).p) - site.plan.at(pose(then, actor.body).p)).norm();
+    constexpr double kOwnName = 12;  // [mm] apart
+    if (apart > kOwnName) draw_name(c, site, actor, pose(then, actor.body));
+  }
+}
+
 /// The ways of free bodies.
 void draw_body_paths(cairo_t* c, const Site& site) {
   grey(c, 0);
@@ -372,7 +433,8 @@ std::vector<std::string> site_diagram(const Stage& stage, const engine::Recordin
   if (lower.x() > upper.x()) return {};
   const Point2 around(kAround, kAround);
   std::vector<std::string> key = key_of(recording, job);
-  key.push_back(fmt::format("dashed: {:.3f} s, solid: {:.3f} s", hit, recording.end_time()));
+  key.push_back(fmt::format("dashed: {:.3f} s, solid: {:.3f} s{}", hit, recording.end_time(),
+                            any_skids(recording) ? fmt::format(", grey: tyre marks, slip above {} m/s", kSkids) : ""));
   return write_sheets(job.folder, "site_diagram", "Site diagram: " + stage.title, [&](cairo_t* c) {
     draw_frame_of_sheet(c, stage, "Site diagram");
     const double key_top = top_of_key(c, stage, key),
@@ -386,6 +448,7 @@ std::vector<std::string> site_diagram(const Stage& stage, const engine::Recordin
     draw_skids(c, site);
     draw_vehicles(c, stage, site.plan, recording.at(hit), {0.97, 1});
     draw_vehicles(c, stage, site.plan, recording.at(recording.end_time()), {0.90, 0});
+    draw_names(c, site, hit);
     draw_bodies(c, stage, site.plan, recording.at(hit), {0.97, 1});
     draw_bodies(c, stage, site.plan, recording.at(recording.end_time()), {0.90, 0});
     draw_body_paths(c, site);

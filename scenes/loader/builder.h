@@ -103,7 +103,9 @@ inline constexpr Key kSurfaceFrictionGround = bound<&engine::SurfaceProperties::
 inline constexpr Key kSurfaceRestitution =
     bound_to_both<&engine::SurfaceProperties::restitution_body, &engine::SurfaceProperties::restitution_ground>(
         {"restitution", Type::schedule, Dimension::none, "",
-         "Ratio of separating to closing normal speed, sets both kinds below. Of two objects the larger acts.", kShare});
+         "Ratio of separating to closing normal speed where contacts are rigid; where they yield (persons, and all with the "
+         "compliant law) the share of the energy that comes back. Sets both kinds below. Of two objects the larger acts.",
+         kShare});
 inline constexpr Key kSurfaceRestitutionBody = bound<&engine::SurfaceProperties::restitution_body>(
     {"restitution_body", Type::schedule, Dimension::none, "", "The same against every other object.", kShare});
 inline constexpr Key kSurfaceRestitutionGround = bound<&engine::SurfaceProperties::restitution_ground>(

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "engine/geometry/mesh_overlap.h"
+#include "engine/math/functions.h"
 #include "engine/measure/metrics.h"
 #include "tests/engine/experiment.h"
 
