@@ -61,6 +61,22 @@ TEST(Figure, OfSeveralStruckHasAContactMapAndASheetEach) {
   EXPECT_EQ(run(folder, draw).code, 2) << "they are there";
 }
 
+/// By the letters drawn: glyphs of an SVG by cairo are <use> elements.
+TEST(Figure, ASiteDiagramNamesItsVehiclesWhereTheyStoodAndStand) {
+  const auto letters_of = [](const std::string& name, const std::string& speed) {
+    const Folder folder;
+    folder.write("one.toml", "[simulation]\nduration = \"1 s\"\n[[vehicle]]\nname = \"" + name +
+                                 "\"\nmodel = \"sedan\"\nspeed = \"" + speed + "\"\n");
+    const Result result = run(folder, {"figure", "one.toml", "-o", "fig", "--size", "160x90", "--quality", "draft", "--quiet"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    const std::string svg = contents(folder / "fig/site_diagram.svg");
+    const std::regex use("<use ");
+    return std::distance(std::sregex_iterator(svg.begin(), svg.end(), use), std::sregex_iterator());
+  };
+  EXPECT_EQ(letters_of("abcde", "36 km/h") - letters_of("a", "36 km/h"), 2 * 4);
+  EXPECT_EQ(letters_of("abcde", "0 km/h") - letters_of("a", "0 km/h"), 4) << "once where it stays";
+}
+
 TEST(Figure, RefusesToReplaceUnlessAsked) {
   const Folder folder;
   folder.write("ball.toml", kBall);
