@@ -153,7 +153,8 @@ std::string shares_in_words(const std::vector<Share>& shares, const std::string&
                        : i % 2 == 0 ? ". Then "
                                     : ", ",
                        shares[i].source, with_unit(shares[i].width, unit));
-  return out + (inputs_given ? "." : ". Uncertain inputs are not counted: give their ranges with --input.");
+  return out + (inputs_given ? ". Contact law and other assumptions are not counted."
+                             : ". Neither uncertain inputs (--input) nor contact law and other assumptions are counted.");
 }
 
 /// Whether a better answer is worth its time: not where something else than numerics decides.

@@ -200,6 +200,9 @@ Quantity quantity_of(std::string_view text, Dimension wanted, Remedies remedies)
     const auto ended = [](std::string_view read) { return read.substr(0, read.find_last_not_of(' ') + 1); };
     last_unit = ended(at_unit.substr(0, at_unit.size() - t.size()));
     before = ended(text.substr(0, text.size() - t.size()));
+    // as plans and surveys tell grades: the rise over the way
+    if (wanted == Dimension::angle && last_unit == "%" && terms == 0)
+      return {0, fmt::format("is a grade, and must be an angle; write \"{:.4g} deg\"", std::atan(*number / 100) * 180 / M_PI), {}};
     if (!(unit.powers == line(wanted).powers)) return {0, must_be(wanted), {}};
     // "-5 ft 9 in" means -(5 ft 9 in)
     if (terms++ == 0) negative = std::signbit(*number);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <map>
@@ -31,10 +32,23 @@ std::string units_meant(double number, const Key& key) {
   return unit_examples(number, key.dimension, range.lower, range.upper);
 }
 
+/// Sections by other words for what they hold.
+std::string_view section_meant(std::string_view word) {
+  static constexpr std::array<std::string_view, 2> kWords[] = {
+      {"pedestrian", "[[person]]"},  {"human", "[[person]]"},  {"cyclist", "[[person]]"}, {"rider", "[[person]]"},
+      {"car", "[[vehicle]]"},        {"truck", "[[vehicle]]"}, {"bus", "[[vehicle]]"},    {"bicycle", "[[vehicle]]"},
+      {"motorcycle", "[[vehicle]]"}, {"object", "[[body]]"},   {"barrier", "[[body]]"},   {"wall", "[[body]]"},
+      {"collision", "[[impact]]"}};
+  for (const auto& [other, section] : kWords)
+    if (other == word) return section;
+  return "";
+}
+
 /// After a key no other is near to: the section it is, where it stands elsewhere; else the keys of this one, where they fit a line.
 std::string remedy_of_unknown(const std::string& key, const Section& section) {
   for (const Section* other : all_sections())
     if (!key.empty() && std::string_view(other->name).ends_with("." + key)) return fmt::format("; did you mean {}?", other->header);
+  if (section.name.empty() && !section_meant(key).empty()) return fmt::format("; did you mean {}?", section_meant(key));
   constexpr std::size_t kAtMost = 12;
   if (section.name.empty() || section.keys.size() > kAtMost || section.find("*"))
     return fmt::format("; the keys {} are in scenes/README.md",

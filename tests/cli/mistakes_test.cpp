@@ -212,6 +212,7 @@ TEST(Mistakes, AKeyInTheWrongPlaceIsToldItsPlace) {
     folder.write("a.toml", scene);
     return run(folder, {"check", "a.toml"}).err;
   };
+  EXPECT_THAT(told(car + "[[pedestrian]]\nname = \"p\"\n"), HasSubstr("pedestrian is not a known key; did you mean [[person]]?"));
   EXPECT_THAT(told(car + "[[driver]]\nfrom = \"1 s\"\n"), HasSubstr("driver is not a known key; did you mean [[vehicle.driver]]?"));
   EXPECT_THAT(told(car + "[[vehicle.driver]]\nfrom = \"1 s\"\ndeceleration = \"4 m/s^2\"\n"),
               HasSubstr("deceleration is not a known key; [[vehicle.driver]] has "));

@@ -50,6 +50,7 @@ TEST_P(Texts, ThatAreNoQuantityAreRefusedWithTheRemedy) {
 INSTANTIATE_TEST_SUITE_P(
     Slips, Texts,
     ::testing::Values(Refused{"40 kg", Dimension::speed, "must be a speed; write it like \"1 km/h\"; units: km/h, m/s, mph, ft/s"},
+                      Refused{"5 %", Dimension::angle, "is a grade, and must be an angle; write \"2.862 deg\""},
                       Refused{"40", Dimension::speed, "needs a unit: write \"40 km/h\" or \"11.1 m/s\""},
                       Refused{"40 kmh", Dimension::speed, "\"kmh\" is not a unit; did you mean \"40 km/h\"?"},
                       Refused{"nan m", Dimension::length, "must be a length; write it like \"1 m\"; units: m, cm, mm, km, ft, in"},
