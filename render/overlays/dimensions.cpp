@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "render/matrix.h"
+#include "render/overlays/movers.h"
 #include "render/overlays/registration.h"
 
 namespace render {
@@ -13,13 +14,19 @@ constexpr double kMark = 0.12;         // [m] half of an end mark
 constexpr double kAbove = 0.02;        // [m] over the ground
 const Float4 kDimensionColour{1, 1, 1, 1};
 
+/// The place of a body; of a person, whom the hips stand for, that of the centre of mass, as the throw is measured.
+Vec3 place_of(const Stage& stage, int body, const engine::Snapshot& s) {
+  for (const Mover& mover : stage.speeds)
+    if (mover.body == body) return centre_of(mover, s);
+  return s.bodies[static_cast<std::size_t>(body)].X_WB.p;
+}
+
 void add_one(const Frame& frame, const Dimension& d, DrawList& list) {
   Vec3 a = d.from, b = d.to;
   if (d.body >= 0) {
     if (frame.now.time <= d.since) return;
-    const auto body = static_cast<std::size_t>(d.body);
-    a = frame.recording.at(d.since).bodies[body].X_WB.p;
-    b = frame.now.bodies[body].X_WB.p;
+    a = place_of(frame.stage, d.body, frame.recording.at(d.since));
+    b = place_of(frame.stage, d.body, frame.now);
     a.z() = b.z() = frame.stage.road.height + kAbove;
   }
   const double length = (b - a).norm();

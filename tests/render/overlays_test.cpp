@@ -32,6 +32,19 @@ TEST(OverlayNumbers, ADimensionCountsTheWayOfItsBody) {
   EXPECT_TRUE(told);
 }
 
+/// A person's throw is that of the centre of mass: half of its mass stays where it is here.
+TEST(OverlayNumbers, ADimensionOfAPersonIsThatOfTheCentreOfMass) {
+  Stage s = made_stage();
+  s.overlays.dimensions = {{"way", 0, 0.2}};
+  s.speeds = {{0, "person", {{0, 1.0}, {1, 1.0}}}};
+  engine::Recording r = made_run();
+  for (engine::Snapshot& now : r.snapshots) now.bodies.own()[1].X_WB.p.setZero();
+  const DrawList list = arrange(s, r, {0.7, "side", 1}, 1.5);
+  bool told = false;
+  for (const LabelItem& label : list.labels) told |= label.lines[0] == "way 0.50 m";
+  EXPECT_TRUE(told);
+}
+
 TEST(OverlayNumbers, AMarkStaysOnBothWhereTheyTouched) {
   Stage s = made_stage();
   s.overlays.set("contact_history");
