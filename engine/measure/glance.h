@@ -13,7 +13,7 @@ namespace engine {
 double overlap_across(const Model&, const Snapshot&, int a, int b, const Vec3& point);
 
 /// A warning for each pair that met by Default-Auto on less than a quarter of a car's width and hooked, and for each that met on
-/// more by Kudlich-Slibar and slid off along a plane found automatically.
+/// more by Kudlich-Slibar and slid off along a plane found automatically. And for each of cars that met slowly without restitution.
 std::vector<std::string> doubtful_glances(const Model&, const Recording&);
 
 }  // namespace engine

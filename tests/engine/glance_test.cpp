@@ -75,6 +75,23 @@ TEST(Glance, RigidCornersThatHookAreWarnedOf) {
   EXPECT_THAT(told(-0.3, {-9000, -3000, 0}), testing::IsEmpty()) << "on half a metre both laws agree";
 }
 
+TEST(Glance, CarsThatMeetSlowlyWithoutRestitutionAreWarnedOf) {
+  const auto told = [](double speed, double restitution) {
+    Meeting m(-0.5, {-2000, 0, 0}, {-1, 0, 0});
+    for (Snapshot& s : m.run.snapshots)
+      for (const int b : {0, kOther}) s.bodies.own()[b].V_WB.v = {b == 0 ? speed : 0, 0, 0};
+    m.model.bodies[kOther].surface.restitution_body = restitution;
+    for (Vehicle& v : m.model.vehicles) {
+      v.wheels.resize(4);
+      for (std::size_t i = 0; i < 4; ++i) v.wheels[i].hub_B.y() = i % 2 == 0 ? 0.7 : -0.7;
+    }
+    return doubtful_glances(m.model, m.run);
+  };
+  EXPECT_THAT(told(2.8, 0), testing::ElementsAre(testing::HasSubstr("a and b met at low speed without restitution")));
+  EXPECT_THAT(told(2.8, 0.3), testing::IsEmpty());
+  EXPECT_THAT(told(10, 0), testing::IsEmpty());
+}
+
 /// Where the outlines of two that are a metre in each other cut is no face of either.
 TEST(Glance, APlaneFoundAutomaticallyThatTheySlideOffIsWarnedOf) {
   const Vec3 diagonal(-0.5, -std::sqrt(0.75), 0), flank(0, -1, 0);
