@@ -49,21 +49,61 @@ Finding look_for_driver(const Model& model) {
 /// The place of a path nearest to a point, seen from above: on which leg, as a share of its length.
 struct OnPath {
   std::size_t leg = 0;
-  double share = 0, distance = 1e300;  // [-], [m]
+  double share = 0, distance = 1e300, way = 0;  // [-], [m], [m] along the path from its start
 };
 
-/// Behind the end of the path the last leg goes on.
-OnPath nearest_on(const std::vector<Vec3>& path, const Vec3& at) {
+/// A stretch of the path, [m] along it from its start.
+struct PathStretch {
+  double from = 0, to = 1e300;
+};
+
+/// Of a stretch of the path. Behind the end of the path its last leg goes on as far as the stretch does.
+OnPath nearest_on(const std::vector<Vec3>& path, const Vec3& at, const PathStretch& within) {
   OnPath out;
+  double way = 0;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     const Vec3 d = (path[i + 1] - path[i]).cwiseProduct(Vec3(1, 1, 0));
     const bool last = i + 2 == path.size();
     const Vec3 from = (at - path[i]).cwiseProduct(Vec3(1, 1, 0));
-    const double s = std::clamp(from.dot(d) / d.squaredNorm(), 0.0, last ? 1e9 : 1.0);
-    const double distance = (from - s * d).norm();
-    if (distance < out.distance) out = {i, s, distance};
+    const double length = d.norm();
+    const double least = std::max(0.0, (within.from - way) / length), most = std::min(last ? 1e9 : 1.0, (within.to - way) / length);
+    if (least <= most) {
+      const double s = std::clamp(from.dot(d) / d.squaredNorm(), least, most);
+      const double distance = (from - s * d).norm();
+      if (distance < out.distance) out = {i, s, distance, way + s * length};
+    }
+    way += length;
   }
   return out;
+}
+
+/// How far along the path [m] who is set down there begins. A lap ends where it begins: of places about as near, along the
+/// vehicle's heading, the earliest.
+double start_on(const std::vector<Vec3>& path, const Pose& X) {
+  constexpr double kAsNear = 5;  // [m] a car's length: set down with its front or its middle at the start
+  const OnPath nearest = nearest_on(path, X.p, {});
+  double way = 0;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Vec3 d = (path[i + 1] - path[i]).cwiseProduct(Vec3(1, 1, 0));
+    const OnPath leg = nearest_on(path, X.p, {way, way + d.norm()});
+    if (leg.distance < nearest.distance + kAsNear && d.dot(X.q * Vec3::UnitX()) > 0) return leg.way;
+    way += d.norm();
+  }
+  return nearest.way;
+}
+
+/// The place nearest to who has been as far along the path as `reached` [m]. It is no earlier one, beyond what a driver who brakes
+/// falls back by, and none much further on than the driver looks: a path may cross itself or come back to where it was.
+OnPath place_on(const FollowedPath& path, const Vec3& at, double ahead, double& reached) {
+  constexpr double kBack = 2, kAhead = 10;  // [m]
+  const OnPath out = nearest_on(path.points, at, {reached - kBack, reached + std::max(kAhead, 2 * ahead)});
+  reached = std::max(reached, out.way);
+  return out;
+}
+
+/// [m] along the path, at that speed.
+double looks_ahead(const FollowedPath& path, double speed) {
+  return std::max(2.0, path.preview * speed);
 }
 
 /// Who is on the path and leaves it again, untouched: too fast for its bends.
@@ -72,15 +112,18 @@ LeftOut off_the_path(const Model& model, const Recording& run) {
   LeftOut out;
   for (std::size_t v = 0; v < model.vehicles.size(); ++v) {
     const Vehicle& vehicle = model.vehicles[v];
-    if (vehicle.path.points.size() < 2) continue;
+    if (vehicle.path.points.size() < 2 || run.snapshots.empty()) continue;
+    const auto body = static_cast<std::size_t>(vehicle.body);
     bool was_on = false;
-    double off = 0, when = 0;
+    double off = 0, when = 0, reached = start_on(vehicle.path.points, run.snapshots.front().bodies[body].X_WB);
     for (const Snapshot& s : run.snapshots) {
       const bool touched = std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
         return c.body_a == vehicle.body || c.body_b == vehicle.body;
       });
       if (touched) break;
-      const double distance = nearest_on(vehicle.path.points, s.bodies[static_cast<std::size_t>(vehicle.body)].X_WB.p).distance;
+      const BodyState& state = s.bodies[body];
+      const double distance =
+          place_on(vehicle.path, state.X_WB.p, looks_ahead(vehicle.path, state.V_WB.v.norm()), reached).distance;
       was_on = was_on || distance < kOn;
       if (was_on && distance > off) off = distance, when = s.time;
     }
@@ -102,9 +145,19 @@ Pose when_it_answers(const Pose& X, const Twist& V) {
   return {X.p + half * Vec3(kLag * V.v), half * half * X.q};
 }
 
+/// How far the driver of a path has got along it, and the wheel angle.
+struct OnTheWay {
+  double reached = 0, steer = 0;  // [m], [rad]
+
+  template <class S>
+  static auto fields(S& s) {
+    return std::tie(s.reached, s.steer);
+  }
+};
+
 /// Pure pursuit: the circle through the middle of the unsteered wheels, along the vehicle's axis, that meets the path a preview
 /// ahead. Behind the end of the path the last segment goes on.
-void steer_along_path(const Vehicle& vehicle, const Motion& state, double h, double& steer) {
+void steer_along_path(const Vehicle& vehicle, const Motion& state, double h, OnTheWay& driver) {
   const std::vector<Vec3>& path = vehicle.path.points;
   if (path.size() < 2) return;
   const Pose X = when_it_answers(state.X_WB[vehicle.body], state.V_WB[vehicle.body]);
@@ -117,8 +170,8 @@ void steer_along_path(const Vehicle& vehicle, const Motion& state, double h, dou
   const double wheelbase = front / count_front - rear / count_rear;
   const Vec3 at = X * Vec3(rear / count_rear, 0, 0);
   // nearest point of the path, then the preview along it
-  auto [segment, share, distance] = nearest_on(path, at);
-  const double ahead = std::max(2.0, vehicle.path.preview * state.V_WB[vehicle.body].v.norm());
+  const double ahead = looks_ahead(vehicle.path, state.V_WB[vehicle.body].v.norm());
+  auto [segment, share, distance, way] = place_on(vehicle.path, at, ahead, driver.reached);
   double left = ahead;
   for (;; ++segment, share = 0) {
     const double length = (path[segment + 1] - path[segment]).head<2>().norm();
@@ -131,7 +184,8 @@ void steer_along_path(const Vehicle& vehicle, const Motion& state, double h, dou
   const Vec3 goal_B = X.q.conjugate() * Vec3(path[segment] + share * (path[segment + 1] - path[segment]) - at);
   const double wanted = math::atan2(2 * wheelbase * goal_B.y(), goal_B.head<2>().squaredNorm());
   const double step = vehicle.path.rate * h;
-  steer = std::clamp(std::clamp(wanted, steer - step, steer + step), -vehicle.path.largest, vehicle.path.largest);
+  driver.steer =
+      std::clamp(std::clamp(wanted, driver.steer - step, driver.steer + step), -vehicle.path.largest, vehicle.path.largest);
 }
 
 /// Share of its vehicle's load that a wheel carried in the last step; before the first one, at rest.
@@ -164,13 +218,13 @@ double drive_of(const Vehicle& vehicle, int wheel, double t) {
   return force;
 }
 
-/// The wheel angles of drivers who follow a path.
+/// Of drivers who follow a path.
 struct DriverMemory {
-  std::vector<double> path_steer;  // [rad] per vehicle
+  std::vector<OnTheWay> on_path;  // per vehicle
 
   template <class S>
   static auto fields(S& s) {
-    return std::tie(s.path_steer);
+    return std::tie(s.on_path);
   }
 };
 
@@ -187,16 +241,23 @@ class Driver final : public EffectWith<DriverMemory> {
 
   Driver(const World&, int self) : EffectWith(self) {}
 
-  void begin(World& world, State& state) override { memory(state).path_steer.assign(world.model.vehicles.size(), 0); }
+  void begin(World& world, State& state) override {
+    std::vector<OnTheWay>& on_path = memory(state).on_path;
+    on_path.resize(world.model.vehicles.size());
+    for (std::size_t v = 0; v < on_path.size(); ++v) {
+      const Vehicle& vehicle = world.model.vehicles[v];
+      if (vehicle.path.points.size() > 1) on_path[v].reached = start_on(vehicle.path.points, state.X_WB[vehicle.body]);
+    }
+  }
 
   void before_step(World& world, State& state, double step) override {
-    std::vector<double>& path_steer = memory(state).path_steer;
+    std::vector<OnTheWay>& on_path = memory(state).on_path;
     for (std::size_t v = 0; v < world.model.vehicles.size(); ++v)
-      steer_along_path(world.model.vehicles[v], state, step, path_steer[v]);
+      steer_along_path(world.model.vehicles[v], state, step, on_path[v]);
     for (WheelState& wheel : state.wheels) {
       const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
       const bool follows = vehicle.path.points.size() > 1;
-      wheel.steer = follows ? path_steer[wheel.vehicle] : vehicle.steer.at(state.time);
+      wheel.steer = follows ? on_path[wheel.vehicle].steer : vehicle.steer.at(state.time);
       if (!vehicle.wheels[wheel.wheel].steered) wheel.steer = 0;
       wheel.brake = brake_of(vehicle, wheel.wheel, state.time, carried_share(state.wheels, wheel));
       wheel.drive = drive_of(vehicle, wheel.wheel, state.time);

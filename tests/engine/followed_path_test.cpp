@@ -1,5 +1,10 @@
 // Drivers who steer along a line on the ground.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "tests/engine/reference_car.h"
 
@@ -49,6 +54,52 @@ TEST(Path, IsFollowedRoundABend) {
   const Vec3 off = s.bodies[0].X_WB.p - on;
   EXPECT_GT(off.dot(along), 15);
   EXPECT_LT(std::abs(Vec3(0, 0, 1).dot(along.cross(Vec3(off.x(), off.y(), 0)))), 0.3);
+}
+
+/// A ring of 72 legs round (0, radius), driven counter-clockwise or clockwise from the origin on.
+std::vector<Vec3> ring(double radius, double turn) {
+  std::vector<Vec3> out;
+  for (int i = 0; i <= 72; ++i) {
+    const double angle = i * std::numbers::pi / 36;
+    out.emplace_back(radius * std::sin(angle), turn * radius * (1 - std::cos(angle)), 0);
+  }
+  return out;
+}
+
+TEST(Path, IsALapAndDrivenRoundFromItsStart) {
+  constexpr double kRadius = 40;  // [m]
+  // a car that looks beyond the first leg from the start on, and a slow one whose front stands there
+  for (const auto& [speed, behind] : {std::pair(12.0, 0.0), std::pair(3.0, 2.0)}) {  // [m/s], [m]
+    Model model = on_ground(15);
+    add_reference_car(model, -behind, speed);
+    model.vehicles[0].path.points = ring(kRadius, 1);
+    const Recording run = simulate(model);
+    for (const Snapshot& s : run.snapshots) {
+      const double r = (s.bodies[0].X_WB.p - Vec3(0, kRadius, 0)).head<2>().norm();
+      ASSERT_NEAR(r, kRadius, 1) << speed << " m/s, " << s.time << " s: half of the lane beside a car, which is not left";
+    }
+    EXPECT_THAT(run.diagnostics.warnings, testing::IsEmpty());
+  }
+}
+
+TEST(Path, ThatCrossesItselfIsDrivenToItsEnd) {
+  // a figure of eight, then straight on through where it began
+  constexpr double kRadius = 20, kSpeed = 8;  // [m], [m/s]
+  Model model = on_ground(2 * 2 * std::numbers::pi * kRadius / kSpeed);
+  add_reference_car(model, 0, kSpeed);
+  std::vector<Vec3> path = ring(kRadius, 1);
+  const std::vector<Vec3> second = ring(kRadius, -1);
+  path.insert(path.end(), second.begin() + 1, second.end());
+  path.emplace_back(100, 0, 0);
+  model.vehicles[0].path.points = path;
+  double least = 0, most = 0;  // [m]
+  const Recording run = simulate(model);
+  for (const Snapshot& s : run.snapshots) {
+    least = std::min(least, s.bodies[0].X_WB.p.y());
+    most = std::max(most, s.bodies[0].X_WB.p.y());
+  }
+  EXPECT_NEAR(most, 2 * kRadius, 1);
+  EXPECT_NEAR(least, -2 * kRadius, 1);
 }
 
 }  // namespace
