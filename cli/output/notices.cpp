@@ -4,10 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "cli/output/json.h"
 
 namespace cli {
+namespace {
+
+/// What it warns of: its text without its numbers. Digits within a name are part of it.
+std::string kind_of(const std::string& warning) {
+  static const std::regex kNumber(R"((^|[ (=])[-+]?\d[\d.]*(e[-+]?\d+)?)");
+  return std::regex_replace(warning, kNumber, "$1#");
+}
+
+}  // namespace
 
 bool is_so_far(const engine::Metric& metric, const std::vector<engine::Metric>& all,
                const std::vector<engine::AbsentMetric>& absent) {
@@ -33,7 +43,13 @@ void Notices::add(const RunNotes& notes) {
   unfinished += !notes.so_far.empty();
   warned += !notes.warnings.empty();
   so_far.insert(notes.so_far.begin(), notes.so_far.end());
-  for (const std::string& warning : notes.warnings) ++warnings[warning];
+  std::set<std::string> kinds;  // a run that warns twice of one thing is one run
+  for (const std::string& warning : notes.warnings) {
+    if (!kinds.insert(kind_of(warning)).second) continue;
+    Counted& counted = warnings.try_emplace(kind_of(warning), Counted{warning}).first->second;
+    ++counted.runs;
+    counted.alike = counted.alike && counted.text == warning;
+  }
 }
 
 std::vector<std::string> in_words(const Notices& notices) {
@@ -42,17 +58,19 @@ std::vector<std::string> in_words(const Notices& notices) {
     out.push_back(fmt::format("{} of {} runs: still moving at the end, {} so far only. Give a longer simulation.duration.",
                               notices.unfinished, notices.runs, fmt::join(notices.so_far, " and ")));
   if (notices.warned == 0) return out;
-  const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
-  const auto& [text, count] = *std::max_element(notices.warnings.begin(), notices.warnings.end(), fewer);
-  out.push_back(fmt::format("{} of {} runs carry a warning{}: {}.", notices.warned, notices.runs,
-                            notices.warnings.size() > 1 ? fmt::format(", the commonest in {}", count) : "", text));
+  const auto fewer = [](const auto& a, const auto& b) { return a.second.runs < b.second.runs; };
+  const Notices::Counted& most = std::max_element(notices.warnings.begin(), notices.warnings.end(), fewer)->second;
+  out.push_back(fmt::format("{} of {} runs carry a warning{}{}: {}.", notices.warned, notices.runs,
+                            notices.warnings.size() > 1 ? fmt::format(", the commonest in {}", most.runs) : "",
+                            most.alike ? "" : ", here with the numbers of one run", most.text));
   return out;
 }
 
 void add_notices(const Notices& notices, Json& json) {
   json["unfinished"] = {{"runs", notices.unfinished}, {"measures", notices.so_far}};
   json["warnings"] = Json::array();
-  for (const auto& [text, count] : notices.warnings) json["warnings"].push_back({{"warning", text}, {"runs", count}});
+  for (const auto& [kind, counted] : notices.warnings)
+    json["warnings"].push_back({{"warning", counted.text}, {"runs", counted.runs}});
 }
 
 }  // namespace cli

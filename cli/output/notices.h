@@ -26,8 +26,14 @@ std::string as_field(const RunNotes&);
 /// Of many runs.
 struct Notices {
   std::size_t runs = 0, unfinished = 0, warned = 0;
-  std::set<std::string> so_far;                 // measures that some run has only so far
-  std::map<std::string, std::size_t> warnings;  // and how many runs carry each
+  std::set<std::string> so_far;  // measures that some run has only so far
+  /// Runs whose warnings differ by their numbers alone; the text is that of the first.
+  struct Counted {
+    std::string text;
+    std::size_t runs = 0;
+    bool alike = true;  // in their numbers too
+  };
+  std::map<std::string, Counted> warnings;  // by what they warn of
   void add(const RunNotes&);
 };
 /// A sentence each, none where nothing is to be told.

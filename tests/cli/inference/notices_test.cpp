@@ -105,5 +105,16 @@ TEST(Notices, SayHowManyOfHowMany) {
   EXPECT_THAT(cli::in_words({}), testing::IsEmpty());
 }
 
+TEST(Notices, CountWarningsThatDifferByTheirNumbersAsOne) {
+  cli::Notices notices;
+  notices.add({{}, {"the neck of p1 bears 10.1 kN at 1279 ms"}});
+  notices.add({{}, {"the neck of p1 bears 9 kN at 980 ms", "the neck of p1 bears 8 kN at 1100 ms"}});
+  notices.add({{}, {"the neck of p2 bears 9 kN at 980 ms"}});
+  notices.add({{}, {}});
+  EXPECT_THAT(cli::in_words(notices),
+              testing::ElementsAre("3 of 4 runs carry a warning, the commonest in 2, here with the numbers of one run: the neck of "
+                                   "p1 bears 10.1 kN at 1279 ms."));
+}
+
 }  // namespace
 }  // namespace cli_tests
