@@ -30,6 +30,13 @@ const char* why_no_rest(const Twist& V) {
   return moves ? "still moving when the run ends" : "still for less than 0.25 s when the run ends";
 }
 
+bool wheel_touched(const Recording& recording, const Party& party) {
+  return std::any_of(recording.snapshots.begin(), recording.snapshots.end(), [&](const Snapshot& s) {
+    return std::any_of(s.contacts.begin(), s.contacts.end(),
+                       [&](const ContactRecord& c) { return c.shapes.b == ShapeKind::tyre && !push_on(party, c).isZero(0); });
+  });
+}
+
 void absent_throw(const Model& model, const Recording& recording, int p, Absences& absent) {
   const std::string& name = model.persons[p].name;
   const auto t = throw_of_person(model, recording, p);
@@ -43,6 +50,7 @@ void absent_throw(const Model& model, const Recording& recording, int p, Absence
     absent.note("throw_distance_m", name, "no vehicle touched it");
     return;
   }
+  if (wheel_touched(recording, party)) absent.note("run_over_s", name, "a wheel touched it, and did not stand on it");
   const char* up =
       t->lay ? "it lay on the ground when it was struck" : "the trunk did not come down on the ground after the first touch";
   absent.note("landing_s", name, up);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/math/functions.h"
 #include "engine/measure/parties.h"
 
 namespace engine {
@@ -9,6 +10,25 @@ namespace {
 
 constexpr double kAirborne = 0.05;  // [s] who lay there is off the ground after that long
 constexpr double kLies = 0.02;      // [m] over the ground at the start
+
+/// [N] that the least loaded wheel of each vehicle bears at rest.
+std::vector<double> least_loads(const World& world, const State& state) {
+  std::vector<double> out(world.model.vehicles.size(), 1e300);
+  for (const WheelState& wheel : state.wheels) out[wheel.vehicle] = std::min(out[wheel.vehicle], wheel.static_load);
+  return out;
+}
+
+/// Whether a tyre of a vehicle that heads `forward` stands on the part. One that shoves a part ahead of it, or climbs it, does not
+/// yet: seen from the side its push comes from in front. A shoulder on something round never comes from quite above: there the
+/// load tells. A wheel's side that rubs a part bears of it no more than that part weighs; half of what it bears on the road is
+/// beyond doubt, and left to the wheel where brakes relieve its axle by a third.
+bool stands_on(const Constraint& c, const Vec3& forward, double least_load, double duration) {
+  constexpr double kOnTop = 0.9, kShare = 0.5;  // [-] upright part of the normal: 26 degrees; of the load
+  const Vec3 down = -c.frame.col(0);
+  if (down.z() > kOnTop) return true;
+  const bool over = down.z() > kOnTop * math::hypot(down.z(), down.dot(forward));
+  return over && bears(down) && down.z() * c.impulse[0] > kShare * least_load * duration && duration > 0;
+}
 
 }  // namespace
 
@@ -18,6 +38,7 @@ EventWatch::EventWatch(const World& world, const State& state)
       hit_head_(world.model.persons.size(), 0),
       hit_ground_(world.model.persons.size(), 0),
       run_over_(world.model.persons.size() * world.model.vehicles.size(), 0),
+      least_load_(least_loads(world, state)),
       lying_(world.model.persons.size(), 0),
       last_ground_(world.model.persons.size(), 0),
       last_trunk_(world.model.persons.size(), -1) {
@@ -59,7 +80,7 @@ void EventWatch::note_head(const Constraint& c, double time) {
   events_.push_back({time, "head_impact", c.a.record, c.b.record, c.point, velocity.norm(), c.frame.col(0), velocity});
 }
 
-void EventWatch::watch_vehicle(const World& world, const Constraint& c, int person, double time) {
+void EventWatch::watch_vehicle(const World& world, const Constraint& c, int person, double time, double duration) {
   if (!hit_vehicle_[person]) {
     note("first_contact", c, time);
     // who has fallen before is thrown from where it lies, and comes down anew
@@ -72,10 +93,9 @@ void EventWatch::watch_vehicle(const World& world, const Constraint& c, int pers
     note_head(c, time);
     hit_head_[person] = 1;
   }
-  // a wheel that shoves a limb ahead of it, or climbs it, does not stand on it yet
-  constexpr double kOnTop = 0.9;  // [-] upright part of the normal: 26 degrees
   const int vehicle = world.model.bodies[c.b.record].vehicle;
-  if (c.shapes.b != ShapeKind::tyre || vehicle < 0 || !(-c.frame.col(0).z() > kOnTop)) return;
+  const Vec3 forward = before_[c.b.record].X_WB.q * Vec3::UnitX();
+  if (c.shapes.b != ShapeKind::tyre || vehicle < 0 || !stands_on(c, forward, least_load_[vehicle], duration)) return;
   char& told = run_over_[static_cast<std::size_t>(person) * world.model.vehicles.size() + static_cast<std::size_t>(vehicle)];
   if (!told) note("run_over", c, time);
   told = 1;
@@ -92,11 +112,11 @@ void EventWatch::watch_ground(const Constraint& c, int person, double time) {
   if (of_trunk_[c.a.record]) last_trunk_[person] = time;
 }
 
-void EventWatch::watch(const World& world, const Constraint& c, double time) {
+void EventWatch::watch(const World& world, const Constraint& c, double time, double duration) {
   const int person = c.a.record >= 0 ? world.model.bodies[c.a.record].person : -1;
   if (person < 0 || world.model.bodies[c.a.record].vehicle >= 0 || c.impulse[0] <= 0) return;
   const bool struck = is_fixture(world.model, c.b.record) ? world.model.persons[person].mount >= 0 : c.shapes.on_vehicle();
-  if (struck) watch_vehicle(world, c, person, time);
+  if (struck) watch_vehicle(world, c, person, time, duration);
   if (is_ground(world.model, c.shapes, c.b.record, c.frame.col(0))) watch_ground(c, person, time);
 }
 

@@ -70,7 +70,7 @@ void Recorder::tally(const World& world, const std::vector<Constraint>& conditio
 }
 
 void Recorder::tally_contact(const World& world, const Constraint& c, double time, double duration) {
-  events_.watch(world, c, time - duration);  // the push began with the step
+  events_.watch(world, c, time - duration, duration);  // the push began with the step
   necks_.note(world, c);
   if (c.impulse[0] <= 0 && c.gap > 0) return;
   auto at = std::lower_bound(tallies_.begin(), tallies_.end(), c.key, [](const Tally& t, std::uint64_t k) { return t.key < k; });

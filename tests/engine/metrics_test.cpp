@@ -394,6 +394,14 @@ TEST(ThrowMetrics, WhoIsRunOverIsToldByTheFirstWheelThatStandsOnIt) {
   std::vector<Metric> out;
   measure_throw(model, run, 0, out);
   EXPECT_FALSE(value_of(out, "run_over_s"));
+  const auto why_not = [&] {
+    for (const AbsentMetric& absent : absent_metrics(model, run, out))
+      if (absent.key == "run_over_s") return absent.reason;
+    return std::string();
+  };
+  EXPECT_EQ(why_not(), "");
+  run.snapshots[5].contacts.push_back(push(kHips, kCar, ShapePair{ShapeKind::round, ShapeKind::tyre}, {0, 10, 0}));
+  EXPECT_EQ(why_not(), "a wheel touched it, and did not stand on it");
   run.events.push_back({5, "run_over", kHips, kCar, Vec3::Zero(), 0});
   run.events.push_back({5.5, "run_over", kHips, kCar, Vec3::Zero(), 0});
   out.clear();

@@ -104,6 +104,46 @@ TEST_P(WheelOnLimb, TakesMoreOfTheCarsLoadByTheWarpOfItsSprings) {
   EXPECT_NEAR(it.depth, (it.by_wheel + kGravity) / kTissue, 0.02 * it.depth);
 }
 
+bool run_over_told(const Recording& run) {
+  return std::any_of(run.events.begin(), run.events.end(), [](const Event& e) { return e.kind == "run_over"; });
+}
+
+/// A ball that nothing moves, beneath the tyre's shoulder: it bears the wheel with a normal half a right angle off the upright.
+TEST(Wheel, ThatBearsItsLoadOnWhatIsRoundHasRunOverIt) {
+  constexpr double kBall = 0.1;  // [m]
+  Model model = car_on_limbs(1, 5, 0, 1e-3);
+  model.bodies[1] = solid({{kBall, kBall, kBall}, 2}, 5, {kHalfBase, kHalfTrack + 0.17, kBall});
+  model.bodies[1].person = 0;
+  model.bodies[1].fixed = true;
+  const Recording run = simulate(model);
+  double most = 0, steepest = 0;  // [N] upright, [-]
+  for (const Snapshot& s : run.snapshots)
+    for (const ContactRecord& c : s.contacts)
+      if (c.body_a == 1 && c.body_b == 0) {
+        most = std::max(most, -c.normal.z() * c.normal_force);
+        if (c.normal_force > 0) steepest = std::max(steepest, -c.normal.z());
+      }
+  ASSERT_GT(most, 0.5 * kOnLimb);
+  ASSERT_LT(steepest, 0.9);
+  EXPECT_TRUE(run_over_told(run));
+}
+
+/// A ball as heavy as a head that flies against the side of a tyre, above the middle of its wall.
+TEST(Wheel, ThatIsTouchedFromTheSideHasRunOverNobody) {
+  Model model = car_on_limbs(1, 5, 0, 1e-3);
+  model.bodies[0].X_WB.p.z() = 0.55;
+  model.bodies[1] = solid({{0.1, 0.1, 0.1}, 2}, 5, {kHalfBase, kHalfTrack + 0.4, 0.25});
+  model.bodies[1].person = 0;
+  model.bodies[1].V_WB.v = {0, -5, 0};
+  const Recording run = simulate(model);
+  double most = 0;  // [N]
+  for (const Snapshot& s : run.snapshots)
+    for (const ContactRecord& c : s.contacts)
+      if (c.body_a == 1 && c.body_b == 0) most = std::max(most, c.normal_force);
+  ASSERT_GT(most, 0.5 * kOnLimb);
+  EXPECT_FALSE(run_over_told(run));
+}
+
 /// A flat limb of 30 kg on ice. A car's left front wheel stands on it and goes along it at 4 m/s, rolling or locked, for 50 ms.
 struct Pass {
   double gained = 0;   // [m/s] by the limb
