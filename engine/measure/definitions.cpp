@@ -152,13 +152,14 @@ constexpr Definition kDefinitions[] = {
     {"peak_acceleration_mps2", "m/s^2", "peak acceleration",
      "Largest acceleration of a part's centre, mean over a step; free fall counts one g.", kNoForce, "grows with stiffness"},
     {"delta_v_mps", "m/s", "delta-v",
-     "Change of the velocity of the centre of mass in the plane of the road over the event of its hardest collision phase, that of "
-     "the largest impulse along the road, less what tyres and gravity did meanwhile; of what was not struck itself over that in "
-     "which the vehicle coupled to it was. Phases of one vehicle that overlap or follow within 20 ms are one event, whoever "
-     "struck it; of a longer one the 250 ms with that phase in which the velocity changes most. What a rider does in the same time "
-     "is part of it; of a two-wheeler's tyres counts what they do under its weight and the rider's, to both. Begin and end of a "
-     "phase "
-     "as 49 CFR 563.5 says: exchange of more than 0.8 km/h of the lighter mass within 20 ms, 250 ms at most.",
+     "Change of the velocity of the centre of mass in the plane of the road over the event of its hardest collision phase, "
+     "that of the largest impulse along the road, less what tyres and gravity did meanwhile; of what was not struck itself "
+     "over that in which the vehicle coupled to it was. Phases of one vehicle that overlap or follow within 20 ms are one "
+     "event, whoever struck it, and so are the exchanges at an instant of two that follow each other within 20 ms more than "
+     "their penetration time; of a longer one the 250 ms with that phase in which the velocity changes most. What a rider does "
+     "in the same time is part of it; of a two-wheeler's tyres counts what they do under its weight and the rider's, to both. "
+     "Begin and end of a phase as 49 CFR 563.5 says: exchange of more than 0.8 km/h of the lighter mass within 20 ms, 250 ms "
+     "at most.",
      kNoDeltaV,
      "no staged collisions are compared; for a delta-v that CRASH works out from damage the 95 % limits are 9 to 25 % (Smith and "
      "Noga 1982)",

@@ -378,16 +378,48 @@ double begin_of(const Recording& recording, const Stretch& span) {
   return recording.snapshots[span.first > 0 ? span.first - 1 : 0].time;
 }
 
-/// A phase of the vehicle, and those of it that overlap or follow within the window, one by one.
-Stretch event_of(const Recording& recording, const std::vector<Impact>& impacts, int vehicle, const Impact& of) {
+/// Time [s] from an exchange at an instant to the next one of two that still push on.
+double until_next(const Model& model, const ContactRecord& c) {
+  for (const ImpactSettings& s : model.impacts)
+    if (std::minmax(s.body_a, s.body_b) == std::minmax(c.body_a, c.body_b) && s.penetration_time > 0) return s.penetration_time;
+  return ImpactSettings{}.penetration_time;
+}
+
+/// A vehicle's exchanges with one partner each, as long as they follow by the time between them and the window: one push, of which
+/// the later exchanges may be too weak for phases.
+std::vector<Stretch> exchanges_of(const Model& model, const Recording& recording, int vehicle) {
+  const Party party = party_of(model, model.vehicles[vehicle].body);
+  std::map<std::pair<int, int>, Stretch> current;
+  std::vector<Stretch> out;
+  for (std::size_t i = 0; i < recording.snapshots.size(); ++i)
+    for (const ContactRecord& c : recording.snapshots[i].contacts) {
+      if (!c.exchange || push_on(party, c).isZero(0)) continue;
+      Stretch& span = current.try_emplace(std::minmax(c.body_a, c.body_b), Stretch{i, i}).first->second;
+      const double apart = recording.snapshots[i].time - recording.snapshots[span.last].time;  // [s]
+      if (apart > kWindow + until_next(model, c) + 1e-9) {
+        out.push_back(span);
+        span.first = i;
+      }
+      span.last = i;
+    }
+  for (const auto& [pair, span] : current) out.push_back(span);
+  return out;
+}
+
+/// A phase of the vehicle, and those of it that overlap or follow within the window, one by one; exchanges that follow too.
+Stretch event_of(const Model& model, const Recording& recording, const std::vector<Impact>& impacts, int vehicle,
+                 const Impact& of) {
   const auto end = [&](const Stretch& span) { return recording.snapshots[span.last].time; };
+  std::vector<Stretch> parts = exchanges_of(model, recording, vehicle);
+  for (const Impact& i : impacts)
+    if (strikes_vehicle(i, vehicle)) parts.push_back(i.span);
   Stretch event = of.span;
   for (bool grown = true; grown;) {
     grown = false;
-    for (const Impact& i : impacts) {
-      const double apart = std::max(begin_of(recording, i.span) - end(event), begin_of(recording, event) - end(i.span));  // [s]
-      if (!strikes_vehicle(i, vehicle) || apart > kWindow + 1e-9) continue;
-      const Stretch both{std::min(event.first, i.span.first), std::max(event.last, i.span.last)};
+    for (const Stretch& span : parts) {
+      const double apart = std::max(begin_of(recording, span) - end(event), begin_of(recording, event) - end(span));  // [s]
+      if (apart > kWindow + 1e-9) continue;
+      const Stretch both{std::min(event.first, span.first), std::max(event.last, span.last)};
       grown = grown || both.first < event.first || both.last > event.last;
       event = both;
     }
@@ -398,7 +430,7 @@ Stretch event_of(const Recording& recording, const std::vector<Impact>& impacts,
 /// What the event around a phase of a vehicle did to a party: itself, or what is coupled to it.
 ImpactSide side_in_event(const Model& model, const Recording& recording, const std::vector<Impact>& impacts, int vehicle,
                          const Impact& hardest, const Party& party) {
-  const Stretch event = event_of(recording, impacts, vehicle, hardest);
+  const Stretch event = event_of(model, recording, impacts, vehicle, hardest);
   std::optional<ImpactSide> most;
   for (std::size_t first = event.first; first <= hardest.span.first; ++first) {
     Stretch part{first, first};

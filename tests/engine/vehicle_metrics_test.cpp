@@ -91,6 +91,33 @@ TEST(VehicleMetrics, PhasesThatOverlapAreOneEventWhoeverStruck) {
 }
 
 /// Pressed by somebody for a quarter of a second, and stopped by a block at its end: both do not fit into 250 ms.
+TEST(VehicleMetrics, ExchangesThatFollowEachOtherByThePenetrationTimeAreOneEvent) {
+  const auto delta_v = [](int apart, double penetration_time) {  // [snapshots of 10 ms], [s]
+    Model model = person_and_car();
+    model.bodies[kHips].person = -1;
+    model.bodies[kHips].fixed = true;
+    if (penetration_time > 0) {
+      model.impacts.resize(1);
+      model.impacts[0].body_a = kHips;
+      model.impacts[0].body_b = kCar;
+      model.impacts[0].penetration_time = penetration_time;
+    }
+    Recording run = standing_still(60);
+    for (int i = 0; i < 60; ++i)
+      run.snapshots[i].bodies.own()[kCar].V_WB.v = {i < 10 ? 10.0 : i < 10 + apart ? 2.0 : i < 10 + 2 * apart ? 1.85 : 1.7, 0, 0};
+    for (const int at : {0, apart, 2 * apart}) {
+      ContactRecord c = push(kCar, kHips, kVehicles, {at == 0 ? -8000.0 : -150.0, 0, 0});
+      c.normal = {-1, 0, 0};
+      c.exchange = true;
+      run.snapshots[10 + at].contacts = {c};
+    }
+    return value_of(measure(model, run), "delta_v_mps").value();
+  };
+  EXPECT_NEAR(delta_v(4, 0), 8.3, 0.01) << "the later ones are below 0.8 km/h";
+  EXPECT_NEAR(delta_v(8, 0), 8, 0.01);
+  EXPECT_NEAR(delta_v(8, 0.07), 8.3, 0.01);
+}
+
 TEST(VehicleMetrics, OfALongEventCountThe250MillisecondsThatChangeMostWithTheHardestPhase) {
   Model model = person_and_car();
   model.settings.gravity.setZero();
