@@ -46,12 +46,12 @@ constexpr Definition kDefinitions[] = {
      "Distance of the phase carried: from the end of the phase contact until the vehicle last pushes the person before it lands.",
      "the person never goes as fast as the vehicle while that pushes", kPhase},
     {"airborne_m", "m", "airborne",
-     "Distance of the phase flight: from the last push of a vehicle to landing, if nothing touched the person for 50 ms or more "
-     "meanwhile. A rider is also held by each joint to what it rides until that breaks.",
+     "Distance of the phase flight: from the last push of a vehicle, or of what hangs on it, to landing, if nothing touched "
+     "the person for 50 ms or more meanwhile. A rider is also held by each joint to what it rides until that breaks.",
      "the person did not land, or something touched or held it at least every 50 ms before", kPhase, true},
     {"fall_m", "m", "fall",
-     "Distance of the phase fall, in place of a flight: from the last push of a vehicle to landing, if a hand, a foot or the "
-     "vehicle touched something at least every 50 ms.",
+     "Distance of the phase fall, in place of a flight: from the last push of a vehicle, or of what hangs on it, to landing, "
+     "if a hand, a foot or the vehicle touched something at least every 50 ms.",
      "the person flew for 50 ms or more, was pushed until it landed, or did not land", kPhase, true},
     {"landing_m", "m", "landing",
      "Distance of the phase landing: from the trunk's touch of the ground until the bounces are over, that is until some part "

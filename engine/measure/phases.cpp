@@ -36,12 +36,25 @@ std::optional<Touch> first_touch(const Model& model, const Recording& recording,
   return std::nullopt;
 }
 
+/// A door, a load: as long as it hangs there it pushes as the vehicle does.
+bool hangs_on_vehicle(const Model& model, const Recording& recording, int body, double time) {
+  if (body < 0 || model.bodies[body].person >= 0) return false;
+  return std::any_of(model.vehicles.begin(), model.vehicles.end(), [&](const Vehicle& v) {
+    const auto until = joined_until(model, recording, party_of(model, body), party_of(model, v.body));
+    return until && time <= *until;
+  });
+}
+
 /// By a vehicle, or by what the party ran into first. A wall that it flies against later ends no throw.
-bool pushed_by_vehicle(const Model& model, const Party& party, const Snapshot& s, int struck_by, bool moving = false) {
+bool pushed_by_vehicle(const Model& model, const Recording& recording, const Party& party, const Snapshot& s, int struck_by,
+                       bool moving = false) {
   constexpr double kStands = 0.05;  // [m/s] slower, as at rest, it pushes nobody along
   return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
-    const bool by = is_fixture(model, c.body_b) ? c.body_b == struck_by : c.shapes.on_vehicle();
-    return by && c.normal_impulse > 0 && !push_on(party, c).isZero(0) && (!moving || s.bodies[c.body_b].V_WB.v.norm() > kStands);
+    if (!(c.normal_impulse > 0) || push_on(party, c).isZero(0)) return false;
+    const int other = holds(party, c.body_a) ? c.body_b : c.body_a;
+    const bool by =
+        is_fixture(model, other) ? other == struck_by : c.shapes.on_vehicle() || hangs_on_vehicle(model, recording, other, s.time);
+    return by && (!moving || s.bodies[other].V_WB.v.norm() > kStands);
   });
 }
 
@@ -174,10 +187,10 @@ std::optional<Throw> throw_of_person(const Model& model, const Recording& record
   bool came_down = false;
   for (const Snapshot& s : recording.snapshots) {
     if (s.time < t.hit) continue;
-    const bool pushed = pushed_by_vehicle(model, party, s, t.vehicle), down = s.time >= t.landed.value_or(t.end);
+    const bool pushed = pushed_by_vehicle(model, recording, party, s, t.vehicle), down = s.time >= t.landed.value_or(t.end);
     // the push of the interval in which it landed may be older than that
     if (s.time - recording.interval >= t.landed.value_or(t.end) && s.time <= t.end &&
-        pushed_by_vehicle(model, party, s, t.vehicle, true))
+        pushed_by_vehicle(model, recording, party, s, t.vehicle, true))
       t.dragged = true;
     if (pushed && !came_down) t.separated = std::min(s.time, t.landed.value_or(t.end));
     came_down = down;

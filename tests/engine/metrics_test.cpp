@@ -386,6 +386,24 @@ TEST(ThrowMetrics, TheRecorderTellsALandingOnWhatIsFixedWhateverItsShape) {
   }
 }
 
+/// The car lets go at 2 s; its door, hinged to it, pushes at 3 s once more.
+TEST(ThrowMetrics, WhatHangsOnAVehiclePushesAsTheVehicleDoes) {
+  constexpr int kDoor = 3;
+  Model model = person_and_car();
+  model.bodies.emplace_back().shape = HyperEllipsoid{};
+  Recording run = struck_along_y();
+  for (Snapshot& s : run.snapshots) s.bodies.own().emplace_back();
+  run.snapshots[3].contacts = {push(kDoor, kHips, ShapePair{ShapeKind::round, ShapeKind::round}, {0, -10, 0})};
+  EXPECT_EQ(throw_of_person(model, run, 0)->separated, 2.0) << "what stands about is no vehicle";
+  Joint hinge;
+  hinge.parent = kCar;
+  hinge.child = kDoor;
+  model.joints = {hinge};
+  EXPECT_EQ(throw_of_person(model, run, 0)->separated, 3.0);
+  run.events.push_back({2.5, "joint_broken", kDoor, kCar, Vec3::Zero(), 0});
+  EXPECT_EQ(throw_of_person(model, run, 0)->separated, 2.0);
+}
+
 TEST(ThrowMetrics, WhoIsRunOverIsToldByTheFirstWheelThatStandsOnIt) {
   Model model = person_and_car();
   model.bodies[kHips].name = "pedestrian/hips";
