@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "engine/math/functions.h"
 #include "engine/model/model.h"
 
 namespace scenes {
@@ -202,7 +203,9 @@ Quantity quantity_of(std::string_view text, Dimension wanted, Remedies remedies)
     before = ended(text.substr(0, text.size() - t.size()));
     // as plans and surveys tell grades: the rise over the way
     if (wanted == Dimension::angle && last_unit == "%" && terms == 0)
-      return {0, fmt::format("is a grade, and must be an angle; write \"{:.4g} deg\"", std::atan(*number / 100) * 180 / M_PI), {}};
+      return {0,
+              fmt::format("is a grade, and must be an angle; write \"{:.4g} deg\"", engine::math::atan2(*number, 100) * 180 / M_PI),
+              {}};
     if (!(unit.powers == line(wanted).powers)) return {0, must_be(wanted), {}};
     // "-5 ft 9 in" means -(5 ft 9 in)
     if (terms++ == 0) negative = std::signbit(*number);
