@@ -92,15 +92,44 @@ const Key kVehicleKeys[] = {
          "other case.",
          kAny, "default_auto|kudlich_slibar"}),
     bound<&VehicleGiven::colour>({"colour", Type::colour, Dimension::none, "", "Of the paint, in place of the mesh's own."}),
-    {"wheel", Type::tables, Dimension::none, "", "Wheels.", kAny, {}, &kWheelSection},
+    {"wheel",
+     Type::tables,
+     Dimension::none,
+     "",
+     "Wheels. Of a model's, those named here without `at` are changed by what is given, and the others stay.",
+     kAny,
+     {},
+     &kWheelSection},
 };
+
+/// The model's wheels, with what the scene says of single ones, by name. A list that gives their places stands for itself.
+Value wheels_over(const Value& model, const Value& scene) {
+  std::vector<std::pair<std::string, const Value*>> changes;
+  bool whole = true;
+  for (const Entry& by_name : scene.entries) changes.emplace_back(by_name.key, &by_name.value), whole = false;  // of --set
+  for (const Value& wheel : scene.items) {
+    const Value* name = wheel.find("name");
+    changes.emplace_back(name ? name->text : "", &wheel);
+    whole = whole && wheel.find("at");
+  }
+  Value out = model;
+  for (const auto& [name, change] : changes) {
+    Value* wheel = whole || name.empty() ? nullptr : element_of(out, name);
+    if (!wheel) return scene;
+    *wheel = overlaid(*wheel, *change);
+  }
+  return out;
+}
 
 /// The scene's table over the library's: a coefficient for both kinds takes the place of those of each.
 Value laid_over(Value model, const Value& scene) {
   for (const std::string key : {"friction", "restitution"})
     if (scene.find(key))
       std::erase_if(model.entries, [&](const Entry& e) { return e.key == key + "_body" || e.key == key + "_ground"; });
-  return overlaid(model, scene);
+  Value out = overlaid(model, scene);
+  if (const Value* of_model = model.find("wheel"), *of_scene = scene.find("wheel"); of_model && of_scene)
+    *out.find("wheel") = wheels_over(*of_model, *of_scene);
+  return out;
 }
 
 struct Laid {
