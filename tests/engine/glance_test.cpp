@@ -75,6 +75,15 @@ TEST(Glance, RigidCornersThatHookAreWarnedOf) {
   EXPECT_THAT(told(-0.3, {-9000, -3000, 0}), testing::IsEmpty()) << "on half a metre both laws agree";
 }
 
+TEST(Glance, AClosingSpeedAlongASlantingNormalIsAPartOfTheRelativeOne) {
+  const Vec3 diagonal(-0.5, -std::sqrt(0.75), 0);
+  const Meeting m(-0.5, 9000 * diagonal, diagonal);
+  const std::vector<Impact> impacts = impacts_of(m.model, m.run);
+  ASSERT_EQ(impacts.size(), 1u);
+  EXPECT_NEAR(impacts[0].relative_speed, 40, 1e-12);
+  EXPECT_NEAR(impacts[0].closing_speed, 20, 1e-12);
+}
+
 TEST(Glance, CarsThatMeetSlowlyWithoutRestitutionAreWarnedOf) {
   const auto told = [](double speed, double restitution) {
     Meeting m(-0.5, {-2000, 0, 0}, {-1, 0, 0});

@@ -305,6 +305,7 @@ TEST(ImpactTable, AnObjectThatStrikesAPersonHasARowAndAnEvent) {
   EXPECT_EQ(i.b.name, "pedestrian");
   EXPECT_EQ(i.time, 0.043);
   EXPECT_NEAR(i.closing_speed, 10, kAlmost);
+  EXPECT_NEAR(i.relative_speed, 10, kAlmost);
   EXPECT_NEAR(i.impulse.x(), -40, kAlmost) << "on the log";
   EXPECT_NEAR(i.b.speed_after, 1, kAlmost) << "40 N s on 40 kg";
   for (const ImpactSide* side : {&i.a, &i.b}) EXPECT_TRUE(std::isnan(side->ees) && std::isnan(side->pdof)) << "those of vehicles";
