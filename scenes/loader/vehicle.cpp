@@ -102,7 +102,8 @@ const Key kVehicleKeys[] = {
      &kWheelSection},
 };
 
-/// The model's wheels, with what the scene says of single ones, by name. A list that gives their places stands for itself.
+/// The model's wheels, with what the scene says of single ones, by name. A list that gives their places, and what is
+/// no list of wheels, stands for itself.
 Value wheels_over(const Value& model, const Value& scene) {
   std::vector<std::pair<std::string, const Value*>> changes;
   bool whole = true;
@@ -112,9 +113,10 @@ Value wheels_over(const Value& model, const Value& scene) {
     changes.emplace_back(name ? name->text : "", &wheel);
     whole = whole && wheel.find("at");
   }
+  if (whole) return scene;
   Value out = model;
   for (const auto& [name, change] : changes) {
-    Value* wheel = whole || name.empty() ? nullptr : element_of(out, name);
+    Value* wheel = name.empty() || change->kind != Value::Kind::table ? nullptr : element_of(out, name);
     if (!wheel) return scene;
     *wheel = overlaid(*wheel, *change);
   }

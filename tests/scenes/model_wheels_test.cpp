@@ -38,6 +38,12 @@ TEST(ModelWheels, ThatSayWhereTheyAreStandForThemselves) {
   EXPECT_EQ(named(scene, "front_left").anti_roll, 0) << "nothing of the model's is left";
 }
 
+TEST(ModelWheels, ThatAreNoWheelsAreRefused) {
+  for (const std::string value : {"3", "[3]", "{ front_left = 3 }"})
+    EXPECT_FALSE(scenes::testing::folder().errors(kSedan + "wheel = " + value + "\n").empty()) << value;
+  EXPECT_TRUE(scenes::testing::folder().load(kSedan + "wheel = []\n").model.vehicles.at(0).wheels.empty());
+}
+
 TEST(ModelWheels, OfOtherNamesAreRefused) {
   EXPECT_THAT(scenes::testing::folder().errors(kSedan + "[[vehicle.wheel]]\nname = \"left_front\"\nfriction = 0.31\n"),
               ::testing::Contains(::testing::HasSubstr("at is missing")));
