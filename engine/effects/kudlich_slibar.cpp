@@ -19,6 +19,7 @@ namespace {
 constexpr double kSteep = 0.5;         // [-] cosine in plan below which a settled normal says little about left and right
 constexpr double kSecondary = 0.1;     // [m/s] bodies that lie against each other and close slower have no further impact
 constexpr double kTouchPlaced = 1e-6;  // [s] to which a touch is placed: micrometres of way
+constexpr double kFacesMet = 0.15;     // [m] of way from the first touch, after which the plane of the faces shows
 constexpr double kEarliest = 0.02;     // [s] a touch is looked for in the past at most, where the grid saw it late
 
 /// Two meshes that collide by Kudlich-Slibar.
@@ -178,10 +179,11 @@ struct ImpactProgress {
   bool touching = false;
   double due = 0;  // [s] when the impulse is exchanged, while touching
   int exchanges = 0;
+  Vec3 faces_W = Vec3::Zero();  // normal of the faces that met, from b to a; zero: not known
 
   template <class S>
   static auto fields(S& s) {
-    return std::tie(s.touching, s.due, s.exchanges);
+    return std::tie(s.touching, s.due, s.exchanges, s.faces_W);
   }
 };
 struct ImpactMemory {
@@ -254,12 +256,29 @@ class KudlichSlibar final : public EffectWith<ImpactMemory> {
     if (!overlap) return;
     progress.touching = true;
     const double touch = touch_before(world, state, pair, step, overlap->region);
-    progress.due = state.time + touch + penetration(world, state, pair, touch);
+    progress.faces_W = faces_met(world, state, pair, touch, overlap->centroid);
+    progress.due = state.time + touch + penetration(world, state, pair, progress, touch);
+  }
+
+  /// Normal of the line in which the surfaces cut once the faces have met. Later it turns to the diagonal of the overlap, which is
+  /// no face of either: two cars a metre in each other on 40 % of their widths would meet 60 degrees from square, and slide off.
+  Vec3 faces_met(const World& world, const State& state, const ImpactPair& pair, double touch, const Vec3& point) {
+    const double closing = (velocity_at(state, pair.a, point) - velocity_at(state, pair.b, point)).norm();
+    const double after = std::min(kFacesMet / closing, ImpactSettings{}.penetration_time);
+    const auto overlap = overlap_at(world, state, pair, touch + after, overlap_);
+    return overlap ? overlap->normal_W : Vec3(Vec3::Zero());
+  }
+
+  /// The contact plane's normal: of the first impulse as the scene says; of the first of any touch by the faces that met; of those
+  /// that follow as the two overlap.
+  static Vec3 plane(const ImpactPair& pair, const ImpactProgress& progress, const MeshOverlap& overlap, const Vec3& u) {
+    if (progress.exchanges == 0 && pair.settings.normal_W) return facing(*pair.settings.normal_W, overlap, u);
+    return progress.faces_W.isZero() ? overlap.normal_W : progress.faces_W;
   }
 
   /// Time [s] from the touch to the impulse: as the scene says, or by halves less where the two would then be past each other, or
-  /// part already by the normal of how they overlap.
-  double penetration(const World& world, const State& state, const ImpactPair& pair, double touch) {
+  /// part already by the normal of the plane they meet on.
+  double penetration(const World& world, const State& state, const ImpactPair& pair, const ImpactProgress& progress, double touch) {
     constexpr int kHalves = 4;
     const double whole = pair.settings.penetration_time;
     for (double time = whole; time > whole / (1 << kHalves); time /= 2) {
@@ -269,7 +288,7 @@ class KudlichSlibar final : public EffectWith<ImpactMemory> {
       const Vec3 point = pair.settings.point_W.value_or(overlap->centroid);
       const auto velocity = [&](int body) { return velocity_at(state, body, point - ahead * state.V_WB[body].v); };
       const Vec3 u = velocity(pair.a) - velocity(pair.b);
-      if (u.dot(facing(pair.settings.normal_W.value_or(overlap->normal_W), *overlap, u)) <= 0) return time;
+      if (u.dot(plane(pair, progress, *overlap, u)) <= 0) return time;
     }
     return whole;
   }
@@ -293,7 +312,7 @@ class KudlichSlibar final : public EffectWith<ImpactMemory> {
     const bool first = progress.exchanges == 0;
     const Vec3 point = first ? pair.settings.point_W.value_or(overlap.centroid) : overlap.centroid;
     const Vec3 u = velocity_at(state, pair.a, point) - velocity_at(state, pair.b, point);
-    const Vec3 normal = facing(first ? pair.settings.normal_W.value_or(overlap.normal_W) : overlap.normal_W, overlap, u);
+    const Vec3 normal = plane(pair, progress, overlap, u);
     if (first && u.dot(normal) > 0) tell_of_none(world, pair);
     if (u.dot(normal) > (first ? 0 : -kSecondary)) return;
 
@@ -313,6 +332,7 @@ class KudlichSlibar final : public EffectWith<ImpactMemory> {
     record(world, pair, state, point, normal, impact, -u.dot(normal), mu);
     world.log.note_action(self_, state.time);
     ++progress.exchanges;
+    progress.faces_W.setZero();
   }
 
   const std::vector<ImpactPair> pairs_;
