@@ -19,6 +19,7 @@ namespace {
 constexpr double kSteep = 0.5;         // [-] cosine in plan below which a settled normal says little about left and right
 constexpr double kSecondary = 0.1;     // [m/s] bodies that lie against each other and close slower have no further impact
 constexpr double kTouchPlaced = 1e-6;  // [s] to which a touch is placed: micrometres of way
+constexpr double kInterlocked = 0.6;   // [-] friction of crushed bodywork; SMAC has 0.55 (R. R. McHenry)
 constexpr double kFacesMet = 0.15;     // [m] of way from the first touch, after which the plane of the faces shows
 constexpr double kEarliest = 0.02;     // [s] a touch is looked for in the past at most, where the grid saw it late
 
@@ -84,10 +85,11 @@ std::optional<MeshOverlap> overlap_at(const World& world, const State& state, co
 }
 
 /// When [s] from now the meshes of a pair begin to share space, which they do after `until` in `region`.
-double touch_before(const World& world, const State& state, const ImpactPair& pair, double until, const PlanBox& region) {
+double touch_before(const World& world, const State& state, const ImpactPair& pair, double until, const PlanBox& region,
+                    OverlapScratch& scratch) {
   const auto touch = [&](double ahead) {
     return share_space(*mesh_of(world, pair.a).mesh, mesh_pose(world, state, pair.a, ahead), *mesh_of(world, pair.b).mesh,
-                       mesh_pose(world, state, pair.b, ahead), region);
+                       mesh_pose(world, state, pair.b, ahead), region, scratch);
   };
   double high = until, stride = world.model.settings.step, low = until - stride;
   while (low > -kEarliest && touch(low)) {
@@ -96,6 +98,12 @@ double touch_before(const World& world, const State& state, const ImpactPair& pa
     low -= stride;
   }
   return math::bisect({low, high}, math::kToTheWidth, kTouchPlaced, [&](double ahead) { return !touch(ahead); }).high;
+}
+
+/// Nowhere do the two move fast enough against each other for a further impact.
+bool lie_together(const World& world, const State& state, const ImpactPair& pair) {
+  const Twist &A = state.V_WB[pair.a], &B = state.V_WB[pair.b];
+  return (A.v - B.v).norm() + A.w.norm() * world.reach[pair.a] + B.w.norm() * world.reach[pair.b] < kSecondary;
 }
 
 Vec3 velocity_at(const State& state, int body, const Vec3& point) {
@@ -224,6 +232,11 @@ class KudlichSlibar final : public EffectWith<ImpactMemory> {
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       ImpactProgress& progress = memory(state).pairs[i];
       if (!progress.touching || now < progress.due) continue;
+      const double t_P = pairs_[i].settings.penetration_time, later = t_P > 0 ? t_P : ImpactSettings{}.penetration_time;
+      if (progress.exchanges > 0 && lie_together(world, state, pairs_[i])) {
+        progress.due = state.time + later;
+        continue;
+      }
       const auto overlap = overlap_at(world, state, pairs_[i], 0, overlap_);
       progress.touching = overlap.has_value();
       if (!overlap) {
@@ -232,8 +245,7 @@ class KudlichSlibar final : public EffectWith<ImpactMemory> {
       }
       world.log.note_reach(self_, state.time);
       exchange(world, state, pairs_[i], progress, *overlap);
-      const double t_P = pairs_[i].settings.penetration_time;
-      progress.due = state.time + (t_P > 0 ? t_P : ImpactSettings{}.penetration_time);
+      progress.due = state.time + later;
     }
   }
 
@@ -255,7 +267,7 @@ class KudlichSlibar final : public EffectWith<ImpactMemory> {
     const auto overlap = overlap_at(world, state, pair, step, overlap_);
     if (!overlap) return;
     progress.touching = true;
-    const double touch = touch_before(world, state, pair, step, overlap->region);
+    const double touch = touch_before(world, state, pair, step, overlap->region, overlap_);
     progress.faces_W = faces_met(world, state, pair, touch, overlap->centroid);
     progress.due = state.time + touch + penetration(world, state, pair, progress, touch);
   }
@@ -317,7 +329,7 @@ class KudlichSlibar final : public EffectWith<ImpactMemory> {
     if (u.dot(normal) > (first ? 0 : -kSecondary)) return;
 
     const SurfacePairing surfaces = mixed_surfaces(world.model, pair.a, pair.b, point, state.time);
-    const double mu = pair.settings.friction.value_or(surfaces.friction);
+    const double mu = pair.settings.friction.value_or(std::max(kInterlocked, surfaces.friction));
     const double e = pair.settings.restitution.value_or(surfaces.restitution);
     ImpulseThroughJoints through(world, state, pair.a, pair.b, point, force_, change_);
     const PlaneImpact impact = kudlich_slibar(through.matrix(), u, normal, mu, e);

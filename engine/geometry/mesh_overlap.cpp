@@ -1,8 +1,10 @@
 #include "engine/geometry/mesh_overlap.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
+#include <utility>
 
 #include "engine/math/functions.h"
 
@@ -28,34 +30,39 @@ double shared(const Span& p, const Span& q, double lift = 0) {
   return std::max(0.0, std::min(p.high + lift, q.high) - std::max(p.low + lift, q.low));
 }
 
-/// A mesh seen along vertical lines.
-class Columns {
- public:
-  Columns(const TriangleMesh& mesh, const Pose& X_WM)
-      : mesh_(mesh), box_(world_bounds(mesh, X_WM)), X_MW_(X_WM.inverse()), up_(X_MW_.q * Vec3::UnitZ()) {}
+/// z of a triangle over (x, y) of the plane; nothing beside it, and none of one that stands upright.
+std::optional<double> height_over(const std::array<Vec3, 3>& corners, double x, double y) {
+  constexpr double kOnEdge = -1e-12;  // [-] a line along an edge meets both triangles
+  const Vec3 &o = corners[0], u = corners[1] - o, v = corners[2] - o;
+  const double area = u.x() * v.y() - u.y() * v.x();
+  if (area == 0) return std::nullopt;
+  const double s = ((x - o.x()) * v.y() - (y - o.y()) * v.x()) / area, t = (u.x() * (y - o.y()) - u.y() * (x - o.x())) / area;
+  if (s < kOnEdge || t < kOnEdge || s + t > 1 - kOnEdge) return std::nullopt;
+  return o.z() + s * u.z() + t * v.z();
+}
 
-  /// From the lowest to the highest surface over (x, y); empty where there is none.
-  Span at(double x, double y) const {
-    if (x < box_.lower.x() || x > box_.upper.x() || y < box_.lower.y() || y > box_.upper.y()) return {};
-    const double height = box_.upper.z() - box_.lower.z() + 2e-3;
-    const Vec3 foot(x, y, box_.lower.z() - 1e-3);
-    double s = 0, t = 0;
-    int triangle = -1;
-    if (!mesh_.raycast(X_MW_ * foot, up_, height, s, triangle)) return {};
-    if (!mesh_.raycast(X_MW_ * Vec3(foot + Vec3(0, 0, height)), -up_, height, t, triangle)) return {};
-    return {foot.z() + s, foot.z() + height - t};
+/// Cells [first, last] whose lines lie between two coordinates.
+std::pair<int, int> cells_between(double low, double high, double begin, double size) {
+  return {std::max(0, static_cast<int>(std::ceil((low - begin) / size + 0.5 - 1e-9))),
+          std::min(kSide - 1, static_cast<int>(std::floor((high - begin) / size + 0.5 + 1e-9)))};
+}
+
+/// From the lowest to the highest surface along each vertical line of the grid; empty where there is none.
+void cast(const TriangleMesh& mesh, const Pose& X_PM, const Grid& grid, std::vector<Span>& spans) {
+  std::fill(spans.begin(), spans.end(), Span{});
+  for (const Triangle& triangle : mesh.triangles()) {
+    std::array<Vec3, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = X_PM * mesh.vertices()[static_cast<std::size_t>(triangle[i])];
+    const auto [x_low, x_high] = std::minmax({corners[0].x(), corners[1].x(), corners[2].x()});
+    const auto [y_low, y_high] = std::minmax({corners[0].y(), corners[1].y(), corners[2].y()});
+    const auto columns = cells_between(x_low, x_high, grid.x, grid.dx), rows = cells_between(y_low, y_high, grid.y, grid.dy);
+    for (int i = columns.first; i <= columns.second; ++i)
+      for (int k = rows.first; k <= rows.second; ++k) {
+        const auto z = height_over(corners, grid.x + (i - 0.5) * grid.dx, grid.y + (k - 0.5) * grid.dy);
+        Span& span = spans[cell(i, k)];
+        if (z) span = span.high < span.low ? Span{*z, *z} : Span{std::min(span.low, *z), std::max(span.high, *z)};
+      }
   }
-
- private:
-  const TriangleMesh& mesh_;
-  Aabb box_;
-  Pose X_MW_;
-  Vec3 up_;
-};
-
-void cast(const Columns& columns, const Grid& grid, std::vector<Span>& spans) {
-  for (int i = 0; i < kSide; ++i)
-    for (int k = 0; k < kSide; ++k) spans[cell(i, k)] = columns.at(grid.x + (i - 0.5) * grid.dx, grid.y + (k - 0.5) * grid.dy);
 }
 
 /// Shared volume with a's columns shifted by whole cells, or lifted.
@@ -126,11 +133,10 @@ std::optional<MeshOverlap> overlap_of(const TriangleMesh& a, const Pose& X_WA, c
   const Vec3 low = box_a.lower.cwiseMax(box_b.lower), high = box_a.upper.cwiseMin(box_b.upper);
   if ((low.array() >= high.array()).any()) return std::nullopt;
   Grid grid = over(low.x(), high.x(), low.y(), high.y());
-  const Columns columns_a(a, X_PA), columns_b(b, X_PB);
   reserve(s);
   for (int pass = 0; pass < 2; ++pass) {
-    cast(columns_a, grid, s.a);
-    cast(columns_b, grid, s.b);
+    cast(a, X_PA, grid, s.a);
+    cast(b, X_PB, grid, s.b);
     if (pass == 0 && !tighten(s, grid)) return std::nullopt;
   }
   MeshOverlap out;
@@ -158,16 +164,15 @@ std::optional<MeshOverlap> overlap_of(const TriangleMesh& a, const Pose& X_WA, c
   return out;
 }
 
-bool share_space(const TriangleMesh& a, const Pose& X_WA, const TriangleMesh& b, const Pose& X_WB, const PlanBox& region) {
-  const Columns columns_a(a, seen_from(region.q_WP, X_WA)), columns_b(b, seen_from(region.q_WP, X_WB));
+bool share_space(const TriangleMesh& a, const Pose& X_WA, const TriangleMesh& b, const Pose& X_WB, const PlanBox& region,
+                 OverlapScratch& s) {
   const Vec3 low = region.box_P.lower, high = region.box_P.upper;
   const Grid grid = over(low.x(), high.x(), low.y(), high.y());
-  for (int i = 0; i < kSide; ++i)
-    for (int k = 0; k < kSide; ++k) {
-      const double x = grid.x + (i - 0.5) * grid.dx, y = grid.y + (k - 0.5) * grid.dy;
-      const Span span = columns_a.at(x, y);
-      if (span.high > span.low && shared(span, columns_b.at(x, y)) >= kThinnest) return true;
-    }
+  reserve(s);
+  cast(a, seen_from(region.q_WP, X_WA), grid, s.a);
+  cast(b, seen_from(region.q_WP, X_WB), grid, s.b);
+  for (std::size_t i = 0; i < s.a.size(); ++i)
+    if (s.a[i].high > s.a[i].low && shared(s.a[i], s.b[i]) >= kThinnest) return true;
   return false;
 }
 

@@ -45,6 +45,7 @@ std::optional<MeshOverlap> overlap_of(const TriangleMesh& a, const Pose& X_WA, c
                                       OverlapScratch&);
 
 /// Do the meshes share anything along the lines of a grid over `region`? A grid that stays where it is tells when they begin to.
-bool share_space(const TriangleMesh& a, const Pose& X_WA, const TriangleMesh& b, const Pose& X_WB, const PlanBox& region);
+bool share_space(const TriangleMesh& a, const Pose& X_WA, const TriangleMesh& b, const Pose& X_WB, const PlanBox& region,
+                 OverlapScratch&);
 
 }  // namespace engine

@@ -1,4 +1,4 @@
-// Collisions of bodywork whose outcome hangs on what a rigid shell, or a plane found automatically, cannot tell.
+// Collisions of bodywork whose outcome hangs on what a rigid shell cannot tell.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ namespace engine {
 /// as they stand in that snapshot. Negative: they pass beside each other.
 double overlap_across(const Model&, const Snapshot&, int a, int b, const Vec3& point);
 
-/// A warning for each pair that met by Default-Auto on less than a quarter of a car's width and hooked, and for each that met on
-/// more by Kudlich-Slibar and slid off along a plane found automatically. And for each of cars that met slowly without restitution.
+/// A warning for each pair that met by Default-Auto on less than a quarter of a car's width and hooked, and for each of cars that
+/// met slowly without restitution.
 std::vector<std::string> doubtful_glances(const Model&, const Recording&);
 
 }  // namespace engine

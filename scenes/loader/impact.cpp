@@ -15,9 +15,11 @@ const Key kImpactKeys[] = {
          "Where the first impulse acts, in the world. Left out: the centroid of the overlap at that moment."}),
     bound<&engine::ImpactSettings::normal_W>({"normal", Type::vector3, Dimension::none, "",
                                               "Of the contact plane of the first impulse, in the world, either sign. Left out: "
-                                              "from the line in which the surfaces cut."}),
+                                              "from the line in which the surfaces cut 0.15 m after they met."}),
     bound<&engine::ImpactSettings::friction>({"friction", Type::number, Dimension::none, "",
-                                              "In the contact plane. Left out: the smaller of the two bodies'.", kNotNegative}),
+                                              "In the contact plane. Left out: 0.6, as crushed bodywork has, or the "
+                                              "smaller of the two bodies' if that is more.",
+                                              kNotNegative}),
     bound<&engine::ImpactSettings::restitution>({"restitution", Type::number, Dimension::none, "",
                                                  "Multiplies the whole impulse. Left out: the larger of the two bodies'.", kShare}),
 };

@@ -1,4 +1,4 @@
-// Collisions whose outcome hangs on what a rigid shell, or a plane found automatically, cannot tell.
+// Collisions whose outcome hangs on what a rigid shell cannot tell.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -99,24 +99,6 @@ TEST(Glance, CarsThatMeetSlowlyWithoutRestitutionAreWarnedOf) {
   EXPECT_THAT(told(2.8, 0), testing::ElementsAre(testing::HasSubstr("a and b met at low speed without restitution")));
   EXPECT_THAT(told(2.8, 0.3), testing::IsEmpty());
   EXPECT_THAT(told(10, 0), testing::IsEmpty());
-}
-
-/// Where the outlines of two that are a metre in each other cut is no face of either.
-TEST(Glance, APlaneFoundAutomaticallyThatTheySlideOffIsWarnedOf) {
-  const Vec3 diagonal(-0.5, -std::sqrt(0.75), 0), flank(0, -1, 0);
-  const auto told = [](double beside, const Vec3& normal, bool given) {
-    Meeting m(beside, 9000 * normal, normal);
-    for (Body& body : m.model.bodies) body.collision_model = CollisionModel::kudlich_slibar;
-    if (given) {
-      ImpactSettings& impact = m.model.impacts.emplace_back();
-      impact.body_a = kOther, impact.body_b = 0, impact.normal_W = normal;
-    }
-    return doubtful_glances(m.model, m.run);
-  };
-  EXPECT_THAT(told(-0.5, diagonal, false), testing::ElementsAre(testing::HasSubstr("60 degrees from square to their way")));
-  EXPECT_THAT(told(-0.5, diagonal, true), testing::IsEmpty()) << "who gives it answers for it";
-  EXPECT_THAT(told(0, diagonal, false), testing::IsEmpty()) << "corners are crushed and go by";
-  EXPECT_THAT(told(-0.5, flank, false), testing::IsEmpty()) << "a flank is one to slide along";
 }
 
 }  // namespace
