@@ -78,6 +78,10 @@ void Target::read(const Rectangle& r, void* out, int pitch) const {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glPixelStorei(GL_PACK_ROW_LENGTH, pitch);
   glReadPixels(r.x - part_.x, r.y - part_.y, r.width, r.height, f.format, f.type, out);
+  // Mesa goes on where memory ended, without what it could not draw: a shadow, say
+  if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+    throw RenderError(fmt::format("drawing the {}: OpenGL reports error 0x{:x}{}", name_, error,
+                                  error == GL_OUT_OF_MEMORY ? ", out of memory" : ""));
 }
 
 }  // namespace render::gl
