@@ -144,11 +144,11 @@ void add_contact(ContactSearch& search, const PairKind& kind, const SurfaceConta
   const int a = pair.a, b = std::max(pair.b, -1);
   const bool on_tyre = kind.shapes.a == ShapeKind::round && kind.shapes.b == ShapeKind::tyre;
   const SurfacePairing surfaces = mixed_surfaces(world.model, a, b, touch.p_b, search.at.time);
-  Constraint c;
+  Constraint& c = search.found.emplace_back();  // filled where it stays: it is long
   c.kind = ConstraintKind::contact;
   c.rows = 3;
   set_bodies(c, world.model, a, b);
-  if (c.a.body < 0 && c.b.body < 0) return;
+  if (c.a.body < 0 && c.b.body < 0) return search.found.pop_back();
   c.surface.rolls = touch.rolls;
   c.surface.friction = c.surface.rolls ? 0 : surfaces.friction;
   c.surface.restitution = surfaces.restitution;
@@ -170,7 +170,6 @@ void add_contact(ContactSearch& search, const PairKind& kind, const SurfaceConta
   c.shapes = kind.shapes;
   if (compliant) set_room(c, world, search.at, panel);
   if (compliant) set_ploughing(c, world, search.at);
-  search.found.push_back(c);
 }
 
 /// Compliant law: the points appended from `first` on, all of one surface on another, share its stiffness S by depth, so that a

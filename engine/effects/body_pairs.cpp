@@ -142,7 +142,10 @@ void find_pair_contacts(ContactSearch& search, const PairKind& kind, int effect)
     const BodyPairRun& run = pairs.round[r];
     if (run.effect != effect) continue;
     list_pairs(search.world, r, search.state.contact_memory.round[r]);
-    for (std::size_t i = 0; i < run.pairs.size(); ++i) add_contacts(search, kind, {run.pairs[i].a, run.pairs[i].b, i, r}, effect);
+    for (std::size_t i = 0; i < run.pairs.size(); ++i) {
+      const auto [a, b] = run.pairs[i];
+      if (!pairs.broad_phase.apart(search.at, a, b)) add_contacts(search, kind, {a, b, i, r}, effect);
+    }
   }
 }
 

@@ -127,10 +127,9 @@ CommonNormal search_deep(const RoundPair& pair, const CommonNormal& first, const
 }
 
 /// From the last normal, or the line of the centres.
-CommonNormal nearest_top(const RoundPair& pair, const Vec3& n, bool warm) {
-  RoundPair::At at = pair.at(n);
+CommonNormal nearest_top(const RoundPair& pair, RoundPair::At at, bool warm) {
   if (warm && close_in(pair, at)) return {at, true};
-  const CommonNormal top = climb(pair, n, 40);
+  const CommonNormal top = climb(pair, at.n, 40);
   return warm || top.stationary ? top : settle(pair, top, kCoarse);
 }
 
@@ -143,12 +142,16 @@ std::optional<SurfaceContact> search(const HyperEllipsoid& A, const Pose& X_WA, 
   const bool warm = normal_guess.squaredNorm() > 0.5;
   // any direction that separates by more than the margin ends it
   double known = pair.gap(towards);
-  if (known < margin && warm) known = pair.gap(normal_guess);
+  RoundPair::At start;
+  if (!(known >= margin)) {
+    start = pair.at(warm ? normal_guess : towards);
+    known = start.gap;
+  }
   if (known >= margin) {
     if (apart) *apart = known;
     return std::nullopt;
   }
-  CommonNormal best = nearest_top(pair, warm ? normal_guess : towards, warm);
+  CommonNormal best = nearest_top(pair, start, warm);
   const bool deep = best.at.gap < -0.1 * std::min(A.semi_axes.minCoeff(), B.semi_axes.minCoeff());
   // apart, the gap is concave over directions: a maximum is the only one
   if (best.at.gap < 0 && (!warm || deep) && other_gap >= best.at.gap) best = search_deep(pair, best, towards, warm, other_gap);

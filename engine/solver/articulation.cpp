@@ -74,11 +74,14 @@ Vec6 particular(const JointRows& rows, bool body_is_joint_child, const Vec3& r) 
 }  // namespace
 
 Mat3 inertia_W(const Body& body, const Quat& q_WB) {
-  const Mat3 R = q_WB.toRotationMatrix();
   const Mat3& I = body.inertia_B;
   // axes of a body are as a rule its principal ones: without the products with zeros, which change no bit
-  const bool principal = I(1, 0) == 0 && I(2, 0) == 0 && I(2, 1) == 0;
-  const Mat3 RI = principal ? Mat3(R * I.diagonal().asDiagonal()) : Mat3(R * I);
+  if (I(1, 0) == 0 && I(2, 0) == 0 && I(2, 1) == 0) {
+    Mat3 turned;
+    turn_inertia(q_WB.coeffs().data(), I.data(), turned.data());
+    return turned;
+  }
+  const Mat3 R = q_WB.toRotationMatrix(), RI = R * I;
   return RI * R.transpose();
 }
 

@@ -25,10 +25,22 @@ constexpr double kRegularJammed = 1e-8;  // where impulses are large and well de
 
 }  // namespace
 
+/// How a sliding contact's tangential impulse follows its slip, x = L_t - rho u_t.
+ContactSolver::Slip ContactSolver::slipping(const Constraint& c, int member, double rho, const Eigen::Vector2d& x) const {
+  const double length = x.norm();
+  Slip slip;
+  slip.rho = rho;
+  slip.direction = x / length;
+  slip.most = bounded_ ? bound_[member] : c.surface.friction * std::max(0.0, c.impulse[0]);
+  slip.across = std::min(1.0, slip.most / length) * (Eigen::Matrix2d::Identity() - slip.direction * slip.direction.transpose());
+  return slip;
+}
+
 /// The conditions at the present impulses as linear equations in their change; returns the number of unknowns.
 int ContactSolver::linearise(const std::vector<Constraint>& all, const std::vector<int>& members) {
   unknown_.clear();
   rule_.clear();
+  slips_.resize(members.size());
   for (int i = 0; i < static_cast<int>(members.size()); ++i) {
     const Constraint& c = all[members[i]];
     const Mat3& A = own_[i];
@@ -57,7 +69,10 @@ int ContactSolver::linearise(const std::vector<Constraint>& all, const std::vect
     const double rho = 1 / std::max(A(1, 1), A(2, 2));
     const Eigen::Vector2d wanted = c.impulse.tail<2>() - rho * u.tail<2>();
     const double most = bounded_ ? bound_[i] : c.surface.friction * active;
-    if (wanted.norm() > std::max(most, kTinyImpulse)) kind = Row::slip;
+    if (wanted.norm() > std::max(most, kTinyImpulse)) {
+      kind = Row::slip;
+      slips_[static_cast<std::size_t>(i)] = slipping(c, i, rho, wanted);
+    }
     for (int r = 1; r < 3; ++r) unknown_.push_back(offset_[i] + r), rule_.push_back({kind, i, r});
   }
   return static_cast<int>(unknown_.size());
@@ -92,7 +107,7 @@ bool ContactSolver::factor_linearised(const std::vector<Constraint>& all, const 
       newton_.A(k, k) += regular_ * G(unknown_[k], unknown_[k]) + (r == 0 ? c.softness : (r == 2 ? c.wheel.grip_softness : 0));
     } else if (r == 1) {
       // L_t - mu L_n x/|x| = 0 with x = L_t - rho u_t: its two rows, which stand together after that of the normal
-      const Slip slip = slipping(c, member);
+      const Slip& slip = slips_[static_cast<std::size_t>(member)];
       for (int m = 0; m < n; ++m) {
         const Eigen::Vector2d u{newton_.A(k, m), newton_.A(k + 1, m)};
         const Eigen::Vector2d a = slip.rho * (slip.across * u);
@@ -110,19 +125,6 @@ bool ContactSolver::factor_linearised(const std::vector<Constraint>& all, const 
   return true;
 }
 
-/// How a sliding contact's tangential impulse follows its slip.
-ContactSolver::Slip ContactSolver::slipping(const Constraint& c, int member) const {
-  const Mat3& A = own_[member];
-  Slip slip;
-  slip.rho = 1 / std::max(A(1, 1), A(2, 2));
-  const Eigen::Vector2d x = c.impulse.tail<2>() - slip.rho * velocity(member, 3).tail<2>();
-  const double length = x.norm();
-  slip.direction = x / length;
-  slip.most = bounded_ ? bound_[member] : c.surface.friction * std::max(0.0, c.impulse[0]);
-  slip.across = std::min(1.0, slip.most / length) * (Eigen::Matrix2d::Identity() - slip.direction * slip.direction.transpose());
-  return slip;
-}
-
 /// Moves the impulses to the solution of the linearised conditions, with the last matrix while they are of the same kind and
 /// `again` allows it; false if there is none.
 bool ContactSolver::newton_step(std::vector<Constraint>& all, const std::vector<int>& members, bool again) {
@@ -138,7 +140,7 @@ bool ContactSolver::newton_step(std::vector<Constraint>& all, const std::vector<
     } else if (kind != Row::slip) {
       newton_.b(k) = r == 0 ? c.target - u - c.softness * c.impulse[0] : -u - (r == 2 ? c.wheel.grip_softness * c.impulse[2] : 0);
     } else if (r == 1) {
-      const Slip slip = slipping(c, member);
+      const Slip& slip = slips_[static_cast<std::size_t>(member)];
       for (int q = 0; q < 2; ++q) newton_.b(k + q) = slip.most * slip.direction[q] - c.impulse[1 + q];
     }
   }
@@ -157,7 +159,7 @@ bool ContactSolver::newton_step(std::vector<Constraint>& all, const std::vector<
     if (c.kind != ConstraintKind::bilateral) next[0] = std::max(0.0, next[0]);
     const Vec3 change = next - c.impulse;
     c.impulse = next;
-    add_to_velocity(i, c.rows, change);
+    if (change != Vec3::Zero()) add_to_velocity(i, c.rows, change);
   }
   return true;
 }

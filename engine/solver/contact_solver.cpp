@@ -29,6 +29,7 @@ void ContactSolver::reserve(const Topology& topology, std::size_t constraints) {
   G_.reserve(rows * rows);
   newton_.reserve(rows);
   for (std::vector<Row>* list : {&rule_, &factored_rule_}) list->reserve(rows);
+  slips_.reserve(constraints);
   L_start_.reserve(constraints);
   L_sliding_.reserve(constraints);
   own_.reserve(constraints);

@@ -79,7 +79,7 @@ class ContactSolver {
     Eigen::Vector2d direction;
     Eigen::Matrix2d across;
   };
-  Slip slipping(const Constraint&, int member) const;
+  Slip slipping(const Constraint&, int member, double rho, const Eigen::Vector2d& x) const;
 
   double regular_ = 0;
   bool bounded_ = false;          // friction bounds are held at bound_
@@ -100,6 +100,7 @@ class ContactSolver {
   std::vector<Run> runs_;           // of neighbours in unknown_
   std::vector<Row> rule_;           // per unknown
   std::vector<Row> factored_rule_;  // of the matrix in newton_
+  std::vector<Slip> slips_;         // per member, of those that slide
   std::vector<double> L_, u_kept_, L_kept_, u_start_, u_sliding_;
   std::vector<Vec3> L_start_, L_sliding_;
 };

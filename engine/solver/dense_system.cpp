@@ -195,9 +195,8 @@ bool factor_in_place(double* A, std::size_t n, std::size_t* pivots, std::size_t*
 }
 
 /// Takes four columns by their factors from x[begin] to x[end - 1], the first of them first.
-CRASHREEL_WIDE_CLONES
-void take_from(double* x, std::size_t begin, std::size_t end, const double* const (&columns)[kPanel],
-               const double (&factors)[kPanel]) {
+PART_OF_BOTH void take_from(double* x, std::size_t begin, std::size_t end, const double* const (&columns)[kPanel],
+                            const double (&factors)[kPanel]) {
   for (std::size_t i = begin; i < end; i += kPanel) {
     Four sum, q0, q1, q2, q3;
     std::memcpy(&sum, x + i, sizeof sum);
@@ -210,6 +209,7 @@ void take_from(double* x, std::size_t begin, std::size_t end, const double* cons
   }
 }
 
+CRASHREEL_WIDE_CLONES
 void substitute(const double* A, std::size_t n, const std::size_t* pivots, const std::size_t* reach, double* b) {
   for (std::size_t first = 0; first < n; first += kPanel) {
     const double *p0 = A + first * n, *p1 = p0 + n, *p2 = p1 + n, *p3 = p2 + n;

@@ -44,4 +44,8 @@ void eliminate_hinge(const double* H, const double* r, const double* r_parent, c
         : plain::eliminate_hinge(H, r, r_parent, axis, damping, D, X, H_parent);
 }
 
+void turn_inertia(const double* q, const double* inertia, double* turned) {
+  kWide ? wide::turn_inertia(q, inertia, turned) : plain::turn_inertia(q, inertia, turned);
+}
+
 }  // namespace engine

@@ -17,4 +17,8 @@ void eliminate_damped_point(const double* H, const double* r, const double* r_pa
 void eliminate_hinge(const double* H, const double* r, const double* r_parent, const double* axis, double damping, double* D,
                      double* X, double* H_parent);
 
+/// The inertia of a body, of which `inertia` (3x3) has the principal moments on its diagonal, in world axes: R I R^T with R of the
+/// unit quaternion q (x, y, z, w).
+void turn_inertia(const double* q, const double* inertia, double* turned);
+
 }  // namespace engine

@@ -90,6 +90,28 @@ inline Three inverse(const Three& m) {
   return transpose({row0 * scale, row1 * scale, row2 * scale});
 }
 
+/// The matrix of a unit quaternion (x, y, z, w), its numbers as Eigen has them.
+inline Three rotation(const Four& q) {
+  constexpr Lanes kFirst = {-1, 0, 0, 0}, kSecond = {0, -1, 0, 0}, kThird = {0, 0, -1, 0};
+  const Four t = q + q;
+  const Four a0 = __builtin_shufflevector(t, t, 1, 1, 2, 3) * __builtin_shufflevector(q, q, 1, 0, 0, 3);
+  const Four b0 = __builtin_shufflevector(t, t, 2, 2, 1, 3) * __builtin_shufflevector(q, q, 2, 3, 3, 3);
+  const Four a1 = __builtin_shufflevector(t, t, 1, 0, 2, 3) * __builtin_shufflevector(q, q, 0, 0, 1, 3);
+  const Four b1 = __builtin_shufflevector(t, t, 2, 2, 0, 3) * __builtin_shufflevector(q, q, 3, 2, 3, 3);
+  const Four a2 = __builtin_shufflevector(t, t, 2, 2, 0, 3) * __builtin_shufflevector(q, q, 0, 1, 0, 3);
+  const Four b2 = __builtin_shufflevector(t, t, 1, 0, 1, 3) * __builtin_shufflevector(q, q, 3, 3, 1, 3);
+  const Four s0 = kThird ? a0 - b0 : a0 + b0, s1 = kFirst ? a1 - b1 : a1 + b1, s2 = kSecond ? a2 - b2 : a2 + b2;
+  return {kFirst ? 1 - s0 : s0, kSecond ? 1 - s1 : s1, kThird ? 1 - s2 : s2};
+}
+
+inline void turn_inertia(const double* q_in, const double* inertia, double* out) {
+  Four q;
+  std::memcpy(&q, q_in, sizeof q);
+  const Three R = rotation(q), RI = {R.c0 * inertia[0], R.c1 * inertia[4], R.c2 * inertia[8]};
+  const Three I = RI * transpose(R);
+  store(out, I.c0), store(out + 3, I.c1), store(out + 6, I.c2);
+}
+
 /// X0^T rest X0 of what is left of a body's inertia without the joint's freedoms, P, Q above R.
 inline void add_rest(double* H_parent, const Four& d, const Three& P, const Three& Q, const Three& R) {
   const Three Pd = -times_skew(P, d), dQ = skew_times(d, Q), upper = Q + Pd;

@@ -84,7 +84,10 @@ double deepest(const std::vector<Constraint>& list, Bounded what) {
 /// Do contacts and limits at the end of a step stand no deeper in each other than the bound, or than at its start?
 bool acceptable(const std::vector<Constraint>& start, const std::vector<Constraint>& end, double tolerance) {
   const double penetrate = std::min(kMayPenetrate, tolerance);
-  const auto holds = [&](Bounded what, double bound) { return deepest(end, what) < std::max(bound, deepest(start, what) + kSlop); };
+  const auto holds = [&](Bounded what, double bound) {
+    const double depth = deepest(end, what);
+    return depth < bound || depth < deepest(start, what) + kSlop;
+  };
   return holds(Bounded::vehicles, penetrate) && holds(Bounded::surfaces, penetrate) && holds(Bounded::turns, kMayExceed);
 }
 
