@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "cli/allocation.h"
 #include "cli/command.h"
 #include "cli/commit.h"
 #include "cli/exit.h"
@@ -37,6 +38,7 @@ int report_output(std::errc why) {
 
 int main(int argc, char** argv) {
   cli::prepare_process();
+  cli::end_drawing_where_memory_ends();
   cli::set_commit(cli::commit_of_build());
   try {
     const int code = cli::run_command_line(argc, argv);

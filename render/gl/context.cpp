@@ -43,6 +43,7 @@ GlContext::GlContext(Threads threads) {
   // one process a core: threads inside would only wait for each other, and none of them would be there after a fork
   if (threads == Threads::none) setenv("LP_NUM_THREADS", "0", 1);
   load_gl();
+  if (on_open) on_open();
   if (egl_is_chosen())
     open_egl();
   else

@@ -20,6 +20,8 @@ class GlContext {
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
   void make_current() const;  // throws RenderError
+  /// Called as a process makes a context, unless null. Set by the program.
+  static inline void (*on_open)() = nullptr;
   std::string description() const;
 
  private:

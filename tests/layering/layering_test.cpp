@@ -67,7 +67,7 @@ const std::vector<Library> kLibraries = {
     {"sleef\\.h", {"engine/math/functions.cpp"}},
     {"GL/.*|EGL/.*", {"render/gl/"}},
     {"immintrin\\.h", {"render/shade/lanes.h"}},
-    {"dlfcn\\.h", {"render/late_library.cpp"}},
+    {"dlfcn\\.h", {"render/late_library.cpp", "cli/allocation.cpp"}},
     {"lib(av|sw).*", {"render/video/"}},
     {"png\\.h|zlib\\.h|libdeflate\\.h", {"render/image/"}},
     {"cairo.*|pango.*|ft2build\\.h|freetype.*|fontconfig.*",
