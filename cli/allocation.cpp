@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <exception>
 #include <string_view>
 
 #include "cli/exit.h"
@@ -22,11 +23,24 @@ namespace cli {
 namespace {
 
 bool draws = false;
+bool ended = false;  // memory did, once
+
+[[noreturn]] void end(std::string_view why) {
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, why.data(), why.size());
+  _exit(kMachineFailed);
+}
+
+/// What was thrown where nothing may be is not known here.
+[[noreturn]] void terminate() {
+  if (ended) end("crashreel: not enough memory\n");
+  std::abort();
+}
 
 }  // namespace
 
-void end_drawing_where_memory_ends() {
+void end_where_memory_ends() {
   render::GlContext::on_open = [] { draws = true; };
+  std::set_terminate(terminate);
 }
 
 }  // namespace cli
@@ -41,10 +55,10 @@ Function next_of(const char* name) {
 }
 
 void* given(void* memory, std::size_t size) {
-  if (memory || size == 0 || !cli::draws) return memory;
-  constexpr std::string_view kWhy = "crashreel: not enough memory to draw\n";
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, kWhy.data(), kWhy.size());
-  _exit(cli::kMachineFailed);
+  if (memory || size == 0) return memory;
+  cli::ended = true;
+  if (cli::draws) cli::end("crashreel: not enough memory to draw\n");
+  return nullptr;
 }
 
 }  // namespace

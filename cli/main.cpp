@@ -38,7 +38,7 @@ int report_output(std::errc why) {
 
 int main(int argc, char** argv) {
   cli::prepare_process();
-  cli::end_drawing_where_memory_ends();
+  cli::end_where_memory_ends();
   cli::set_commit(cli::commit_of_build());
   try {
     const int code = cli::run_command_line(argc, argv);

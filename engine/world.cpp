@@ -93,7 +93,11 @@ void warn_of_overlap(World& world, int a, int b, double gap) {
   if (before > 0)
     std::erase_if(warnings, [&](const std::string& w) { return w.starts_with(pair(a, b)) || w.starts_with(pair(b, a)); });
   const auto with_mesh = [&world](int body) { return body >= 0 && is_mesh(world.model.bodies[body]); };
-  const bool too_deep = -gap > kParts && with_mesh(a) && with_mesh(b);
+  const auto& bodies = world.model.bodies;
+  const bool meshes = with_mesh(a) && with_mesh(b);
+  const bool never =
+      meshes && model_between(bodies[a].collision_model, bodies[b].collision_model) == CollisionModel::kudlich_slibar;
+  const bool too_deep = never || (meshes && -gap > kParts);
   warnings.push_back(pair(a, b) + std::to_string(std::lround(-gap * 1e3)) + " mm" +
                      (too_deep ? " or more at the start; a run does not part what stands so deep in another: move one"
                                : " at the start; they are moved apart gently"));

@@ -152,6 +152,12 @@ class ImpulseThroughJoints {
   std::vector<Vec6>&force_, &change_;
 };
 
+/// Of the shared space [m], across its shorter side in plan.
+double depth_of(const MeshOverlap& overlap) {
+  const Vec3 size = overlap.region.box_P.upper - overlap.region.box_P.lower;
+  return std::min(size.x(), size.y());
+}
+
 /// A settled normal has either sign: that of the overlap's, which is seen in plan; where it is steeper than that, the closing one.
 Vec3 facing(const Vec3& normal, const MeshOverlap& overlap, const Vec3& u) {
   const double along = normal.dot(overlap.normal_W);
@@ -220,7 +226,9 @@ class KudlichSlibar final : public EffectWith<ImpactMemory> {
     memory(state).pairs.resize(pairs_.size());
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       ImpactProgress& progress = memory(state).pairs[i];
-      progress.touching = overlap_at(world, state, pairs_[i], 0, overlap_).has_value();  // then they have met as the run begins
+      const auto overlap = overlap_at(world, state, pairs_[i], 0, overlap_);
+      progress.touching = overlap.has_value();  // then they have met as the run begins
+      if (overlap && state.time == 0) warn_of_overlap(world, pairs_[i].a, pairs_[i].b, -depth_of(*overlap));
       progress.due = state.time + pairs_[i].settings.penetration_time;
       if (!progress.touching) look_ahead(world, state, pairs_[i], progress);
     }
