@@ -57,13 +57,19 @@ std::pair<double, double> stiffnesses(const Model& model, double time, const std
   return {own(a), panel && !surface(b).stiffness_given ? stiffness_of(*panel) : own(b)};
 }
 
-/// Both surfaces of a compliant contact as springs in series. They share the depth by depth_a S_a = depth_b S_b, eq. (81).
-void set_stiffness(Constraint& c, const Model& model, double time, const std::optional<Panel>& panel) {
+/// Both surfaces of a compliant contact as springs in series. They share the depth by depth_a S_a = depth_b S_b, eq. (81). What a
+/// head presses into a panel that has yielded, the panel alone gives way by.
+void set_stiffness(Constraint& c, const Model& model, double time, const std::optional<Panel>& panel, double depth) {
   const auto [S_a, S_b] = stiffnesses(model, time, panel, c.a.record, c.b.record);
   c.spring.stiffness = stiffness_in_series(S_a, S_b);
   c.spring.hysteresis = c.surface.restitution;
   c.surface.restitution = 0;
   c.spring.share_a = S_b / (S_a + S_b);
+  if (panel && !model.bodies[c.b.record].surface.stiffness_given && is_head(model, c.a.record)) c.spring.yield = yield_of(*panel);
+  if (c.spring.stiffness * depth > c.spring.yield) {
+    c.spring.stiffness = c.spring.yield / depth;
+    c.spring.share_a = c.spring.stiffness / S_a;
+  }
   for (const int body : {c.a.record, c.b.record})
     if (const auto* shape = body >= 0 ? std::get_if<HyperEllipsoid>(&model.bodies[body].shape) : nullptr)
       c.spring.thickness = std::min(c.spring.thickness, 2 * shape->semi_axes.minCoeff());
@@ -154,7 +160,7 @@ void add_contact(ContactSearch& search, const PairKind& kind, const SurfaceConta
   c.surface.restitution = surfaces.restitution;
   const bool compliant = yields_between(world.model, a, b);
   const std::optional<Panel> panel = compliant ? panel_met(world.model, search.at, touch, a, b) : std::nullopt;
-  if (compliant) set_stiffness(c, world.model, search.at.time, panel);
+  if (compliant) set_stiffness(c, world.model, search.at.time, panel, -touch.gap);
   const Vec3 way = touch.p_b - touch.p_a, along = way.dot(touch.normal) * touch.normal;
   c.point = touch.p_a + c.spring.share_a * along + touch.share_across * (way - along);
   const Vec3 t1 = touch.normal.unitOrthogonal();
@@ -185,6 +191,7 @@ void share_stiffness(ContactSearch& search, std::size_t first) {
       sum += std::max(-all[j].gap, kLeast) * std::max(0.0, all[i].frame.col(0).dot(all[j].frame.col(0)));
     const double share = std::max(-all[i].gap, kLeast) / sum;
     all[i].spring.stiffness *= share;
+    all[i].spring.yield *= share;
     all[i].spring.struck_mass *= share;
   }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace engine {
 namespace {
@@ -43,6 +44,10 @@ double distance_to(const TriangleMesh& mesh, int t, const Vec3& p) {
 
 const char* name_of(Panel panel) {
   return kPanels[static_cast<std::size_t>(panel)].name;
+}
+
+double yield_of(Panel panel) {
+  return panel == Panel::windscreen ? 3500 : std::numeric_limits<double>::infinity();
 }
 
 double stiffness_of(Panel panel) {

@@ -49,8 +49,8 @@ void add_swing_and_twist(const JointFrames& at, JointCoordinates& out) {
   out.free[0] = out.free[1] = out.free[2] = true;
 }
 
-void add_slide_along_y(const JointFrames& at, JointCoordinates& out) {
-  const Vec3 axis = at.q_WFp * Vec3::UnitY();
+void add_slide_along(const Vec3& axis_F, const JointFrames& at, JointCoordinates& out) {
+  const Vec3 axis = at.q_WFp * axis_F;
   const Vec3 point = at.X_WC * at.joint.X_CF.p;
   out.value[kSlide] = axis.dot(point - at.X_WP * at.joint.X_PF.p);
   out.gradient_W.col(kSlide) = out.axes_W.col(kSlide) = axis;

@@ -66,6 +66,6 @@ void add_along_slide(const JointCoordinates&, const Joint&, const Vec3& force_W,
 /// Used by several kinds.
 void add_turn_about_y(const JointFrames&, JointCoordinates&);
 void add_swing_and_twist(const JointFrames&, JointCoordinates&);
-void add_slide_along_y(const JointFrames&, JointCoordinates&);
+void add_slide_along(const Vec3& axis_F, const JointFrames&, JointCoordinates&);  // of the parent's frame
 
 }  // namespace engine

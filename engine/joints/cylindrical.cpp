@@ -7,7 +7,7 @@ template <>
 JointType joint_type<JointKind::cylindrical>() {
   return {"cylindrical", "cylindrical", {0, 2, 1}, 2, {{{0, 1}, {2, 1}}}, 2, [](const JointFrames& at, JointCoordinates& out) {
             add_turn_about_y(at, out);
-            add_slide_along_y(at, out);
+            add_slide_along(Vec3::UnitY(), at, out);
           }};
 }
 

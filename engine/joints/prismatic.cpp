@@ -5,7 +5,9 @@ namespace engine {
 
 template <>
 JointType joint_type<JointKind::prismatic>() {
-  return {"prismatic", "prismatic", {0, 2, 1}, 2, {{{0, 1}, {1, 2}, {2, 0}}}, 3, add_slide_along_y};
+  return {"prismatic", "prismatic", {0, 2, 1}, 2, {{{0, 1}, {1, 2}, {2, 0}}}, 3, [](const JointFrames& at, JointCoordinates& out) {
+            add_slide_along(Vec3::UnitY(), at, out);
+          }};
 }
 
 }  // namespace engine

@@ -29,14 +29,21 @@ inline double compliant_normal_force(double S, double e, double depth, double se
   return 0;
 }
 
+/// Work [J] that presses a spring in by `depth` if its force grows no further than `yield` [N].
+inline double work_of_yielding_spring(double S, double yield, double depth) {
+  const double sprung = std::min(depth, yield / S);
+  return S * sprung * (depth - 0.5 * sprung);
+}
+
 /// What a part that yields adds to its spring [N] because it cannot be pressed in by more than `room` [m]: the energy of `mass`
 /// [kg] closing at `closing` [m/s] that the spring cannot take up before, evenly over the way left. Nothing while it can. Tissue
 /// bottoms out on bone, a panel on what lies behind it, and blows faster than the spring bears meet a force that grows with speed
 /// and is not given back (R. W. G. Anderson, A. D. Long, T. Serre, Nonlinear Dynamics 58, 2009).
-inline double bottoming_force(double S, double depth, double closing, double mass, double room) {
+inline double bottoming_force(double S, double yield, double depth, double closing, double mass, double room) {
   constexpr double kLeastWay = 0.05;  // [-] of the room
   if (!(closing > 0) || !(depth > 0)) return 0;
-  const double beyond = 0.5 * mass * closing * closing - 0.5 * S * (room * room - depth * depth);
+  const double left = work_of_yielding_spring(S, yield, room) - work_of_yielding_spring(S, yield, depth);
+  const double beyond = 0.5 * mass * closing * closing - left;
   return std::max(0.0, beyond / std::max(room - depth, kLeastWay * room));
 }
 

@@ -62,7 +62,7 @@ std::vector<Candidate> candidates(const Model& model, const Recording& recording
 }
 
 std::optional<Approach> of_persons(const Model& model, const Recording& recording) {
-  constexpr double kStride = 0.5;  // [m] by which the search reaches farther until it finds anything
+  constexpr double kFarther = 0.5;  // [m] by which the search reaches farther until it finds anything
   MeshContactScratch scratch;
   ContactPoints touches;
   std::optional<Approach> best;
@@ -71,7 +71,7 @@ std::optional<Approach> of_persons(const Model& model, const Recording& recordin
     const auto& mesh = std::get<MeshShape>(model.bodies[c.vehicle].shape);
     const Snapshot& s = recording.snapshots[c.at];
     reserve(scratch, *mesh.mesh);
-    for (double margin = best ? best->distance + kSame : std::max(c.least, 0.0) + kStride;; margin += kStride) {
+    for (double margin = best ? best->distance + kSame : std::max(c.least, 0.0) + kFarther;; margin += kFarther) {
       contacts_with_mesh(std::get<HyperEllipsoid>(model.bodies[c.part].shape), s.bodies[c.part].X_WB, *mesh.mesh,
                          s.bodies[c.vehicle].X_WB * mesh.X_BM, margin, 0, scratch, touches);
       for (const SurfaceContact& touch : touches)

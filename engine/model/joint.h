@@ -10,7 +10,7 @@
 namespace engine {
 
 /// A kind is a word here and the file of its name in engine/joints/, which says what it leaves free.
-enum class JointKind { revolute, universal, spherical, ragdoll, fixed, prismatic, cylindrical, count };
+enum class JointKind { revolute, universal, spherical, ragdoll, fixed, prismatic, cylindrical, spinal, count };
 
 /// Coordinates of a joint: swing x, swing y, twist z, slide along y.
 constexpr int kCoordinates = 4;
@@ -44,7 +44,7 @@ struct Joint {
   Pose X_PF;                              // joint frame in the parent (in the world for parent -1)
   Pose X_CF;                              // joint frame in the child
   std::array<JointCoordinate, 3> angles;  // x, y, z as above; a revolute joint uses y only
-  JointCoordinate slide;                  // of the child's point along y of the parent's joint frame
+  JointCoordinate slide;                  // of the child's point along y of the parent's joint frame, of a spinal joint along z
   PassiveTorque passive = PassiveTorque::none;
   double passive_share = 1;  // [-] of an adult's torque
   int flexes_about = 1;      // +1: a turn about +y is flexion (knee), -1: about -y (hip, ankle)

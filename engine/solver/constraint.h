@@ -34,6 +34,7 @@ struct TouchingSurfaces {
 /// Of a contact or stop whose depth is a deformation.
 struct YieldingSpring {
   double stiffness = 0;                                        // [N/m] both surfaces in series; [N m/rad] stop; 0: rigid
+  double yield = std::numeric_limits<double>::infinity();      // [N] force that a contact does not grow beyond, but by bottoming
   double hysteresis = 0;                                       // [-] share of the energy that comes back
   double share_a = 0.5;                                        // [-] of the depth, by which surface a gives way
   double thickness = std::numeric_limits<double>::infinity();  // [m] depth at which what yields has gone through
@@ -90,8 +91,8 @@ struct Constraint {
   static auto fields(S& s) {
     return std::tie(s.kind, s.rows, s.slides, s.surface.rolls, s.a.body, s.b.body, s.a.J, s.b.J, s.point, s.frame, s.gap,
                     s.surface.friction, s.surface.ploughing, s.surface.restitution, s.surface.held, s.spring.stiffness,
-                    s.spring.hysteresis, s.spring.room, s.spring.struck_mass, s.spring.share_a, s.spring.thickness, s.response.free,
-                    s.response.whole, s.key, s.effect, s.shapes, s.a.record, s.b.record);
+                    s.spring.yield, s.spring.hysteresis, s.spring.room, s.spring.struck_mass, s.spring.share_a, s.spring.thickness,
+                    s.response.free, s.response.whole, s.key, s.effect, s.shapes, s.a.record, s.b.record);
   }
 };
 

@@ -106,14 +106,16 @@ double formulate_compliant_contact(Constraint& c, double h, double gravity, doub
   const double smoothing = std::max(1e-3, h * gravity), share = std::max(c.spring.hysteresis, 1e-3);
   const bool pressed = c.gap < 0;
   const double at = whole && rests ? std::clamp(speed, -smoothing, smoothing) : speed;
-  const double S =
-      pressed ? compliant_normal_force(c.spring.stiffness, share, 1, at, ContactPhase::resting, smoothing) : c.spring.stiffness;
+  const double closing = std::max(0.0, -c.u.before[0]);
+  // what has yielded holds its force at the mean depth of the step
+  const double loading = pressed ? std::min(c.spring.stiffness, c.spring.yield / (0.5 * h * closing - c.gap)) : c.spring.stiffness;
+  const double S = pressed ? compliant_normal_force(loading, share, 1, at, ContactPhase::resting, smoothing) : loading;
   const double damping = rests && pressed ? resting_slope(c, at, share, smoothing) : 0;
   // no more than stops what it stops within the step
-  const double closing = std::max(0.0, -c.u.before[0]);
-  const double extra = c.spring.room > 0 ? std::min(bottoming_force(S, -c.gap, closing, c.spring.struck_mass, c.spring.room),
-                                                    c.spring.struck_mass * closing / h)
-                                         : 0;
+  const double extra = c.spring.room > 0
+                           ? std::min(bottoming_force(S, c.spring.yield, -c.gap, closing, c.spring.struck_mass, c.spring.room),
+                                      c.spring.struck_mass * closing / h)
+                           : 0;
   // the spring at the mean of its depths at both ends, which neither gains nor loses energy of itself:
   // L = -h (S (gap + h (u_before + u_after) / 4) + damping (u_after - u_before)); a step too long to follow it: at its end, which
   // is stable however stiff, L = -h (S (gap + h u_after) + damping (u_after - u_before))

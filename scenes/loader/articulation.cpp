@@ -94,6 +94,7 @@ engine::Joint engine_joint(const Figure& figure, const FigureJoint& joint, const
     make_universal(joint, out);
     return out;
   }
+  if (joint.slide) out.kind = engine::JointKind::spinal, out.slide = *joint.slide;
   const Vec3 start = swing_twist(q_mid.conjugate() * articulation(joint, start_angles));
   const Vec3 standing = swing_twist(q_mid.conjugate());
   Vec3 lower = start;

@@ -51,7 +51,7 @@ void read_overlays(Builder&, Reader);
 void read_road_and_sky(Builder&, Reader road, Reader sky);
 void read_snapshot(Builder&, std::optional<Reader> snapshot, std::optional<Reader> expect);
 
-extern const Section kSimulationSection, kGroundSection, kBodySection, kJointSection, kImpactSection, kPersonSection,
+extern const Section kSlideSection, kSimulationSection, kGroundSection, kBodySection, kJointSection, kImpactSection, kPersonSection,
     kVehicleSection;
 extern const Section kWheelSection, kBrakeSection, kDriverSection, kPathSection;  // of a vehicle
 extern const Section kCameraSection, kShotSection, kCardSection, kOverlaysSection, kOutputSection, kRoadSection, kSkySection;

@@ -105,6 +105,15 @@ const Key kFigureJointKeys[] = {
                                   "none|hip|knee|ankle"}),
     bound<&FigureJoint::passive_share>(
         {"passive_share", Type::number, Dimension::none, "1", "Share of an adult's passive torque.", kNotNegative}),
+    {"slide",
+     Type::table,
+     Dimension::none,
+     "",
+     "Of a joint of three angles: how the child gives way along z of the standing person, from the parent upwards. Not with the "
+     "contact law default_auto, which has no forces.",
+     kAny,
+     {},
+     &kSlideSection},
 };
 const Section kJointSectionOfFigure{"figure.joint", "[[joint]] of a person's file", "In a person's library file: one joint.",
                                     kFigureJointKeys};
@@ -205,6 +214,14 @@ void read_joint_of_figure(Reader& r, const Scaling& scale, Figure& figure) {
   JointGiven given;
   const std::vector<AnatomicalAngle> angles = read_angles(r);
   r.fill(j);
+  if (auto slide = r.table("slide")) {
+    if (angles.size() != 3) slide->fail_here("is of a joint of three angles");
+    slide->fill(j.slide.emplace());
+    // as a column of that size, of the same material
+    j.slide->lower *= scale.along, j.slide->upper *= scale.along, j.slide->rest *= scale.along;
+    const double stiffer = scale.across * scale.across / scale.along;
+    j.slide->stiffness *= stiffer, j.slide->damping *= stiffer, j.slide->stop_stiffness *= stiffer;
+  }
   r.fill(given);
   const std::string name = j.name;
   const engine::Vec3 at = j.at.cwiseProduct(engine::Vec3{scale.across, scale.across, scale.along});

@@ -40,7 +40,8 @@ struct FigureJoint {
   double stiffness = 0;                 // [N m/rad]
   double stop_stiffness = 0;            // [N m/rad]
   engine::PassiveTorque passive = engine::PassiveTorque::none;
-  double passive_share = 1;  // [-] of an adult's
+  double passive_share = 1;                      // [-] of an adult's
+  std::optional<engine::JointCoordinate> slide;  // of the child along z of the standing person; as wide as the ranges say
 };
 
 struct Figure {

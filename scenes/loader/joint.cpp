@@ -40,9 +40,14 @@ const Key kSlideKeys[] = {
          "Of the stops at the ends of the range, compliant contact law only; 0: rigid, as they are with Default-Auto.",
          kNotNegative}),
 };
-const Section kSlideSection{
-    "joint.slide", "[joint.slide]",
-    "The slide of a prismatic or cylindrical joint: the way of the joint's centre along axis since the start.", kSlideKeys};
+}  // namespace
+
+const Section kSlideSection{"joint.slide", "[joint.slide]",
+                            "The slide of a prismatic, cylindrical or spinal joint: the way of the joint's centre since the start, "
+                            "along axis or a spine's z.",
+                            kSlideKeys};
+
+namespace {
 
 /// What the joint's frames follow from, in the world at the start.
 struct JointPlace {
@@ -56,8 +61,8 @@ const Key kJointKeys[] = {
     bound<&engine::Joint::kind>(
         {"kind", Type::choice, Dimension::none, "'spherical'",
          "What it leaves: turns about axis; a cardan cross; all turns; all with limits; nothing; sliding along axis; sliding and "
-         "turning.",
-         kAny, "revolute|universal|spherical|ragdoll|fixed|prismatic|cylindrical"}),
+         "turning; all with limits and sliding along z.",
+         kAny, "revolute|universal|spherical|ragdoll|fixed|prismatic|cylindrical|spinal"}),
     {"parent", Type::text, Dimension::none, "'world'", "A body, or the world."},
     {"child", Type::text, Dimension::none, kRequired, "The body that hangs on the parent."},
     bound<&JointPlace::at>({"at", Type::vector3, Dimension::length, "",
@@ -81,7 +86,7 @@ const Key kJointKeys[] = {
     {"x", Type::table, Dimension::none, "", "The first swing angle.", kAny, {}, &kAngleSection},
     {"y", Type::table, Dimension::none, "", "The second swing angle; the angle of a revolute.", kAny, {}, &kAngleSection},
     {"z", Type::table, Dimension::none, "", "The twist.", kAny, {}, &kAngleSection},
-    {"slide", Type::table, Dimension::none, "", "The slide of a prismatic or cylindrical joint.", kAny, {}, &kSlideSection},
+    {"slide", Type::table, Dimension::none, "", "The slide of a prismatic, cylindrical or spinal joint.", kAny, {}, &kSlideSection},
 };
 
 constexpr std::array<std::string_view, 3> kAngleNames{"x", "y", "z"};
@@ -134,7 +139,7 @@ void refuse_what_is_not_free(Reader& r, const engine::Joint& joint) {
     if (!free[i] && r.has(kAngleNames[i]))
       r.fail(kAngleNames[i], fmt::format("a {} joint does not turn about {}", type.name, kAngleNames[i]));
   if (type.slides() == 0 && r.has("slide"))
-    r.fail("slide", fmt::format("a {} joint does not slide; prismatic and cylindrical ones do", type.name));
+    r.fail("slide", fmt::format("a {} joint does not slide; prismatic, cylindrical and spinal ones do", type.name));
 }
 
 }  // namespace

@@ -273,6 +273,8 @@ void read_person(Builder& builder, Reader r) {
 
   std::vector<engine::SurfaceProperties> surfaces(figure.segments.size(), read_surface(r, {}));
   change_segments(r, figure, surfaces);
+  if (!engine::yields(model.settings.contact_law, true))
+    for (FigureJoint& joint : figure.joints) joint.slide.reset();
   change_joints(r, figure);
   const Pose pose = read_pose(builder, r, figure);
   const int mount = find_mount(builder, r);

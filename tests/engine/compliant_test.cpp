@@ -104,8 +104,10 @@ Dent head_into(Panel panel, double speed) {
 TEST(PanelRoom, APaneGivesWayUntilTheHeadIsThroughAndSheetMetalLess) {
   const double S_pane = stiffness_in_series(1e6, stiffness_of(Panel::windscreen));
   const double S_bonnet = stiffness_in_series(1e6, stiffness_of(Panel::bonnet));
-  // what the spring bears: 1/2 m v^2 = 1/2 S d^2, to a step's way
-  EXPECT_NEAR(head_into(Panel::windscreen, 10).depth, 10 * std::sqrt(4.5 / S_pane), 10 * 1e-4);
+  // what the spring bears: 1/2 m v^2 = 1/2 S d^2, to a step's way; the pane yields before, 1/2 m v^2 = F d - F^2 / 2 S
+  const double F = yield_of(Panel::windscreen);
+  EXPECT_NEAR(head_into(Panel::windscreen, 5).depth, 5 * std::sqrt(4.5 / S_pane), 5 * 1e-4);
+  EXPECT_NEAR(head_into(Panel::windscreen, 10).depth, 0.5 * 4.5 * 100 / F + 0.5 * F / S_pane, 10 * 1e-4);
   EXPECT_NEAR(head_into(Panel::bonnet, 10).depth, 10 * std::sqrt(4.5 / S_bonnet), 10 * 1e-4);
   // what it does not is stopped at the end of the room, a tenth before the part would be taken for having gone through; the last
   // twentieth of the room is braked by the force before it
@@ -113,7 +115,7 @@ TEST(PanelRoom, APaneGivesWayUntilTheHeadIsThroughAndSheetMetalLess) {
   for (const double speed : {18.0, 22.0, 25.0}) {
     const Dent glass = head_into(Panel::windscreen, speed);
     EXPECT_GT(glass.depth, 0.94 * pane) << speed;
-    EXPECT_LT(glass.depth, 1.01 * pane) << speed;
+    EXPECT_LT(glass.depth, 1.03 * pane) << speed;  // the film holds less there than a spring would
     EXPECT_LT(glass.unexplained, 1e-3 * 0.5 * 4.5 * speed * speed);
   }
   for (const double speed : {22.0, 25.0}) {
@@ -136,22 +138,36 @@ TEST(CompliantBall, WithoutRestitutionDoesNotSpringBackWithinItsLastStep) {
   }
 }
 
+constexpr double kNever = std::numeric_limits<double>::infinity();  // [N] yields
+
 TEST(Bottoming, StopsWhatItsSpringCannotWithinTheRoom) {
   const double S = 200e3, mass = 3, room = 0.05, v_spring = room * std::sqrt(S / mass);
-  EXPECT_EQ(bottoming_force(S, 0.01, std::sqrt(v_spring * v_spring - S * 1e-4 / mass) - 1e-9, mass, room), 0) << "the spring can";
-  EXPECT_EQ(bottoming_force(S, 0.01, -30, mass, room), 0) << "parting";
+  EXPECT_EQ(bottoming_force(S, kNever, 0.01, std::sqrt(v_spring * v_spring - S * 1e-4 / mass) - 1e-9, mass, room), 0)
+      << "the spring can";
+  EXPECT_EQ(bottoming_force(S, kNever, 0.01, -30, mass, room), 0) << "parting";
   for (const double v0 : {1.01 * v_spring, 2 * v_spring, 30.0}) {
     // what the spring leaves over, evenly: F = (1/2 m v0^2 - 1/2 S room^2) / room all the way
     const double even = (0.5 * mass * v0 * v0 - 0.5 * S * room * room) / room, h = 1e-7;
     double depth = 1e-9, v = v0;
     while (v > 0 && depth < 0.9 * room) {
-      const double force = bottoming_force(S, depth, v, mass, room);
+      const double force = bottoming_force(S, kNever, depth, v, mass, room);
       EXPECT_NEAR(force, even, 1e-2 * even) << v0;
       v -= h * (S * depth + force) / mass;
       depth += h * v;
     }
     EXPECT_GT(v, 0) << "it stops just at the end of the room";
   }
+}
+
+TEST(Bottoming, CountsOnNoMoreThanTheForceAtWhichASpringYields) {
+  const double S = 50e3, yield = 3e3, mass = 4.5, room = 0.15;
+  EXPECT_EQ(work_of_yielding_spring(S, yield, 0.04), 0.5 * S * 0.04 * 0.04);
+  EXPECT_NEAR(work_of_yielding_spring(S, yield, room), yield * (room - 0.5 * yield / S), 1e-9);
+  const double borne = std::sqrt(2 * work_of_yielding_spring(S, yield, room) / mass);
+  EXPECT_EQ(bottoming_force(S, yield, 1e-9, borne - 1e-6, mass, room), 0);
+  EXPECT_NEAR(bottoming_force(S, yield, 1e-9, 2 * borne, mass, room), 3 * 0.5 * mass * borne * borne / room, 1);
+  // where it has yielded, its secant says the same
+  EXPECT_NEAR(bottoming_force(yield / 0.1, yield, 0.1, 20, mass, room), bottoming_force(S, yield, 0.1, 20, mass, room), 1e-6);
 }
 
 TEST(CompliantBall, ComesToRestUnderItsWeight) {

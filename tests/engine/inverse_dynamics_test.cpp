@@ -42,7 +42,7 @@ struct Experiment {
   std::vector<Twist> V;
 };
 
-/// Axes the joint lets the child turn about, world: columns, `count` of them; and whether it slides along y of the parent's frame.
+/// Axes the joint lets the child turn about, world: columns, `count` of them; and along what of the parent's frame it slides.
 struct FreeAxes {
   Mat3 axis = Mat3::Identity();
   int count = 0;
@@ -53,6 +53,7 @@ FreeAxes free_axes(const Joint& joint, const Pose& X_WP, const Pose& X_WC) {
   const Vec3 y_P = X_WP.q * (joint.X_PF.q * Vec3::UnitY()), x_C = X_WC.q * (joint.X_CF.q * Vec3::UnitX());
   FreeAxes out;
   if (joint.kind == JointKind::prismatic || joint.kind == JointKind::cylindrical) out.slide = y_P;
+  if (joint.kind == JointKind::spinal) out.slide = X_WP.q * (joint.X_PF.q * Vec3::UnitZ());
   switch (joint.kind) {
     case JointKind::fixed:
     case JointKind::prismatic:
@@ -96,7 +97,7 @@ Experiment chain(JointKind kind, Random& random) {
     Quat q_FF = Quat::Identity();
     if (kind == JointKind::revolute || kind == JointKind::cylindrical) q_FF = Eigen::AngleAxisd(a, Vec3::UnitY());
     if (kind == JointKind::universal) q_FF = Eigen::AngleAxisd(a, Vec3::UnitY()) * Eigen::AngleAxisd(b, Vec3::UnitX());
-    if (kind == JointKind::spherical || kind == JointKind::ragdoll) q_FF = random.attitude();
+    if (kind == JointKind::spherical || kind == JointKind::ragdoll || kind == JointKind::spinal) q_FF = random.attitude();
     Pose X_WC;
     X_WC.q = e.X.back().q * joint.X_PF.q * q_FF * joint.X_CF.q.conjugate();
     const FreeAxes axes = free_axes(joint, e.X.back(), X_WC);
@@ -116,7 +117,7 @@ Experiment chain(JointKind kind, Random& random) {
 class JointKinds : public testing::TestWithParam<JointKind> {};
 INSTANTIATE_TEST_SUITE_P(Every, JointKinds,
                          testing::Values(JointKind::fixed, JointKind::revolute, JointKind::universal, JointKind::spherical,
-                                         JointKind::ragdoll, JointKind::prismatic, JointKind::cylindrical));
+                                         JointKind::ragdoll, JointKind::prismatic, JointKind::cylindrical, JointKind::spinal));
 
 TEST_P(JointKinds, InverseDynamicsGivesBackForcesAndJointTorques) {
   Random random(20 + static_cast<unsigned>(GetParam()));

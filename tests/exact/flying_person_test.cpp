@@ -30,7 +30,11 @@ engine::Model flying(Scheme scheme, Resistance resistance, double step, double d
   model.settings.effects["joint_limits"] = engine::Force::off;
   model.settings.effects["self_contact"] = engine::Force::off;
   model.settings.effects["air_drag"] = engine::Force::off;
-  if (resistance == Resistance::none) model.settings.effects["joint_resistance"] = engine::Force::off;
+  if (resistance == Resistance::none) {
+    model.settings.effects["joint_resistance"] = engine::Force::off;
+    for (engine::Joint& joint : model.joints)  // nothing would hold a neck together
+      if (joint.kind == engine::JointKind::spinal) joint.kind = engine::JointKind::ragdoll;
+  }
   for (engine::Joint& joint : model.joints)
     for (engine::JointCoordinate& angle : joint.angles) {
       angle.friction = 0;

@@ -129,11 +129,12 @@ TEST(Person16, HasSixteenPartsFifteenJointsAndKneesOfTheirOwn) {
   EXPECT_NEAR(part(scene, "left_femur").mass, 11.140 - 0.6, 1e-3);
   EXPECT_NEAR(part(scene, "left_lower_leg").mass, 3.343 - 0.3, 1e-3);
   EXPECT_NEAR(centre_of_gravity(scene).z(), 0.969, 5e-3);
-  int of_kind[5] = {};
+  int of_kind[static_cast<int>(engine::JointKind::count)] = {};
   for (const engine::Joint& joint : scene.model.joints) ++of_kind[static_cast<int>(joint.kind)];
   EXPECT_EQ(of_kind[static_cast<int>(engine::JointKind::revolute)], 6);
   EXPECT_EQ(of_kind[static_cast<int>(engine::JointKind::universal)], 5);
-  EXPECT_EQ(of_kind[static_cast<int>(engine::JointKind::ragdoll)], 4);
+  EXPECT_EQ(of_kind[static_cast<int>(engine::JointKind::ragdoll)], 3);
+  EXPECT_EQ(of_kind[static_cast<int>(engine::JointKind::spinal)], 1);
 }
 
 TEST(Person16, SharesTheFlexionOfAKneeBetweenItsTwoJoints) {

@@ -56,7 +56,8 @@ TEST(JointSection, RefusesWhatTheKindLeavesNoFreedomFor) {
               ElementsAre("case.toml:8:1: joint.0.z is a table: a cylindrical joint does not turn about z"));
   EXPECT_THAT(
       folder().errors(kBall + "kind = \"revolute\"\n[joint.slide]\ndamping = \"3 N s/m\"\n"),
-      ElementsAre("case.toml:8:1: joint.0.slide is a table: a revolute joint does not slide; prismatic and cylindrical ones do"));
+      ElementsAre(
+          "case.toml:8:1: joint.0.slide is a table: a revolute joint does not slide; prismatic, cylindrical and spinal ones do"));
   EXPECT_THAT(folder().errors(kBall + "kind = \"prismatic\"\n[joint.slide]\ndamping = \"3 N m s/rad\"\n"), ::testing::SizeIs(1));
   EXPECT_THAT(folder().errors(kBall + "kind = \"cylindrical\"\ndamping = \"3 N m s/rad\"\n[joint.y]\ndamping = \"1 N m s/rad\"\n"),
               IsEmpty());
