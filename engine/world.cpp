@@ -97,10 +97,11 @@ void warn_of_overlap(World& world, int a, int b, double gap) {
   const bool meshes = with_mesh(a) && with_mesh(b);
   const bool never =
       meshes && model_between(bodies[a].collision_model, bodies[b].collision_model) == CollisionModel::kudlich_slibar;
-  const bool too_deep = never || (meshes && -gap > kParts);
-  warnings.push_back(pair(a, b) + std::to_string(std::lround(-gap * 1e3)) + " mm" +
-                     (too_deep ? " or more at the start; a run does not part what stands so deep in another: move one"
-                               : " at the start; they are moved apart gently"));
+  const char* parted = never ? " or more at the start; a run does not part what collides by Kudlich-Slibar: move one"
+                       : meshes && -gap > kParts
+                           ? " or more at the start; a run does not part what stands so deep in another: move one"
+                           : " at the start; they are moved apart gently";
+  warnings.push_back(pair(a, b) + std::to_string(std::lround(-gap * 1e3)) + " mm" + parted);
 }
 
 namespace {

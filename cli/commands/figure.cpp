@@ -18,6 +18,7 @@
 #include "engine/measure/definitions.h"
 #include "engine/measure/metrics.h"
 #include "engine/measure/phases.h"
+#include "engine/measure/vehicle_events.h"
 #include "render/figures/figures.h"
 
 namespace cli {

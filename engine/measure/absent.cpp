@@ -1,9 +1,9 @@
 // Which measures a run does not define, and why.
 #include <algorithm>
 
-#include "engine/measure/impacts.h"
 #include "engine/measure/metrics.h"
 #include "engine/measure/phases.h"
+#include "engine/measure/vehicle_events.h"
 
 namespace engine {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "engine/math/functions.h"
-#include "engine/measure/impacts.h"
 #include "engine/measure/metrics.h"
+#include "engine/measure/vehicle_events.h"
 
 namespace engine {
 

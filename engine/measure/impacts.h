@@ -62,22 +62,17 @@ struct Impact {
 };
 
 constexpr double kChange = 0.8 / 3.6;  // [m/s] within 20 ms: more is a collision
+constexpr double kWindow = 0.02;       // [s] 49 CFR 563.5, end of event time
+constexpr double kLongest = 0.25;      // [s] 49 CFR 563.7, delta-v is recorded from 0 to 250 ms
+
+/// What a stretch of the recording did to a party. Of others than vehicles without delta-v.
+ImpactSide side_of(const Model&, const Recording&, const Party&, const Stretch&);
 
 /// The phases of a series of pushes [N s], one a snapshot: those in which more than `bound` [N s] is exchanged within 20 ms.
 std::vector<Stretch> stretches(const Recording&, const std::vector<Vec3>& push, double bound);
 
 /// In order of time.
 std::vector<Impact> impacts_of(const Model&, const Recording&);
-
-/// The phase in which the other one gave a vehicle most. Its delta-v holds what a third one did meanwhile, which may be more; null
-/// where there is none.
-const Impact* hardest_impact(const std::vector<Impact>&, int vehicle);
-
-/// What the event of its hardest phase did to a vehicle, or to one that was not struck itself that of one coupled to it, without an
-/// EES; nothing where neither was struck. Phases of one vehicle that overlap, or follow within 20 ms, are one event, whoever struck
-/// it (49 CFR 563.5); of a longer one those 250 ms with all of the hardest phase in which the velocity changes most. EES is that of
-/// the hardest phase.
-std::optional<ImpactSide> hardest_event(const Model&, const Recording&, const std::vector<Impact>&, int vehicle);
 
 /// The recorded events, and a "collision" where two have their first phase that have no event of their own: all but a person and a
 /// vehicle, which have their first contact. `value` is the closing speed. In order of time.

@@ -6,8 +6,8 @@
 #include <memory>
 #include <numbers>
 
-#include "engine/measure/impacts.h"
 #include "engine/measure/phases.h"
+#include "engine/measure/vehicle_events.h"
 #include "tests/engine/hand_made_runs.h"
 
 namespace engine {
