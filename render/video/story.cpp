@@ -41,7 +41,7 @@ std::string event_text(const engine::Recording& recording, const engine::Event& 
   std::string text = kind + ": " + name_of(recording, e.body_a);
   if (touch || kind == "joint broken") text += " and " + name_of(recording, e.body_b);
   if (e.kind == "run_over") text += " by " + name_of(recording, e.body_b);
-  if (touch && e.value > 0) text += fmt::format(", {:.1f} m/s", e.value);
+  if (touch && e.value > 0) text += fmt::format(", {}{:.1f} m/s", e.kind == "head_impact" ? "" : "closing at ", e.value);
   return text;
 }
 

@@ -105,7 +105,7 @@ TEST(StoryOfAFilm, HasAChapterAShotAndASubtitleWhereAnEventIsPassed) {
   ASSERT_EQ(story.subtitles.size(), 2u) << "once a shot";
   EXPECT_NEAR(story.subtitles[0].from, 0.5, 0.1 + 1e-9) << "a frame at most from the event";
   EXPECT_LE(story.subtitles[0].to, story.subtitles[1].from);
-  EXPECT_NE(story.subtitles[0].text.find("first contact: ann's hips and car, 2.0 m/s"), std::string::npos);
+  EXPECT_NE(story.subtitles[0].text.find("first contact: ann's hips and car, closing at 2.0 m/s"), std::string::npos);
 }
 
 TEST(StoryOfAFilm, ARiderLosesItsHoldAndBreaksNoJoint) {
@@ -120,7 +120,7 @@ TEST(StoryOfAFilm, ARiderLosesItsHoldAndBreaksNoJoint) {
               {2.0, "rest", 2, -1, Vec3::Zero(), 0}};
   const std::vector<Told> all = told(r);
   ASSERT_EQ(all.size(), 5u);
-  EXPECT_EQ(all[0].text, "collision: car and bike, 13.9 m/s");
+  EXPECT_EQ(all[0].text, "collision: car and bike, closing at 13.9 m/s");
   EXPECT_EQ(all[1].text, "ann loses hold of bike by 0.130 s: left foot, hips");
   EXPECT_EQ(all[2].text, "bob loses hold of bike: hips");
   EXPECT_EQ(all[3].text, "joint broken: trailer and car");
