@@ -69,6 +69,7 @@ const std::vector<Library> kLibraries = {
     {"immintrin\\.h", {"render/shade/lanes.h"}},
     {"dlfcn\\.h", {"render/late_library.cpp", "cli/allocation.cpp"}},
     {"lib(av|sw).*", {"render/video/"}},
+    {"nettle/sha2\\.h", {"scenes/loader/sha256.cpp"}},
     {"png\\.h|zlib\\.h|libdeflate\\.h", {"render/image/"}},
     {"cairo.*|pango.*|ft2build\\.h|freetype.*|fontconfig.*",
      {"render/text/", "render/figures/", "render/charts/", "render/paper_file.h"}},
