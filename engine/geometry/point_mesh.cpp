@@ -72,6 +72,11 @@ struct Beside {
   double distance = 0, along = 0;  // [m] of the point, and by the face's normal
 };
 
+/// Whether a triangle is farther than `reach` by its plane alone: many of those about a point are, and need no more looking at.
+bool is_beyond(const TriangleMesh& mesh, int t, const Vec3& p, double reach) {
+  return std::abs(mesh.face_normals()[t].dot(p - mesh.vertices()[mesh.triangles()[t][0]])) > reach + 2 * kSame;
+}
+
 Beside beside(const TriangleMesh& mesh, int t, const Vec3& p) {
   const Triangle& v = mesh.triangles()[t];
   Beside out;
@@ -94,6 +99,7 @@ void take_the_mean(const TriangleMesh& mesh, const std::vector<int>& near, const
   bool one = true;
   const double least = std::abs(best.gap);
   for (const int t : near) {
+    if (is_beyond(mesh, t, p, std::max(least, kOn))) continue;
     const Beside as = beside(mesh, t, p);
     const bool same_side = (as.along < 0) == (facing < 0) && std::abs(as.along) > std::abs(facing) - kSame;
     if (least > kOn ? as.distance > least + kSame || !same_side : as.distance > kOn) continue;
@@ -114,6 +120,7 @@ std::optional<NearestSurface> nearest_surface(const TriangleMesh& mesh, const Ve
   double least = reach, facing = 0;
   bool tied = false;
   for (const int t : scratch) {
+    if (is_beyond(mesh, t, p, std::max(least, kOn))) continue;
     const Beside it = beside(mesh, t, p);
     const bool nearer = it.distance < least - kSame;
     const bool same = best && it.distance < least + kSame;
