@@ -34,7 +34,7 @@ using Panels = std::vector<Panel>;
 /// same tests, and the other panels are estimates.
 double stiffness_of(Panel);
 
-/// Force [N] at which a panel yields to a head, and presses no harder until the head has no more room. Infinite but for a
+/// Force [N] at which a panel yields to a head, and presses no harder while that stops the head within its room. Infinite but for a
 /// windscreen: its glass breaks, and its film stretches. In the centre of windscreens a headform stays below HIC 500, and comes to
 /// more towards the frame (K. Mizuno, H. Yonezawa, J. Kajzer, ESV 2001). One of 4.8 kg at 40 km/h comes to 940 on the spring above,
 /// to 620 on one of 30 kN/m, to 480 where the film yields at 3 kN, and to 630 at 3.5 kN. The last is taken for the whole pane.

@@ -64,6 +64,8 @@ void absent_throw(const Model& model, const Recording& recording, int p, Absence
   absent.note("slide_m", name, t->lay ? "a vehicle pushed it until it rested, or the run ended" : "it did not land");
 }
 
+const char* const kByWheel = "a wheel met the head: its tyre is rigid and gives no history of forces";
+
 void absent_head(const Model& model, const Recording& recording, int p, Absences& absent) {
   const Person& person = model.persons[p];
   const bool struck = std::any_of(recording.events.begin(), recording.events.end(),
@@ -72,12 +74,14 @@ void absent_head(const Model& model, const Recording& recording, int p, Absences
     absent.note("head_impact_s", person.name, "no vehicle touched the head");
   } else {
     absent.note("head_impact_panel", person.name, "the head met a wheel or a two-wheeler, or the mesh tells no panels");
-    absent.note("wrap_around_distance_m", person.name, "the head met no front, or a place no tape from the front reaches");
+    absent.note("wrap_around_distance_m", person.name,
+                "the head met no front, or a wheel, or a place no tape from the front reaches");
   }
   const std::string law = why_no_head_injury(model);
-  const std::string none = "the head touched neither vehicle nor ground";
+  const bool wheel = wheel_met_head(model, recording, p);
+  const std::string none = wheel ? kByWheel : "the head touched neither vehicle nor ground";
   for (const char* key : {"hic15", "hic36", "three_ms_g"}) absent.note(key, person.name, law.empty() ? none : law);
-  absent.note("hic15_vehicle", person.name, law.empty() ? "no vehicle touched the head" : law);
+  absent.note("hic15_vehicle", person.name, !law.empty() ? law : wheel ? kByWheel : "no vehicle touched the head");
   absent.note("hic15_ground", person.name, law.empty() ? "the head did not touch the ground" : law);
   absent.note("hic15_object", person.name, law.empty() ? "no object and nobody else touched the head" : law);
   if (!law.empty()) absent.note("peak_acceleration_mps2", person.name, law);
@@ -85,7 +89,7 @@ void absent_head(const Model& model, const Recording& recording, int p, Absences
 
 /// What the hardest impact of a vehicle does not tell of it.
 void absent_at_worst(const Model& model, const Vehicle& v, const std::vector<Impact>& impacts, Absences& absent) {
-  const Impact* worst = hardest_impact(impacts, model.bodies[v.body].vehicle);
+  const Impact* worst = hardest_impact(model, impacts, model.bodies[v.body].vehicle);
   if (!worst) {
     absent.note("ees_mps", v.name, "it was struck through its coupling, not itself");
     absent.note("pdof_deg", v.name, "its velocity did not change");

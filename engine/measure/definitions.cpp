@@ -12,7 +12,10 @@ constexpr const char* kNotLanded = "the trunk did not come down on the ground af
 constexpr const char* kPath =
     "chaotic beyond the landing: see the band of `crashreel study`; the centre of mass is exact to the step";
 constexpr const char* kNoHead = "no vehicle touched the head";
-constexpr const char* kNoForce = "the contact law is default_auto, which has no force histories; or the head touched nothing";
+constexpr const char* kNoForce =
+    "the contact law is default_auto, which has no force histories; or a wheel met the head, whose tyre is rigid; or the head "
+    "touched "
+    "nothing";
 constexpr const char* kHic =
     "as good as the stiffness of head and panel (engine/geometry/panels.h); grows as speed to the 2.5, faster where the panel "
     "bottoms out";
@@ -155,11 +158,12 @@ constexpr Definition kDefinitions[] = {
      "Change of the velocity of the centre of mass in the plane of the road over the event of its hardest collision phase, "
      "that of the largest impulse along the road, less what tyres and gravity did meanwhile; of what was not struck itself "
      "over that in which the vehicle coupled to it was. Phases of one vehicle that overlap or follow within 20 ms are one "
-     "event, whoever struck it, and so are the exchanges at an instant of two that follow each other within 20 ms more than "
-     "their penetration time; of a longer one the 250 ms with that phase in which the velocity changes most. What a rider does "
+     "event, whoever struck it, and so are the exchanges at an instant of two that change its velocity by more than 0.8 km/h and "
+     "follow each other within 20 ms more than their penetration time; of a longer one the 250 ms with that phase in which the "
+     "velocity changes most. What a rider does "
      "in the same time is part of it; of a two-wheeler's tyres counts what they do under its weight and the rider's, to both. "
      "Begin and end of a phase as 49 CFR 563.5 says: exchange of more than 0.8 km/h of the lighter mass within 20 ms, 250 ms "
-     "at most.",
+     "at most; without a person one of the two changes its velocity by as much, or it is shoved along and no longer struck.",
      kNoDeltaV,
      "no staged collisions are compared; for a delta-v that CRASH works out from damage the 95 % limits are 9 to 25 % (Smith and "
      "Noga 1982)",
@@ -170,7 +174,8 @@ constexpr Definition kDefinitions[] = {
      "as delta_v_mps; or the vehicle leant by 45 degrees or more: on its side or roof", "with delta-v", true, true},
     {"ees_mps", "m/s", "EES",
      "Energy equivalent speed: speed at which the vehicle has as much kinetic energy as its share of the energy lost in the "
-     "hardest phase. Two under the same force share it in inverse proportion to stiffness where the scene tells the stiffnesses "
+     "phases of the event that delta_v_mps is of. Two under the same force share it in inverse proportion to stiffness where the "
+     "scene tells the stiffnesses "
      "apart, "
      "else to mass; what is fixed has none. impacts.csv names the rule.",
      "as delta_v_mps; or the hardest phase was with a person, or of a two-wheeler with a car whose stiffnesses nobody told apart, "

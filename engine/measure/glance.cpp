@@ -15,7 +15,7 @@ constexpr double kSmall = 0.45;
 constexpr double kSlab = 0.2;   // [m] above and below the point: mirrors are none of a bumper's width
 constexpr double kSlow = 3;     // [m/s] slower ones crush little
 constexpr double kTold = 1;     // [m/s] of the lighter one along the way
-constexpr double kSpringy = 5;  // [m/s] closing below which cars are seen to part again
+constexpr double kSpringy = 5;  // [m/s] relative speed below which cars are seen to part again
 constexpr double kScratch = 1;  // [m/s] closing below which nobody asks
 
 /// Unit direction in the plane of the road in which a nears b at the point, and how fast [m/s].
@@ -63,7 +63,8 @@ std::string unsprung(const Model& model, const Recording& recording, const Impac
   if (a.vehicle < 0 || b.vehicle < 0 || is_two_wheeler(model, a) || is_two_wheeler(model, b) ||
       joined_until(model, recording, a, b))
     return "";
-  if (!(i.closing_speed > kScratch && i.closing_speed < kSpringy) || std::string(i.law) == "compliant") return "";
+  // who grazes another at speed closes slowly too; that is no bump
+  if (!(i.closing_speed > kScratch && i.relative_speed < kSpringy) || std::string(i.law) == "compliant") return "";
   const Body &A = model.bodies[a.bodies.front()], &B = model.bodies[b.bodies.front()];
   if (std::max(A.surface.restitution_body.at(i.time), B.surface.restitution_body.at(i.time)) > 0) return "";
   const bool given = std::any_of(model.impacts.begin(), model.impacts.end(), [&](const ImpactSettings& s) {
@@ -76,6 +77,7 @@ std::string unsprung(const Model& model, const Recording& recording, const Impac
 }
 
 std::string glance_of(const Model& model, const Recording& recording, const Impact& i) {
+  if (is_two_wheeler(model, i.a.party) || is_two_wheeler(model, i.b.party)) return "";  // narrower than any corner
   const int a = i.a.party.bodies.front(), b = i.b.party.bodies.front();
   const Snapshot& before = recording.snapshots[i.span.first > 0 ? i.span.first - 1 : 0];
   const auto [way, speed] = way_of(before, a, b, i.point);

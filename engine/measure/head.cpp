@@ -27,6 +27,15 @@ bool is_beside(Panel panel) {
   return panel == Panel::side || panel == Panel::side_window || panel == Panel::rear || panel == Panel::rear_window;
 }
 
+/// Whether it was a wheel that the head met: what is said of the bodywork about it is none of it.
+bool by_wheel(const Recording& recording, const Event& e) {
+  for (const Snapshot& s : recording.snapshots)
+    for (const ContactRecord& c : s.contacts)
+      if (s.time >= e.time && c.body_a == e.body_a && c.body_b == e.body_b && c.normal_impulse > 0)
+        return c.shapes.b == ShapeKind::tyre;
+  return false;
+}
+
 /// Where the head struck, in the axes of the vehicle as its mesh was drawn: the origin of the mesh, x forward, y left, z up.
 void measure_place(const Model& model, const Recording& recording, const Event& e, const std::string& name,
                    std::vector<Metric>& out) {
@@ -34,8 +43,9 @@ void measure_place(const Model& model, const Recording& recording, const Event& 
   if (!shape) return;
   const Pose X_WB = recording.at(e.time).bodies[e.body_b].X_WB;
   const Vec3 point_B = X_WB.inverse() * e.point, point_M = shape->X_BM.inverse() * point_B;
+  const bool wheel = by_wheel(recording, e);
   Panel panel = Panel::unknown;
-  if (shape->panels) {
+  if (shape->panels && !wheel) {
     const Vec3 normal_M = shape->X_BM.q.conjugate() * (X_WB.q.conjugate() * e.normal);
     panel = panel_at(*shape->mesh, *shape->panels, point_M, normal_M);
     // the names are those of cars: a handlebar is no lid of a boot
@@ -48,7 +58,8 @@ void measure_place(const Model& model, const Recording& recording, const Event& 
   // a tape from the front has a meaning only for a vehicle whose front runs against the person: who flies at its flank and comes
   // down on the bonnet has none, nor has a place of its flanks or behind that leans enough to be seen from above
   const auto tape = wrap_around_distance(model, e.body_b, point_B);
-  if (tape && !is_beside(panel) && came_with_its_front(model, recording, e)) out.push_back({"wrap_around_distance_m", name, *tape});
+  if (tape && !wheel && !is_beside(panel) && came_with_its_front(model, recording, e))
+    out.push_back({"wrap_around_distance_m", name, *tape});
 }
 
 }  // namespace

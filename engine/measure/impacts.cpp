@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -364,7 +365,16 @@ ImpactSide side_of(const Model& model, const Recording& recording, const Party& 
   return side;
 }
 
-std::vector<Stretch> stretches(const Recording& recording, const std::vector<Vec3>& push, double bound) {
+double changes_within_window(const Model& model, const Recording& recording, const Party& party, std::size_t first) {
+  const auto& all = recording.snapshots;
+  std::size_t last = first;
+  while (last + 1 < all.size() && all[last + 1].time - all[first].time < kWindow - 1e-9) ++last;
+  const Vec3 change = velocity_of(model, party, all[last]) - velocity_of(model, party, all[first > 0 ? first - 1 : 0]);
+  return change.head<2>().norm();
+}
+
+std::vector<Stretch> stretches(const Recording& recording, const std::vector<Vec3>& push, double bound,
+                               const std::function<bool(std::size_t)>& changes) {
   const std::size_t n = push.size();
   // what is exchanged from each snapshot on within the window
   std::vector<double> within(n, 0);
@@ -375,7 +385,14 @@ std::vector<Stretch> stretches(const Recording& recording, const std::vector<Vec
     within[i] = sum.norm();
   }
   const double most = n == 0 ? 0 : *std::max_element(within.begin(), within.end());
-  if (most < bound) bound = kShareOfMost * most;
+  if (most < bound) {
+    bound = kShareOfMost * most;
+  } else if (changes) {
+    std::vector<double> collides = within;
+    for (std::size_t i = 0; i < n; ++i)
+      if (collides[i] > bound && !changes(i)) collides[i] = 0;
+    if (std::any_of(collides.begin(), collides.end(), [&](double w) { return w > bound; })) within = std::move(collides);
+  }
   std::vector<Stretch> out;
   for (std::size_t i = 0; i < n; ++i) {
     if (!(within[i] > bound) || push[i].isZero(0)) continue;
@@ -405,7 +422,13 @@ std::vector<Impact> impacts_of(const Model& model, const Recording& recording) {
       if (!model.bodies[party->bodies.front()].fixed) lighter = std::min(lighter, mass_of(model, *party));
     int phase = 0;
     const std::vector<Vec3> push = pushes(model, recording, pair);
-    for (const Stretch& span : stretches(recording, push, kChange * lighter)) {
+    const auto changes = [&](std::size_t i) {
+      return changes_within_window(model, recording, pair.a, i) > kChange ||
+             changes_within_window(model, recording, pair.b, i) > kChange;
+    };
+    const bool of_vehicles = has_vehicle(pair) && !has_person(pair);
+    for (const Stretch& span :
+         stretches(recording, push, kChange * lighter, of_vehicles ? changes : std::function<bool(std::size_t)>())) {
       const std::size_t touch = phase == 0 ? touch_of(recording, push, span.first) : span.first;
       Impact impact = impact_of(model, recording, pair, span, touch);
       if (!has_vehicle(pair) && !strikes(model, recording, impact)) continue;

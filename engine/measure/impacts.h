@@ -2,6 +2,7 @@
 // object or another person.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -37,9 +38,11 @@ struct ImpactSide {
 
 /// One collision phase. It begins with the first touch of a stretch in which the two exchange more than 0.8 km/h times the lighter
 /// mass within 20 ms, and ends when they no longer do, after 250 ms at most (49 CFR 563.5 and 563.7, which define the event and the
-/// delta-v of event data recorders so). Two that never exchange as much have one phase of a tenth of the most they do. Without a
-/// vehicle there is a phase only where one of the two changes its velocity along the push by more than 0.8 km/h: who stands on a
-/// box is not struck by it. Nor is who holds something, for as long as it is held, or who comes down on what is fixed.
+/// delta-v of event data recorders so). With a vehicle and without a person one of the two must change its velocity by as much: who
+/// shoves another one along at one speed, against its tyres, collides no further. Two that never exchange as much have one phase of
+/// a tenth of the most they do. Without a vehicle there is a phase only where one of the two changes its velocity along the push by
+/// more than 0.8 km/h: who stands on a box is not struck by it. Nor is who holds something, for as long as it is held, or who comes
+/// down on what is fixed.
 struct Impact {
   int phase = 1;  // of this pair, from 1
   Stretch span;
@@ -68,8 +71,13 @@ constexpr double kLongest = 0.25;      // [s] 49 CFR 563.7, delta-v is recorded 
 /// What a stretch of the recording did to a party. Of others than vehicles without delta-v.
 ImpactSide side_of(const Model&, const Recording&, const Party&, const Stretch&);
 
-/// The phases of a series of pushes [N s], one a snapshot: those in which more than `bound` [N s] is exchanged within 20 ms.
-std::vector<Stretch> stretches(const Recording&, const std::vector<Vec3>& push, double bound);
+/// By how much [m/s] a party's level velocity differs 20 ms on from what it was before a snapshot.
+double changes_within_window(const Model&, const Recording&, const Party&, std::size_t first);
+
+/// The phases of a series of pushes [N s], one a snapshot: those in which more than `bound` [N s] is exchanged within 20 ms. Where
+/// `changes` is given, and anything changes at all, only from snapshots on from which it is true.
+std::vector<Stretch> stretches(const Recording&, const std::vector<Vec3>& push, double bound,
+                               const std::function<bool(std::size_t)>& changes = {});
 
 /// In order of time.
 std::vector<Impact> impacts_of(const Model&, const Recording&);

@@ -51,19 +51,20 @@ struct Span {
 constexpr double kAround = 0.005;  // [s] kept before and after a touch: windows may begin and end where nothing acts
 
 /// Which kind pushed the head hardest since the snapshot before: what several did at once is that one's. What is fixed to the
-/// ground counts as ground. object: what is thrown, dropped or carried, and other persons.
-enum class Partner { none, vehicle, ground, object };
+/// ground counts as ground. object: what is thrown, dropped or carried, and other persons. wheel: its tyre is rigid and the damper
+/// of its strut as hard as the head is fast, so that what it does to a head is no history of forces.
+enum class Partner { none, vehicle, ground, object, wheel, count };
 
 Partner partner_of(const Model& model, const ContactRecord& c, int head) {
   if (c.body_a != head && c.body_b != head) return Partner::none;
   const int other = c.body_a == head ? c.body_b : c.body_a;
   if (c.shapes.on_ground() || is_fixture(model, other)) return Partner::ground;
-  if (c.shapes.on_vehicle()) return Partner::vehicle;
+  if (c.shapes.on_vehicle()) return c.shapes.b == ShapeKind::tyre ? Partner::wheel : Partner::vehicle;
   return model.bodies[other].person != model.bodies[head].person ? Partner::object : Partner::none;
 }
 
 Partner partner_in(const Model& model, const Snapshot& s, int head) {
-  std::array<double, 4> pushed{};  // [N s]
+  std::array<double, static_cast<std::size_t>(Partner::count)> pushed{};  // [N s]
   for (const ContactRecord& c : s.contacts)
     if (const Partner partner = partner_of(model, c, head); partner != Partner::none)
       pushed[static_cast<std::size_t>(partner)] += c.normal_impulse;
@@ -149,6 +150,15 @@ std::string name_of_party(const Model& model, int body) {
 
 }  // namespace
 
+bool wheel_met_head(const Model& model, const Recording& recording, int p) {
+  const int head = model.persons[p].head;
+  return std::any_of(recording.snapshots.begin(), recording.snapshots.end(), [&](const Snapshot& s) {
+    return std::any_of(s.contacts.begin(), s.contacts.end(), [&](const ContactRecord& c) {
+      return c.normal_impulse > 0 && partner_of(model, c, head) == Partner::wheel;
+    });
+  });
+}
+
 StruckAtWorst struck_at_worst(const Model& model, const Recording& recording, int p) {
   const int part = model.persons[p].head;
   for (const HeadMotion& head : recording.heads) {
@@ -170,10 +180,12 @@ void measure_injury(const Model& model, const Recording& recording, int p, std::
     for (const auto* spans : {&car, &road, &thing})
       if (!spans->empty()) first = std::min(first, spans->front().from);
     if (first == 1e300) return;
-    const Criteria whole = criteria(head, {{first, 1e300}});
-    out.push_back({"hic15", person.name, whole.hic15.value});
-    out.push_back({"hic36", person.name, whole.hic36});
-    out.push_back({"three_ms_g", person.name, whole.clip});
+    if (!wheel_met_head(model, recording, p)) {
+      const Criteria whole = criteria(head, {{first, 1e300}});
+      out.push_back({"hic15", person.name, whole.hic15.value});
+      out.push_back({"hic36", person.name, whole.hic36});
+      out.push_back({"three_ms_g", person.name, whole.clip});
+    }
     const auto note = [&](const std::vector<Span>& spans, Partner partner, const std::string& name) {
       const Criteria of = criteria(head, spans);
       if (!of.any) return;

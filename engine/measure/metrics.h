@@ -47,6 +47,9 @@ struct StruckAtWorst {
 };
 StruckAtWorst struck_at_worst(const Model&, const Recording&, int person);
 
+/// Whether a wheel met the head of a person: its tyre is rigid, and there are no head injury criteria of that.
+bool wheel_met_head(const Model&, const Recording&, int person);
+
 /// Of every part of a person: largest acceleration of its centre, mean over a step, free fall counting one g. Only with the
 /// compliant law: a rigid impact changes velocities in an instant.
 void measure_segments(const Model&, const Recording&, int person, std::vector<Metric>&);

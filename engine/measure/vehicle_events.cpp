@@ -1,6 +1,7 @@
 #include "engine/measure/vehicle_events.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -28,15 +29,15 @@ double until_next(const Model& model, const ContactRecord& c) {
   return ImpactSettings{}.penetration_time;
 }
 
-/// A vehicle's exchanges with one partner each, as long as they follow by the time between them and the window: one push, of which
-/// the later exchanges may be too weak for phases.
+/// A vehicle's exchanges with one partner each that change its velocity as a collision does, as long as they follow by the time
+/// between them and the window: one push, of which the later exchanges may be too weak for phases.
 std::vector<Stretch> exchanges_of(const Model& model, const Recording& recording, int vehicle) {
   const Party party = party_of(model, model.vehicles[vehicle].body);
   std::map<std::pair<int, int>, Stretch> current;
   std::vector<Stretch> out;
   for (std::size_t i = 0; i < recording.snapshots.size(); ++i)
     for (const ContactRecord& c : recording.snapshots[i].contacts) {
-      if (!c.exchange || push_on(party, c).isZero(0)) continue;
+      if (!c.exchange || push_on(party, c).isZero(0) || changes_within_window(model, recording, party, i) <= kChange) continue;
       Stretch& span = current.try_emplace(std::minmax(c.body_a, c.body_b), Stretch{i, i}).first->second;
       const double apart = recording.snapshots[i].time - recording.snapshots[span.last].time;  // [s]
       if (apart > kWindow + until_next(model, c) + 1e-9) {
@@ -82,9 +83,15 @@ ImpactSide side_in_event(const Model& model, const Recording& recording, const s
     part.last = std::max(part.last, first == hardest.span.first ? hardest.span.last : first);
     if (part.last < hardest.span.last) continue;
     ImpactSide side = side_of(model, recording, party, part);
-    side.phases = static_cast<int>(std::count_if(impacts.begin(), impacts.end(), [&](const Impact& i) {
-      return strikes_vehicle(i, vehicle) && i.span.first <= part.last && i.span.last >= part.first;
-    }));
+    side.phases = 0;
+    double squares = 0;  // energies add: E = m EES^2 / 2
+    for (const Impact& i : impacts) {
+      if (!strikes_vehicle(i, vehicle) || i.span.first > part.last || i.span.last < part.first) continue;
+      ++side.phases;
+      const double ees = (i.a.party.vehicle == vehicle ? i.a : i.b).ees;
+      if (!std::isnan(ees)) squares += ees * ees;
+    }
+    side.ees = std::sqrt(squares);
     if (!most || side.delta_v.norm() > most->delta_v.norm()) most = std::move(side);
     if (part.last == event.last) break;  // the whole of it, or of its end
   }
@@ -93,30 +100,35 @@ ImpactSide side_in_event(const Model& model, const Recording& recording, const s
 
 }  // namespace
 
-const Impact* hardest_impact(const std::vector<Impact>& impacts, int vehicle) {
+const Impact* hardest_impact(const Model& model, const std::vector<Impact>& impacts, int vehicle) {
+  const auto hardness = [&](const Impact& i) {
+    return std::pair(!jointed(model, i.a.party.bodies.front(), i.b.party.bodies.front()), level_push(i));
+  };
   const Impact* out = nullptr;
   for (const Impact& i : impacts)
-    if (strikes_vehicle(i, vehicle) && (!out || level_push(i) > level_push(*out))) out = &i;
+    if (strikes_vehicle(i, vehicle) && (!out || hardness(i) > hardness(*out))) out = &i;
   return out;
 }
 
 std::optional<ImpactSide> hardest_event(const Model& model, const Recording& recording, const std::vector<Impact>& impacts,
                                         int vehicle) {
   const Party party = party_of(model, model.vehicles[vehicle].body);
-  if (const Impact* hardest = hardest_impact(impacts, vehicle)) {
+  if (const Impact* hardest = hardest_impact(model, impacts, vehicle)) {
     ImpactSide out = side_in_event(model, recording, impacts, vehicle, *hardest, party);
-    out.ees = (hardest->a.party.vehicle == vehicle ? hardest->a : hardest->b).ees;
+    if (std::isnan((hardest->a.party.vehicle == vehicle ? hardest->a : hardest->b).ees)) out.ees = kUnknown;
     return out;
   }
   const Impact* hardest = nullptr;
   int struck = -1;
   for (int other = 0; other < static_cast<int>(model.vehicles.size()); ++other) {
     if (other == vehicle || !jointed(model, party.bodies.front(), model.vehicles[other].body)) continue;
-    const Impact* of = hardest_impact(impacts, other);
+    const Impact* of = hardest_impact(model, impacts, other);
     if (of && (!hardest || level_push(*of) > level_push(*hardest))) hardest = of, struck = other;
   }
   if (!hardest) return std::nullopt;
-  return side_in_event(model, recording, impacts, struck, *hardest, party);
+  ImpactSide out = side_in_event(model, recording, impacts, struck, *hardest, party);
+  out.ees = kUnknown;
+  return out;
 }
 
 }  // namespace engine

@@ -8,14 +8,14 @@
 
 namespace engine {
 
-/// The phase in which the other one gave a vehicle most. Its delta-v holds what a third one did meanwhile, which may be more; null
-/// where there is none.
-const Impact* hardest_impact(const std::vector<Impact>&, int vehicle);
+/// The phase in which the other one gave a vehicle most; of one it is coupled to, which the coupling takes back, only where there
+/// is no other. Its delta-v holds what a third one did meanwhile, which may be more; null where there is none.
+const Impact* hardest_impact(const Model&, const std::vector<Impact>&, int vehicle);
 
 /// What the event of its hardest phase did to a vehicle, or to one that was not struck itself that of one coupled to it, without an
 /// EES; nothing where neither was struck. Phases of one vehicle that overlap, or follow within 20 ms, are one event, whoever struck
-/// it (49 CFR 563.5); of a longer one those 250 ms with all of the hardest phase in which the velocity changes most. EES is that of
-/// the hardest phase.
+/// it (49 CFR 563.5); of a longer one those 250 ms with all of the hardest phase in which the velocity changes most. EES is of the
+/// energy of all its phases.
 std::optional<ImpactSide> hardest_event(const Model&, const Recording&, const std::vector<Impact>&, int vehicle);
 
 }  // namespace engine

@@ -34,8 +34,8 @@ class RestWatch {
   /// Mean motions [-], by what counts as still, of the two halves of the last while, and how far they differ.
   struct Halves {
     double before = 0, after = 0, change = 0;
-    /// Pulled from rest it has the threefold in the second half.
-    bool grows() const;
+    /// Pulled from rest it has the threefold in the second half. `begins` [-]: a mean motion that is none of the solver's.
+    bool grows(double begins) const;
   };
   Halves halves_of(const World&, const State&, const Recording&, std::size_t tree) const;
   bool goes_on(const World&, const State&, const Recording&, std::size_t tree) const;

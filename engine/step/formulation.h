@@ -15,7 +15,7 @@ void take_mean_friction(StepContext&);
 void formulate(StepContext&);
 
 /// Springs at rest that something strikes within the step leave the steep part of their law, whose slope they were told to follow.
-/// True where there was any and the impulses are to be found again.
+/// True where there was any and the impulses are to be found again. So is what parted and is pressed again: it rests.
 bool wake_struck_springs(StepContext&);
 
 /// A spring that turns its contact within the step gives back no more than its share from there on: without this the force of the

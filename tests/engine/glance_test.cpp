@@ -84,6 +84,19 @@ TEST(Glance, AClosingSpeedAlongASlantingNormalIsAPartOfTheRelativeOne) {
   EXPECT_NEAR(impacts[0].closing_speed, 20, 1e-12);
 }
 
+/// A graze at speed closes slowly too.
+TEST(Glance, CarsThatGrazeAtSpeedDoNotMeetAtLowSpeed) {
+  Meeting m(-0.5, {0, 2000, 0}, {0, 1, 0});
+  for (Snapshot& s : m.run.snapshots) {
+    s.bodies.own()[0].V_WB.v = {20, -2, 0};
+    s.bodies.own()[kOther].V_WB.v = {-10, 0, 0};
+  }
+  const std::vector<Impact> impacts = impacts_of(m.model, m.run);
+  ASSERT_EQ(impacts.size(), 1u);
+  EXPECT_NEAR(impacts[0].closing_speed, 2, 1e-12);
+  EXPECT_THAT(doubtful_glances(m.model, m.run), testing::IsEmpty());
+}
+
 TEST(Glance, CarsThatMeetSlowlyWithoutRestitutionAreWarnedOf) {
   const auto told = [](double speed, double restitution) {
     Meeting m(-0.5, {-2000, 0, 0}, {-1, 0, 0});

@@ -341,6 +341,20 @@ TEST(HeadMetrics, ABlowByAnObjectIsOneOfAnObject) {
   }
 }
 
+/// A tyre is rigid: what its strut does to a head is told by no criterion, and no panel is what the head met.
+TEST(HeadMetrics, AWheelGivesNoCriterionAndNoPanel) {
+  Model model = person_and_car();
+  model.settings.contact_law = ContactLaw::compliant;
+  for (const ShapeKind met : {ShapeKind::mesh, ShapeKind::tyre}) {
+    const Recording run = pushed_at_50_g(push(kHead, kCar, {ShapeKind::round, met}, {5, 0, 0}));
+    std::vector<Metric> out;
+    measure_injury(model, run, 0, out);
+    for (const char* key : {"hic15", "hic36", "three_ms_g", "hic15_vehicle"})
+      EXPECT_EQ(value_of(out, key).has_value(), met == ShapeKind::mesh) << key;
+    EXPECT_EQ(wheel_met_head(model, run, 0), met == ShapeKind::tyre);
+  }
+}
+
 TEST(HeadMetrics, AWallIsNoVehicleToAHead) {
   Model model = person_and_car();
   model.settings.contact_law = ContactLaw::compliant;
