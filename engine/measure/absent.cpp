@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "engine/measure/metrics.h"
+#include "engine/measure/passage.h"
 #include "engine/measure/phases.h"
 #include "engine/measure/vehicle_events.h"
 
@@ -23,11 +24,19 @@ class Absences {
   const std::vector<Metric>& there_;
 };
 
-/// Of somebody or something that moved, at its last motion.
-const char* why_no_rest(const Twist& V) {
-  constexpr double kStillSpeed = 0.05, kStillTurn = 0.3;  // [m/s], [rad/s] as in the definition of rest_s
-  const bool moves = V.v.norm() > kStillSpeed || V.w.norm() > kStillTurn;
-  return moves ? "still moving when the run ends" : "still for less than 0.25 s when the run ends";
+/// Of somebody or something that moved, by its last quarter of a second.
+const char* why_no_rest(const Model& model, const Recording& recording, const Party& party) {
+  constexpr double kStillSpeed = 0.05, kStillTurn = 0.3, kStillTime = 0.25;  // [m/s], [rad/s], [s] as in the definition of rest_s
+  const auto& all = recording.snapshots;
+  const auto moves = [&](const Snapshot& s) {
+    const bool turns = party.vehicle >= 0 && s.bodies[party.bodies.front()].V_WB.w.norm() > kStillTurn;
+    return turns || velocity_of(model, party, s).norm() > kStillSpeed;
+  };
+  if (moves(all.back())) return "still moving when the run ends";
+  const double from = all.back().time - kStillTime;
+  if (from < all.front().time || std::any_of(all.begin(), all.end(), [&](const Snapshot& s) { return s.time >= from && moves(s); }))
+    return "still for less than 0.25 s when the run ends";
+  return "creeping on or rocking when the run ends";
 }
 
 bool wheel_touched(const Recording& recording, const Party& party) {
@@ -43,9 +52,9 @@ void absent_throw(const Model& model, const Recording& recording, int p, Absence
   constexpr double kWent = 1e-3;  // [m]
   const Party party{p, -1, model.persons[p].bodies};
   const Snapshot &first = recording.snapshots.front(), &last = recording.snapshots.back();
-  const Vec3 way = centre_of_mass(model, party, last) - centre_of_mass(model, party, first), v = velocity_of(model, party, last);
-  const bool moved = t || v.norm() > 0 || way.norm() > kWent;
-  absent.note("rest_s", name, moved ? why_no_rest({v, Vec3::Zero()}) : "nothing touched it: it stands as it stood");
+  const Vec3 way = centre_of_mass(model, party, last) - centre_of_mass(model, party, first);
+  const bool moved = t || velocity_of(model, party, last).norm() > 0 || way.norm() > kWent;
+  absent.note("rest_s", name, moved ? why_no_rest(model, recording, party) : "nothing touched it: it stands as it stood");
   if (!t) {
     absent.note("throw_distance_m", name, "no vehicle touched it");
     return;
@@ -110,8 +119,7 @@ std::vector<AbsentMetric> absent_metrics(const Model& model, const Recording& re
   const std::vector<Impact> impacts = impacts_of(model, recording);
   for (const Vehicle& v : model.vehicles) {
     for (const char* key : {"rest_s", "rest_x_m", "rest_y_m", "rest_heading_deg"})
-      absent.note(key, v.name,
-                  model.bodies[v.body].fixed ? "it is fixed" : why_no_rest(recording.snapshots.back().bodies[v.body].V_WB));
+      absent.note(key, v.name, model.bodies[v.body].fixed ? "it is fixed" : why_no_rest(model, recording, party_of(model, v.body)));
     const auto has = [&](const char* key) {
       return std::any_of(there.begin(), there.end(), [&](const Metric& m) { return m.key == key && m.object == v.name; });
     };
@@ -120,7 +128,10 @@ std::vector<AbsentMetric> absent_metrics(const Model& model, const Recording& re
                   has("rest_x_m") ? "it struck a vehicle or an object as it rolled, and what that took is no drag"
                                   : "still moving when the run ends");
     if (!has("delta_v_mps"))
-      absent.note("delta_v_mps", v.name, model.bodies[v.body].fixed ? "it is fixed" : "it touched no person, vehicle or object");
+      absent.note("delta_v_mps", v.name,
+                  model.bodies[v.body].fixed                                     ? "it is fixed"
+                  : went_through(model, recording, model.bodies[v.body].vehicle) ? "it went through an object"
+                                                                                 : "it touched no person, vehicle or object");
     else
       absent_at_worst(model, v, impacts, absent);
   }

@@ -5,6 +5,7 @@
 
 #include "engine/math/functions.h"
 #include "engine/measure/metrics.h"
+#include "engine/measure/passage.h"
 #include "engine/measure/vehicle_events.h"
 
 namespace engine {
@@ -75,7 +76,7 @@ void measure_vehicle(const Model& model, const Recording& recording, const std::
     out.push_back({"rest_y_m", vehicle.name, X.p.y()});
     out.push_back({"rest_heading_deg", vehicle.name, math::atan2(ahead.y(), ahead.x()) * 180 / std::numbers::pi});
   }
-  if (model.bodies[vehicle.body].fixed) return;
+  if (model.bodies[vehicle.body].fixed || went_through(model, recording, v)) return;
   const std::optional<ImpactSide> worst = hardest_event(model, recording, impacts, v);
   if (!worst) return;
   out.push_back({"delta_v_mps", vehicle.name, worst->delta_v.norm()});

@@ -19,6 +19,8 @@ constexpr const char* kNoForce =
 constexpr const char* kHic =
     "as good as the stiffness of head and panel (engine/geometry/panels.h); grows as speed to the 2.5, faster where the panel "
     "bottoms out";
+constexpr const char* kBrush =
+    "to the recorded interval; the last brush of a limb ends the one and begins the other: see the band of `crashreel study`";
 constexpr const char* kPhase =
     "to the recorded interval; measured along the line from first touch to rest, so that the distances of all phases sum to "
     "throw_distance_m";
@@ -47,11 +49,11 @@ constexpr Definition kDefinitions[] = {
      kUnstruck, kPhase},
     {"carried_m", "m", "carried",
      "Distance of the phase carried: from the end of the phase contact until the vehicle last pushes the person before it lands.",
-     "the person never goes as fast as the vehicle while that pushes", kPhase},
+     "the person never goes as fast as the vehicle while that pushes", kBrush},
     {"airborne_m", "m", "airborne",
      "Distance of the phase flight: from the last push of a vehicle, or of what hangs on it, to landing, if nothing touched "
      "the person for 50 ms or more meanwhile. A rider is also held by each joint to what it rides until that breaks.",
-     "the person did not land, or something touched or held it at least every 50 ms before", kPhase, true},
+     "the person did not land, or something touched or held it at least every 50 ms before", kBrush, true},
     {"fall_m", "m", "fall",
      "Distance of the phase fall, in place of a flight: from the last push of a vehicle, or of what hangs on it, to landing, "
      "if a hand, a foot or the vehicle touched something at least every 50 ms.",
@@ -86,7 +88,9 @@ constexpr Definition kDefinitions[] = {
     {"rest_s", "s", "rest",
      "Time from which nothing of it moves faster than 0.05 m/s or 0.3 rad/s until the run ends, for 0.25 s or more; of what slides "
      "to a halt then, and no longer moves at all, the halt. Of a person its trunk: hips, head and what joins them. A hand or a "
-     "foot may settle later. Of a vehicle on its wheels its way along the road and its yaw: it may go on rocking on its springs. "
+     "foot may settle later. Of a vehicle on its wheels its way along the road and its yaw: it may go on rocking on its springs, "
+     "by "
+     "0.3 m/s of heave and 0.5 rad/s. What creeps on at more than 5 mm/s or 0.03 rad/s does not rest. "
      "Of rider and mount each its own.",
      kMoving, "to the recorded interval", true},
     {"travel_m", "m", "way", "Level distance from start to end, of a person whom no vehicle touched and of free bodies.",
@@ -142,7 +146,8 @@ constexpr Definition kDefinitions[] = {
      "one fall of many that could have been: head against ground is highly variable (Simms and Wood, IRCOBI 2005); see the band of "
      "`crashreel study`",
      true},
-    {"three_ms_ground_g", "g", "3 ms clip, ground", "3 ms clip of the same.", kNoForce, "as hic15_ground"},
+    {"three_ms_ground_g", "g", "3 ms clip, ground", "3 ms clip of the same.", kNoForce,
+     "as hic15_ground; a blow that gives nothing back lasts some 3 ms, and this is of its foot"},
     {"hic15_ground_s", "s", "HIC15 ground at", "When the window of hic15_ground begins.", kNoForce, "as hic15_ground"},
     {"hic15_ground_by", "", "HIC15 ground by", "The road, or which body fixed to it, that pushed the head hardest in that touch.",
      kNoForce, "as hic15_ground"},
@@ -155,13 +160,14 @@ constexpr Definition kDefinitions[] = {
     {"peak_acceleration_mps2", "m/s^2", "peak acceleration",
      "Largest acceleration of a part's centre, mean over a step; free fall counts one g.", kNoForce, "grows with stiffness"},
     {"delta_v_mps", "m/s", "delta-v",
-     "Change of the velocity of the centre of mass in the plane of the road over the event of its hardest collision phase, "
-     "that of the largest impulse along the road, less what tyres and gravity did meanwhile; of what was not struck itself "
+     "Largest change of the velocity of the centre of mass in the plane of the road within 250 ms of the event of its hardest "
+     "collision phase, that of the largest impulse along the road, less what tyres and gravity did meanwhile: who is struck from "
+     "both "
+     "sides has one of the two changes and not their difference; of what was not struck itself "
      "over that in which the vehicle coupled to it was. Phases of one vehicle that overlap or follow within 20 ms are one "
      "event, whoever struck it, and so are the exchanges at an instant of two that change its velocity by more than 0.8 km/h and "
-     "follow each other within 20 ms more than their penetration time; of a longer one the 250 ms with that phase in which the "
-     "velocity changes most. What a rider does "
-     "in the same time is part of it; of a two-wheeler's tyres counts what they do under its weight and the rider's, to both. "
+     "follow each other within 20 ms more than their penetration time. What a rider does in the same time is part of it; of a "
+     "two-wheeler's tyres counts what they do under its weight and the rider's, to both. "
      "Begin and end of a phase as 49 CFR 563.5 says: exchange of more than 0.8 km/h of the lighter mass within 20 ms, 250 ms "
      "at most; without a person one of the two changes its velocity by as much, or it is shoved along and no longer struck.",
      kNoDeltaV,

@@ -71,31 +71,40 @@ Stretch event_of(const Model& model, const Recording& recording, const std::vect
   return event;
 }
 
+/// The 250 ms at most of an event over which collisions change a party's velocity most: its maximum delta-v. Who is struck from
+/// both sides has one of the two, and not their difference.
+Stretch largest_change(const Model& model, const Recording& recording, const Party& party, const Stretch& event) {
+  std::vector<Vec3> sum{Vec3::Zero()};  // [m/s] of the event up to each of its snapshots
+  for (std::size_t i = event.first; i <= event.last; ++i)
+    sum.push_back(sum.back() + side_of(model, recording, party, {i, i}).delta_v);
+  Stretch most = event;
+  double change = -1;
+  for (std::size_t first = event.first; first <= event.last; ++first)
+    for (std::size_t last = first; last <= event.last; ++last) {
+      const Stretch part{first, last};
+      if (last > first && recording.snapshots[last].time - begin_of(recording, part) > kLongest + 1e-9) break;
+      const double by = (sum[last + 1 - event.first] - sum[first - event.first]).norm();
+      if (by > change + 1e-9) change = by, most = part;
+    }
+  return most;
+}
+
 /// What the event around a phase of a vehicle did to a party: itself, or what is coupled to it.
 ImpactSide side_in_event(const Model& model, const Recording& recording, const std::vector<Impact>& impacts, int vehicle,
                          const Impact& hardest, const Party& party) {
   const Stretch event = event_of(model, recording, impacts, vehicle, hardest);
-  std::optional<ImpactSide> most;
-  for (std::size_t first = event.first; first <= hardest.span.first; ++first) {
-    Stretch part{first, first};
-    while (part.last < event.last && recording.snapshots[part.last + 1].time - begin_of(recording, part) <= kLongest + 1e-9)
-      ++part.last;
-    part.last = std::max(part.last, first == hardest.span.first ? hardest.span.last : first);
-    if (part.last < hardest.span.last) continue;
-    ImpactSide side = side_of(model, recording, party, part);
-    side.phases = 0;
-    double squares = 0;  // energies add: E = m EES^2 / 2
-    for (const Impact& i : impacts) {
-      if (!strikes_vehicle(i, vehicle) || i.span.first > part.last || i.span.last < part.first) continue;
-      ++side.phases;
-      const double ees = (i.a.party.vehicle == vehicle ? i.a : i.b).ees;
-      if (!std::isnan(ees)) squares += ees * ees;
-    }
-    side.ees = std::sqrt(squares);
-    if (!most || side.delta_v.norm() > most->delta_v.norm()) most = std::move(side);
-    if (part.last == event.last) break;  // the whole of it, or of its end
+  const Stretch part = largest_change(model, recording, party, event);
+  ImpactSide side = side_of(model, recording, party, part);
+  side.phases = 0;
+  double squares = 0;  // energies add: E = m EES^2 / 2
+  for (const Impact& i : impacts) {
+    if (!strikes_vehicle(i, vehicle) || i.span.first > part.last || i.span.last < part.first) continue;
+    ++side.phases;
+    const double ees = (i.a.party.vehicle == vehicle ? i.a : i.b).ees;
+    if (!std::isnan(ees)) squares += ees * ees;
   }
-  return *most;
+  side.ees = std::sqrt(squares);
+  return side;
 }
 
 }  // namespace

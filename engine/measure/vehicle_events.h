@@ -14,8 +14,8 @@ const Impact* hardest_impact(const Model&, const std::vector<Impact>&, int vehic
 
 /// What the event of its hardest phase did to a vehicle, or to one that was not struck itself that of one coupled to it, without an
 /// EES; nothing where neither was struck. Phases of one vehicle that overlap, or follow within 20 ms, are one event, whoever struck
-/// it (49 CFR 563.5); of a longer one those 250 ms with all of the hardest phase in which the velocity changes most. EES is of the
-/// energy of all its phases.
+/// it (49 CFR 563.5); delta-v is the largest change of the velocity within 250 ms of it. EES is of the energy of all phases in
+/// those.
 std::optional<ImpactSide> hardest_event(const Model&, const Recording&, const std::vector<Impact>&, int vehicle);
 
 }  // namespace engine

@@ -12,7 +12,6 @@ constexpr double kStillSpeed = 0.05;  // [m/s]
 constexpr double kStillTurn = 0.3;    // [rad/s]
 constexpr double kStillTime = 0.25;   // [s] that long below both: at rest
 constexpr double kBegins = 3e-3;      // [-] of these, a mean motion that is none of the solver's
-constexpr double kSettles = 2e-2;     // [-] of who lies there: a person comes up out of its dents by up to a millimetre a second
 constexpr double kHolds = 0.1;        // [-] one that creeps
 
 /// How fast a body of that motion is, by what counts as still.
@@ -234,7 +233,7 @@ void RestWatch::tell(const World& world, const State& state, const Recording& re
     const std::size_t as = ridden >= 0 ? static_cast<std::size_t>(ridden) : t;  // rider and mount are one until they are touched
     if (rest_since_[as] < 0 || state.time - rest_since_[as] < 0.9 * kStillTime) continue;
     const Halves halves = halves_of(world, state, recording, as);
-    if (halves.grows(has_trunk_[as] ? kSettles : kBegins) || (!has_trunk_[as] && std::min(halves.before, halves.after) > kHolds))
+    if (halves.grows(has_trunk_[as] ? kHolds : kBegins) || (!has_trunk_[as] && std::min(halves.before, halves.after) > kHolds))
       continue;
     const double time = halts(world, recording, t, halted_[as]) ? halted_[as] : rest_since_[as];
     events.push_back({time, "rest", root, -1, recording.at(time).bodies[root].X_WB.p, 0});

@@ -96,6 +96,17 @@ TEST(VehicleMetrics, PhasesThatOverlapAreOneEventWhoeverStruck) {
   EXPECT_NEAR(value_of(out, "delta_v_mps").value(), 2.5, 1e-9);
 }
 
+/// Struck from behind and at once from ahead, it has the larger of the two changes and not what they leave.
+TEST(VehicleMetrics, BlowsFromBothSidesDoNotCancel) {
+  Model model = person_and_car();
+  model.bodies[kHips].person = -1;
+  Recording run = standing_still(60);
+  for (int i = 0; i < 60; ++i) run.snapshots[i].bodies.own()[kCar].V_WB.v = {i < 10 ? 0.0 : i < 12 ? 7.0 : -1.0, 0, 0};
+  run.snapshots[10].contacts = {push(kCar, kHips, kVehicles, {7000, 0, 0})};
+  run.snapshots[12].contacts = {push(kCar, kHips, kVehicles, {-8000, 0, 0})};
+  EXPECT_NEAR(value_of(measure(model, run), "delta_v_mps").value(), 8, 1e-9);
+}
+
 /// Exchanges of Kudlich-Slibar come a penetration time apart: 30 ms, or what the scene says. Those of less than 0.8 km/h are what
 /// two that still lie against each other exchange.
 TEST(VehicleMetrics, ExchangesThatFollowEachOtherByThePenetrationTimeAreOneEvent) {

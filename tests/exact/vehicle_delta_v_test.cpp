@@ -7,6 +7,7 @@
 
 #include "engine/measure/impacts.h"
 #include "engine/measure/metrics.h"
+#include "engine/measure/passage.h"
 #include "engine/simulate.h"
 #include "tests/scenes/scene_file.h"
 
@@ -61,6 +62,21 @@ TEST(VehicleDeltaV, OfAShovedCarIsNoMoreThanTheSharedSpeed) {
   shoved("truck", "small_car", 7);
   shoved("bus", "sedan", 10);
   shoved("sedan", "sedan", 4.5);
+}
+
+/// Under the compliant law a front that a wall has swallowed is held no more. Where a car went through, no delta-v is told.
+TEST(VehicleDeltaV, OfACarThatWentThroughAWallIsNotTold) {
+  const std::string wall =
+      "[[body]]\nname = \"wall\"\nfixed = true\naxes = \"0.5 3 1 m\"\nexponent = 30\nposition = \"5.5 0 1 m\"\n";
+  const auto crash = [&](const std::string& law) {
+    return Crash("contact_law = \"" + law + "\"\n" + vehicle("a", "sedan", 0, 0, 0, 60) + wall);
+  };
+  const Crash rigid = crash("default_auto"), yielding = crash("compliant");
+  EXPECT_NEAR(rigid.value("delta_v_mps", "a"), 60 / 3.6, 0.005 * 60 / 3.6);
+  EXPECT_FALSE(went_through(rigid.scene.model, rigid.recording, 0));
+  ASSERT_TRUE(went_through(yielding.scene.model, yielding.recording, 0)) << "it holds by now";
+  EXPECT_EQ(passages(yielding.scene.model, yielding.recording).size(), 1u);
+  for (const Metric& m : measure(yielding.scene.model, yielding.recording)) EXPECT_NE(m.key, "delta_v_mps");
 }
 
 /// Its trailer jackknifes into it later: a larger impulse, which the coupling takes back.
