@@ -24,8 +24,9 @@ constexpr const char* kBrush =
 constexpr const char* kPhase =
     "to the recorded interval; measured along the line from first touch to rest, so that the distances of all phases sum to "
     "throw_distance_m";
-constexpr const char* kMoving = "still moving when the run ends, or still for less than 0.25 s";
-constexpr const char* kNoDeltaV = "neither the vehicle nor one coupled to it touched a person, vehicle or object, or it is fixed";
+constexpr const char* kMoving = "still moving when the run ends, or still for less than 0.25 s, or creeping on";
+constexpr const char* kNoDeltaV =
+    "neither the vehicle nor one coupled to it touched a person, vehicle or object; or it is fixed, or went through an object";
 constexpr const char* kNotRolled = "the vehicle did not roll onto its side or farther; or it is a two-wheeler";
 constexpr const char* kNotDown =
     "the vehicle did not roll onto its side or farther, and its bodywork never came down so hard; or it is a two-wheeler";
@@ -90,7 +91,7 @@ constexpr Definition kDefinitions[] = {
      "to a halt then, and no longer moves at all, the halt. Of a person its trunk: hips, head and what joins them. A hand or a "
      "foot may settle later. Of a vehicle on its wheels its way along the road and its yaw: it may go on rocking on its springs, "
      "by "
-     "0.3 m/s of heave and 0.5 rad/s. What creeps on at more than 5 mm/s or 0.03 rad/s does not rest. "
+     "0.3 m/s of heave and 0.5 rad/s. What creeps on at more than 5 mm/s or 0.03 rad/s does not rest, but for a person. "
      "Of rider and mount each its own.",
      kMoving, "to the recorded interval", true},
     {"travel_m", "m", "way", "Level distance from start to end, of a person whom no vehicle touched and of free bodies.",

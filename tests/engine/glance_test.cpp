@@ -84,6 +84,15 @@ TEST(Glance, AClosingSpeedAlongASlantingNormalIsAPartOfTheRelativeOne) {
   EXPECT_NEAR(impacts[0].closing_speed, 20, 1e-12);
 }
 
+/// A motorcycle is narrower than any corner: on all of its width it did not hook.
+TEST(Glance, TwoWheelersAreNoHookedCorners) {
+  Meeting m(0, {-9000, -3000, 0}, {-1, 0, 0});
+  ASSERT_EQ(doubtful_glances(m.model, m.run).size(), 1u);
+  m.model.vehicles[1].wheels.resize(2);
+  m.model.vehicles[1].wheels[0].hub_B.x() = 1.4;
+  EXPECT_THAT(doubtful_glances(m.model, m.run), testing::IsEmpty());
+}
+
 /// A graze at speed closes slowly too.
 TEST(Glance, CarsThatGrazeAtSpeedDoNotMeetAtLowSpeed) {
   Meeting m(-0.5, {0, 2000, 0}, {0, 1, 0});

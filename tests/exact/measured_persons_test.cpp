@@ -55,8 +55,7 @@ const Struck kCases[] = {
      {"vehicle.sedan.speed=8 km/h", "vehicle.bicycle.speed=0 km/h", "vehicle.bicycle.position=0 -1.75 m",
       "vehicle.sedan.brake.from=0.6 s", "simulation.duration=3 s"}},
     {"run_over", "sedan_pedestrian_40kmh",
-     child_and({"vehicle.sedan.model=bus", "vehicle.sedan.speed=100 km/h", "vehicle.sedan.brake.deceleration=0.6 g",
-                "vehicle.sedan.front=-2.5 -1.72 m"})},
+     child_and({"vehicle.sedan.model=bus", "vehicle.sedan.speed=100 km/h", "vehicle.sedan.front=-2.5 -1.72 m"})},
 };
 
 class Measured : public testing::TestWithParam<Struck> {

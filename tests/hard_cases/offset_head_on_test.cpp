@@ -53,6 +53,7 @@ TEST(OffsetHeadOn, DeltaVFallsWithTheOverlap) {
     last = delta_v;
   }
   EXPECT_NEAR(head_on(1.8, 1).delta_v, kFull, kBefore * kFull);
+  for (const double overlap : {0.92, 0.72}) EXPECT_GT(head_on(overlap, 1).yaw_rate, 1) << overlap;
   for (const double overlap : {1.2, 0.92, 0.72}) {
     EXPECT_GT(head_on(overlap, 1).delta_v, without_friction(overlap)) << overlap;
     EXPECT_GT(head_on(overlap, 1).yaw_rate, 0.25 * 0.5 * (kWidth - overlap) / kYaw2 * kFull) << overlap;
