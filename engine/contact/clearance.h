@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "engine/geometry/hyper_ellipsoid_mesh.h"
 #include "engine/geometry/hyper_ellipsoid_pair.h"
 #include "engine/math/types.h"
 
@@ -59,13 +60,24 @@ struct PairMemory {
   }
 };
 
+/// What a hyper-ellipsoid and a mesh keep.
+struct MeshMemory {
+  Clearance clearance;  // of the body in the frame of the mesh
+  Sides entered = 0;
+
+  template <class S>
+  static auto fields(S& s) {
+    return std::tie(s.clearance, s.entered);
+  }
+};
+
 /// What two meshes whose sample points may meet the other's surface keep: of b in the frame of a, points of a on b and points of b
 /// on a.
 using BodyworkClearance = std::array<Clearance, 2>;
 
 /// Contact memory of a run, in the order of the pairs in ContactPairs.
 struct ContactMemory {
-  std::vector<Clearance> mesh;                 // per MeshPair
+  std::vector<MeshMemory> mesh;                // per MeshPair
   std::vector<std::vector<PairMemory>> round;  // per BodyPairRun and pair; empty until the run is listed
   std::vector<BodyworkClearance> bodywork;     // per pair of meshes
 

@@ -57,6 +57,11 @@ std::pair<double, double> stiffnesses(const Model& model, double time, const std
   return {own(a), panel && !surface(b).stiffness_given ? stiffness_of(*panel) : own(b)};
 }
 
+/// Does a body on a mesh stay on the side it came from, however deep? Walls and poles do, where bodywork alone gives way for them.
+bool held_from_its_side(const Model& model, int body) {
+  return model.settings.contact_law == ContactLaw::compliant && !is_part(model, body);
+}
+
 /// Both surfaces of a compliant contact as springs in series. They share the depth by depth_a S_a = depth_b S_b, eq. (81). What a
 /// head presses into a panel that has yielded, the panel alone gives way by.
 void set_stiffness(Constraint& c, const Model& model, double time, const std::optional<Panel>& panel, double depth) {
@@ -70,6 +75,7 @@ void set_stiffness(Constraint& c, const Model& model, double time, const std::op
     c.spring.stiffness = c.spring.yield / depth;
     c.spring.share_a = c.spring.stiffness / S_a;
   }
+  if (c.b.record >= 0 && is_mesh(model.bodies[c.b.record]) && held_from_its_side(model, c.a.record)) return;
   for (const int body : {c.a.record, c.b.record})
     if (const auto* shape = body >= 0 ? std::get_if<HyperEllipsoid>(&model.bodies[body].shape) : nullptr)
       c.spring.thickness = std::min(c.spring.thickness, 2 * shape->semi_axes.minCoeff());
@@ -199,6 +205,7 @@ void share_stiffness(ContactSearch& search, std::size_t first) {
 }  // namespace
 
 double may_pass(const Model& model, int body) {
+  if (held_from_its_side(model, body)) return std::numeric_limits<double>::infinity();
   const bool into_panel = model.settings.contact_law == ContactLaw::persons_yield && is_head(model, body);
   return into_panel ? 1.0 : 0.25;
 }

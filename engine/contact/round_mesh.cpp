@@ -1,4 +1,6 @@
 // A hyper-ellipsoid on a triangle mesh: one that a body carries, or the terrain.
+#include <cmath>
+
 #include "engine/world.h"
 
 namespace engine {
@@ -8,13 +10,15 @@ namespace {
 Touches touches_on_mesh(const Outlook& outlook, const ContactPair& pair, const Pose& X_WM, const Pose& X_MA, double margin,
                         double may_pass) {
   World& world = outlook.world;
-  Clearance& clearance = outlook.state.contact_memory.mesh[pair.at];
+  auto& [clearance, entered] = outlook.state.contact_memory.mesh[pair.at];
   const double reach = world.reach[pair.a];
   if (clearance.beyond(margin, X_MA, reach)) return {};
   ContactPoints& touches = world.pairs.touches;
-  contacts_with_mesh(std::get<HyperEllipsoid>(world.model.bodies[pair.a].shape), outlook.at.X_WB[pair.a],
-                     *world.pairs.mesh[pair.at].mesh, X_WM, margin, clearance.by_now(X_MA, reach), world.pairs.mesh_scratch,
-                     touches, may_pass);
+  const auto& shape = std::get<HyperEllipsoid>(world.model.bodies[pair.a].shape);
+  const Pose& X_WA = outlook.at.X_WB[pair.a];
+  contacts_with_mesh(shape, X_WA, *world.pairs.mesh[pair.at].mesh, X_WM, margin, clearance.by_now(X_MA, reach),
+                     world.pairs.mesh_scratch, touches, may_pass, entered);
+  if (!std::isfinite(may_pass)) entered = sides_of(shape, X_WA.q, touches);
   clearance.note(world.pairs.mesh_scratch.apart, X_MA, reach);
   return {touches.begin(), touches.end()};
 }

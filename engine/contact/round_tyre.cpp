@@ -50,11 +50,28 @@ bool near(const Outlook& outlook, const TyrePair& pair, const Vec3& hub, double 
   return (hub - outlook.at.X_WB[pair.body].p).squaredNorm() < within * within;
 }
 
+namespace {
+
+/// Does the front or the back of a tyre lie in a body, and would still when lifted by `way` [m]? Deep in a wall that is told at
+/// once, and how far it would have to rise takes long to find.
+bool stays_within(const Tyre& tyre, const HyperEllipsoid& shape, const Pose& X_WA, const Vec3& up, double way) {
+  const auto within = [&](const Vec3& p) { return gauge(shape, X_WA.q.conjugate() * (p - X_WA.p)) < 1; };
+  const Vec3 arm = tyre.radius * tyre.axle.cross(up);
+  const auto stays = [&](const Vec3& p) { return within(p) && within(p + way * up); };
+  return stays(tyre.centre + arm) || stays(tyre.centre - arm);
+}
+
+}  // namespace
+
 std::optional<TyreTouch> stands_on(const Outlook& outlook, const TyrePair& pair, double least) {
   const auto& shape = std::get<HyperEllipsoid>(outlook.world.model.bodies[pair.body].shape);
+  const Pose& X_WA = outlook.at.X_WB[pair.body];
   const Vec3 up = outlook.at.X_WB[pair.vehicle_body].q * Vec3::UnitZ();
-  const auto touch = move_clear(tyre_of(outlook, pair.wheel, 0), shape, outlook.at.X_WB[pair.body], up, kWheelFacing, least);
-  if (!touch || touch->way > 2 * wheel_of(outlook.world, pair).travel) return std::nullopt;
+  const Tyre tyre = tyre_of(outlook, pair.wheel, 0);
+  const double most = 2 * wheel_of(outlook.world, pair).travel;
+  if (stays_within(tyre, shape, X_WA, up, most)) return std::nullopt;
+  const auto touch = move_clear(tyre, shape, X_WA, up, kWheelFacing, least);
+  if (!touch || touch->way > most) return std::nullopt;
   // one that rolls up has not got farther than the last step took it: what is deeper has come from the side
   const double rise = pair_margin(outlook, pair.body, pair.vehicle_body) / touch->normal.dot(up);
   if (touch->way > outlook.state.wheels[pair.wheel].lift + rise) return std::nullopt;

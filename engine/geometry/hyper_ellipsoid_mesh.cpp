@@ -84,8 +84,8 @@ double sphere_of(const MeshTouch& s) {
 }
 
 /// Lists the triangles near the body. In the middle of a panel only those count that one of the points lies above that touch_face
-/// will look at. Where there are none, `apart` has the least distance.
-bool list_near_triangles(MeshTouch& s) {
+/// will look at. What came in may lie `behind` the body by now. Where there are none, `apart` has the least distance.
+bool list_near_triangles(MeshTouch& s, double behind) {
   constexpr double kSlack = 1e-5;  // [m] for normals that agree to rounding
   const Vec3& centre = s.X_MA.p;
   const Vec3 half = aabb_half_widths(s.shape, s.X_MA.q);
@@ -105,7 +105,7 @@ bool list_near_triangles(MeshTouch& s) {
     s.mesh.query({centre - half - Vec3::Constant(around), centre + half + Vec3::Constant(around)}, s.scratch.triangles, pass);
     return passed || !s.scratch.triangles.empty();
   };
-  if (look(s.margin)) return true;
+  if (look(s.margin + behind)) return true;
   s.scratch.apart = look(s.margin + kLookAhead) ? s.margin : s.margin + kLookAhead;
   return false;
 }
@@ -201,6 +201,18 @@ void report(MeshTouch& s, const Pose& X_WA, const Quat& q_WM, ContactPoints& out
 
 }  // namespace
 
+Sides sides_of(const HyperEllipsoid& shape, const Quat& q_WA, const ContactPoints& contacts) {
+  constexpr double kSquare = 0.9;  // [-] cosine to the side's normal
+  if (shape.exponent < kFlatExponent) return 0;
+  unsigned out = 0;
+  for (const SurfaceContact& c : contacts) {
+    const Vec3 outward_A = q_WA.conjugate() * -c.normal;
+    int axis = 0;
+    if (c.gap < 0 && outward_A.cwiseAbs().maxCoeff(&axis) > kSquare) out |= 1u << (2 * axis + (outward_A[axis] > 0));
+  }
+  return static_cast<Sides>(out);
+}
+
 void reserve(MeshContactScratch& scratch, const TriangleMesh& mesh) {
   const std::size_t count = mesh.triangles().size();
   scratch.triangles.reserve(count);
@@ -211,15 +223,15 @@ void reserve(MeshContactScratch& scratch, const TriangleMesh& mesh) {
 }
 
 void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const TriangleMesh& mesh, const Pose& X_WM, double margin,
-                        double least, MeshContactScratch& scratch, ContactPoints& out, double passed_by) {
+                        double least, MeshContactScratch& scratch, ContactPoints& out, double passed_by, Sides entered) {
   out.clear();
   const Pose X_MA = X_WM.inverse() * X_WA;
-  MeshTouch s{shape, X_MA, mesh, margin, least - kFromBehind * shape.semi_axes.minCoeff(), scratch};
+  MeshTouch s{shape, X_MA, mesh, margin, least - kFromBehind * shape.semi_axes.minCoeff(), entered, scratch};
   // the sphere around the body first: most pairs are far apart
   scratch.apart = (X_MA.p - mesh.bounds().upper).cwiseMax(mesh.bounds().lower - X_MA.p).maxCoeff() - sphere_of(s) + margin;
   if (scratch.apart > margin) return;
   scratch.apart = 0;
-  if (!list_near_triangles(s)) return;
+  if (!list_near_triangles(s, std::isfinite(passed_by) ? 0 : std::max(0.0, -s.least))) return;
   keep_reached_triangles(s, passed_by);
   scratch.candidates.clear();
   scratch.vertices.clear();

@@ -9,6 +9,9 @@
 
 namespace engine {
 
+/// Sides of a flat-sided body through which a mesh has come in: bit 2 axis for the lower one, bit 2 axis + 1 for the upper.
+using Sides = std::uint8_t;
+
 /// A vertex beyond whose edge a body reaches, and the normal there.
 struct VertexTouch {
   int vertex;
@@ -34,7 +37,12 @@ void reserve(MeshContactScratch&, const TriangleMesh&);
 /// gets the contacts of a plane. A triangle whose plane the centre has passed by more than `passed` [-] of the body is its far side
 /// and not felt, nor is what lies deeper than `least` by a quarter of the body: `least` [m] is the smallest gap there can be, from
 /// what was seen before (Clearance::by_now), so a fold or the underside of a sill is not met from behind.
+/// What lies deep in a flat-sided body is held by the nearest of the sides that it has `entered` through, not by the nearest of
+/// all.
 void contacts_with_mesh(const HyperEllipsoid&, const Pose& X_WA, const TriangleMesh&, const Pose& X_WM, double margin, double least,
-                        MeshContactScratch&, ContactPoints& out, double passed = 0.25);
+                        MeshContactScratch&, ContactPoints& out, double passed = 0.25, Sides entered = 0);
+
+/// The sides through which contacts found hold the mesh.
+Sides sides_of(const HyperEllipsoid&, const Quat& q_WA, const ContactPoints&);
 
 }  // namespace engine

@@ -92,14 +92,24 @@ bool descend(const Way& way, Lowest& at, const Bounds& bounds) {
 }
 
 /// On a part with flat sides Newton stalls at its edges: there the way all but has kinks, where the normal is across a body axis.
-/// Steps along and across those, ever shorter.
+/// Steps along and across those, ever shorter; down a long slope as far again as it has come (Hooke and Jeeves 1961).
 void creep_down(const Way& way, Lowest& at, const Bounds& bounds) {
   constexpr double kFirst = 0.3, kLast = 1e-8;  // [-] of the slope s
   constexpr int kMostSteps = 1000;              // of one reach; some ten are usual
+  constexpr int kLong = 20;                     // of them make a long slope
   for (double reach = kFirst; reach > kLast; reach *= 0.5) {
     bool better = true;
+    Eigen::Vector2d before = at.s;
     for (int k = 0; better && k < kMostSteps; ++k) {
       better = false;
+      for (double share = 1; k > 0 && k % kLong == 0; share *= 2) {
+        const Eigen::Vector2d s = at.s + share * (at.s - before);
+        const double next = way.value(way.normal(s));
+        before = at.s;
+        if (!(next < at.way)) break;
+        at = {s, next};
+        if (bounds.passed_by(at)) return;
+      }
       for (int i = 0; i < 12; ++i) {
         const Eigen::Vector2d across = way.E.transpose() * way.R_WA.col(i % 3);
         if (!(across.norm() > 1e-6)) continue;

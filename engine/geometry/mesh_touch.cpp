@@ -16,6 +16,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <optional>
 
 #include "engine/math/functions.h"
 #include "engine/math/roots.h"
@@ -32,6 +35,55 @@ bool inside(const MeshTouch& s, int triangle, const Vec3& p) {
   const double area = n.dot((b - a).cross(c - a));
   return n.dot((b - a).cross(p - a)) >= -kBorder * area && n.dot((c - b).cross(p - b)) >= -kBorder * area &&
          n.dot((a - c).cross(p - c)) >= -kBorder * area;
+}
+
+constexpr double kDeep = 0.1;       // [-] of the half thickness
+constexpr double kRounding = 1e-9;  // [-]
+constexpr double kBefore = 0.98;    // [-] of the half widths: what lies before a side, away from its rounded rim
+
+/// How far along one of its sides' normals a point lies within the body or behind it [m]; 0 where that is not deep, or beside it.
+double deep_by(const HyperEllipsoid& shape, int side, const Vec3& p_A) {
+  const int axis = side / 2;
+  const double way = shape.semi_axes[axis] - outward_of(side).dot(p_A);
+  for (int k = 0; k < 3; ++k)
+    if (k != axis && std::abs(p_A[k]) > (kBefore + kRounding) * shape.semi_axes[k]) return 0;
+  return way > kDeep * shape.semi_axes[axis] ? way : 0;
+}
+
+/// The nearest of the sides that the mesh has come in through to a point deep in the body, or behind it; none if it is not. The
+/// gauge forgets them: deep in a wall its foot may be nearer, and behind it nothing is left.
+std::optional<int> entered_through(const MeshTouch& s, const Vec3& p_A) {
+  std::optional<int> out;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int side = 0; side < 6; ++side) {
+    if (!(s.entered >> side & 1)) continue;
+    if (const double way = deep_by(s.shape, side, p_A); way > 0 && way < nearest) nearest = way, out = side;
+  }
+  return out;
+}
+
+/// Lists the contact at such a point, if one of the triangles at it looks that way: what lies there, held flat by its side.
+void hold_deep_point(MeshTouch& s, const Vec3& p, int side, std::initializer_list<int> triangles) {
+  constexpr double kFaces = 0.1;  // [-] cosine
+  const Vec3 outward = s.X_MA.q * outward_of(side);
+  const auto faces = [&](int t) { return t >= 0 && s.mesh.face_normals()[static_cast<std::size_t>(t)].dot(outward) < -kFaces; };
+  if (std::none_of(triangles.begin(), triangles.end(), faces)) return;
+  const double gap = outward.dot(p) - s.shape.semi_axes[side / 2];
+  if (gap < s.margin && gap >= s.least) s.scratch.candidates.push_back({p - gap * outward, p, -outward, gap});
+}
+
+/// Where on an edge, of what lies before a side, it is deepest.
+std::optional<double> deepest_on_edge(const HyperEllipsoid& shape, int side, const Vec3& from_A, const Vec3& along_A) {
+  double first = 0, last = 1;
+  for (int k = 0; k < 3; ++k) {
+    if (k == side / 2 || along_A[k] == 0) continue;
+    const double reach = kBefore * shape.semi_axes[k];
+    const double a = (-reach - from_A[k]) / along_A[k], b = (reach - from_A[k]) / along_A[k];
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  if (first > last) return std::nullopt;
+  return outward_of(side).dot(along_A) < 0 ? last : first;
 }
 
 /// The contact at a mesh point p (on an edge or a vertex) with normal against the gauge gradient there.
@@ -189,14 +241,21 @@ void touch_edge_flat(MeshTouch& s, int triangle, int edge) {
   const Vec3 from = s.vertex(t[edge]);
   const Vec3 along = s.mesh.vertices()[t[(edge + 1) % 3]] - s.mesh.vertices()[t[edge]];
   const Quat q_AM = s.X_MA.q.conjugate();
+  const int other = s.mesh.neighbour(triangle, edge);
+  for (int side = 0; side < 6; ++side) {
+    if (!(s.entered >> side & 1)) continue;
+    const auto deepest = deepest_on_edge(s.shape, side, q_AM * from, q_AM * along);
+    if (deepest && entered_through(s, q_AM * (from + *deepest * along)) == side)
+      hold_deep_point(s, from + *deepest * along, side, {triangle, other});
+  }
   const double at = least_gauge(s.shape, q_AM * from, q_AM * along);
   if (at <= 0 || at >= 1) return;  // a vertex's business
+  if (entered_through(s, q_AM * (from + at * along))) return;
   SurfaceContact c;
   if (!point_contact(s, from + at * along, c)) return;
   // inside the cone of the edge: not over either face
   const Vec3 inward = s.mesh.face_normals()[triangle].cross(along).normalized();
   if (c.normal.dot(inward) > 1e-9) return;
-  const int other = s.mesh.neighbour(triangle, edge);
   if (other >= 0 && c.normal.dot(-s.mesh.face_normals()[other].cross(along).normalized()) > 1e-9) return;
   if (other < 0 && c.normal.dot(s.mesh.face_normals()[triangle]) < 0) return;  // the back of an open sheet
   s.scratch.candidates.push_back(c);
@@ -204,6 +263,7 @@ void touch_edge_flat(MeshTouch& s, int triangle, int edge) {
 
 void touch_vertex_flat(MeshTouch& s, int vertex) {
   SurfaceContact c;
+  if (entered_through(s, s.X_MA.q.conjugate() * s.vertex(vertex))) return;  // its edges end there
   if (point_contact(s, s.vertex(vertex), c) &&
       in_cone_of_vertex(s.mesh, vertex, c.normal, 1e-9, [&s](int t) { return s.is_near(t); }))
     s.scratch.candidates.push_back(c);

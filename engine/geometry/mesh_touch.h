@@ -17,6 +17,7 @@ struct MeshTouch {
   const TriangleMesh& mesh;
   double margin;
   double least;                           // [m] smallest gap that can be of this side
+  Sides entered;                          // of a body with flat sides
   MeshContactScratch& scratch;            // candidates: mesh axes, from the body's centre
   SmallVector<Vec3, 5> last_points = {};  // [m]
   Vec3 last_normal = Vec3::Zero();
@@ -29,6 +30,11 @@ struct MeshTouch {
   /// of the last normal are kept, for a panel may have thousands of triangles.
   const SmallVector<Vec3, 5>& points_against(const Vec3& normal);
 };
+
+/// Outward normal of one of the Sides, in body axes.
+inline Vec3 outward_of(int side) {
+  return (side % 2 ? 1 : -1) * Vec3::Unit(side / 2);
+}
 
 void touch_face(MeshTouch&, int triangle);
 /// Of a round body. Where the point reached projects beyond an end, that vertex is worth a look with the normal found.

@@ -44,11 +44,12 @@ std::vector<std::string> passages(const Model& model, const Recording& recording
   std::vector<std::string> out;
   for (int v = 0; v < static_cast<int>(model.vehicles.size()); ++v)
     if (const auto passage = passage_of(model, recording, v))
-      out.push_back(model.vehicles[static_cast<std::size_t>(v)].name + " went into " +
-                    model.bodies[static_cast<std::size_t>(passage->object)].name + " as deep as its centre of mass at " +
-                    std::to_string(std::lround(1e3 * passage->time)) +
-                    " ms: the compliant law lost its front, do not rely on motion from there on; its collisions are told by "
-                    "contact_law = \"default_auto\"");
+      out.push_back(
+          model.vehicles[static_cast<std::size_t>(v)].name + " went into " +
+          model.bodies[static_cast<std::size_t>(passage->object)].name + " as deep as its centre of mass at " +
+          std::to_string(std::lround(1e3 * passage->time)) +
+          " ms, farther than any vehicle gives way: do not rely on motion from there on; more stiffness may hold it out, or "
+          "contact_law = \"default_auto\"");
   return out;
 }
 

@@ -1,4 +1,4 @@
-// Vehicles that went through what they struck: under the compliant law points of a shell are held, and not what lies behind them.
+// Vehicles pressed in deeper than vehicles are long ahead of their middle: their stiffness does not hold what they struck.
 #pragma once
 
 #include <optional>

@@ -155,7 +155,8 @@ TEST(State, SeesEveryPartThatChanges) {
   };
   expect_new("place", [](State& s) { s.X_WB[1].p.x() = std::nextafter(s.X_WB[1].p.x(), 1e9); });
   expect_new("contact found", [](State& s) { s.contacts.list.at(0).gap += 1e-12; });
-  expect_new("clearance", [](State& s) { s.contact_memory.mesh.at(0).least += 1e-3; });
+  expect_new("clearance", [](State& s) { s.contact_memory.mesh.at(0).clearance.least += 1e-3; });
+  expect_new("entered sides", [](State& s) { s.contact_memory.mesh.at(0).entered ^= 1; });
   expect_new("warm start", [](State& s) { s.warm.at(0).impulse_W.x() += 1; });
   expect_new("wheel", [](State& s) { s.wheels.at(0).compression += 1e-9; });
   expect_new("pace", [](State& s) { s.pace.next = 1e-4; });
