@@ -2,13 +2,13 @@
 #include "scenes/loader/figure.h"
 
 namespace scenes {
-namespace {
 
-/// Height of what carries a person at x, y; 0 over a hole.
 double ground_height(const engine::Ground& ground, double x, double y) {
   const double top = std::max(ground.height, ground.terrain ? ground.terrain->bounds().upper.z() : 0) + 1;
   return ground.height_below({x, y, top}).value_or(0);
 }
+
+namespace {
 
 /// How far the lowest support point stands above the ground.
 double clearance(const engine::Ground& ground, const Figure& figure, const std::vector<engine::Pose>& X_WB) {

@@ -1,12 +1,15 @@
 // [[vehicle]]: a rigid body on wheels, from the library or the user's own mesh and figures.
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/math/functions.h"
 #include "scenes/loader/builder.h"
 #include "scenes/loader/decimate.h"
+#include "scenes/loader/figure.h"
 #include "scenes/loader/mesh.h"
 #include "scenes/loader/mesh_frame.h"
 #include "scenes/loader/panels.h"
@@ -227,7 +230,47 @@ engine::MeshShape collision_shape(Builder& builder, const Meshes& meshes, const 
   return {coarse, X_BM, tolerance, panels};
 }
 
-/// Where the mesh frame stands in the world.
+/// The turn that lays a level vehicle whose mesh frame stands at X_WM along the ground under its wheels: the plane of least squares
+/// through it.
+engine::Quat along_ground(const engine::Ground& ground, const std::vector<engine::Vec3>& wheels_M, const engine::Pose& X_WM) {
+  if (wheels_M.size() < 2) return engine::Quat::Identity();
+  engine::Mat3 squares = engine::Vec3(1e-9, 1e-9, 1e-9).asDiagonal();  // of a two-wheeler, which tells no slope aside
+  engine::Vec3 sum = engine::Vec3::Zero();
+  for (const engine::Vec3& wheel : wheels_M) {
+    const engine::Vec3 from = X_WM.q * wheel, at = X_WM.p + from, row(1, from.x(), from.y());
+    squares += row * row.transpose();
+    sum += ground_height(ground, at.x(), at.y()) * row;
+  }
+  const engine::Vec3 plane = squares.ldlt().solve(sum);
+  return engine::Quat::FromTwoVectors(engine::Vec3::UnitZ(), engine::Vec3(-plane.y(), -plane.z(), 1).normalized());
+}
+
+/// Sets a vehicle down on its wheels: along the ground if the scene gives no attitude, and none of them below it. Its speed turns
+/// with it.
+void set_down(Builder& builder, Reader& r, const engine::Vehicle& vehicle, const engine::Vec3& cg, engine::Pose& X_WM,
+              engine::Vec3& v) {
+  constexpr double kFlat = 1e-6;  // [m] level ground at its own height is left as it is
+  const engine::Ground& ground = builder.scene.model.ground;
+  if (!ground.terrain || !r.text("towed_by").empty()) return;
+  std::vector<engine::Vec3> wheels_M;
+  for (const engine::Wheel& wheel : vehicle.wheels) wheels_M.emplace_back(wheel.hub_B.x() + cg.x(), wheel.hub_B.y() + cg.y(), 0);
+  if (wheels_M.empty()) wheels_M.emplace_back(0, 0, 0);
+  if (!r.has("attitude") && !r.has("quaternion")) {
+    const engine::Quat tilt = along_ground(ground, wheels_M, X_WM);
+    if (tilt.vec().norm() > kFlat) {
+      X_WM.q = tilt * X_WM.q;
+      if (!r.has("velocity")) v = tilt * v;
+    }
+  }
+  double up = -std::numeric_limits<double>::infinity();
+  for (const engine::Vec3& wheel : wheels_M) {
+    const engine::Vec3 from = X_WM.q * wheel;
+    up = std::max(up, ground_height(ground, X_WM.p.x() + from.x(), X_WM.p.y() + from.y()) - ground.height - from.z());
+  }
+  if (std::abs(up) > kFlat) X_WM.p.z() += up;
+}
+
+/// Where the mesh frame stands in the world, on level ground.
 engine::Pose mesh_pose(Builder& builder, Reader& r, const VehicleGiven& given, const Placing& placing, const Meshes& meshes) {
   engine::Vec3 at = placing.position;
   if (given.front) {
@@ -331,10 +374,11 @@ void read_vehicle(Builder& builder, Reader scene) {
   if (!meshes.bodywork || !meshes.collision) return;
 
   const engine::Pose X_BM{-given.cg, engine::Quat::Identity()};
-  const engine::Pose X_WM = mesh_pose(builder, r, given, placing, meshes);
+  engine::Pose X_WM = mesh_pose(builder, r, given, placing, meshes);
+  body.V_WB.v = placing.v(r);
+  set_down(builder, r, vehicle, given.cg, X_WM, body.V_WB.v);
   body.shape = collision_shape(builder, meshes, X_BM, given.mesh_tolerance);
   body.X_WB = {X_WM * given.cg, X_WM.q.normalized()};
-  body.V_WB.v = placing.v(r);
   if (const int tower = find_tower(builder, r); tower >= 0 && given.coupling) couple(builder, r, given, tower, body);
   if (given.saddle) builder.saddles[vehicle.name] = *given.saddle - given.cg;
   if (given.hitch) builder.hitches[vehicle.name] = *given.hitch - given.cg;
