@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/contact/mesh_points.h"
+#include "engine/contact/round_tyre.h"
 #include "engine/effects/body_pairs.h"
 #include "engine/effects/registration.h"
 #include "engine/effects/riding.h"
@@ -70,10 +71,11 @@ Vec3 velocity_at(const Outlook& outlook, int body, const Vec3& point) {
   return outlook.at.V_WB[body].v + outlook.at.V_WB[body].w.cross(point - outlook.at.X_WB[body].p);
 }
 
-/// Would the two close their gap within this step?
-bool closes(const Outlook& outlook, const SurfaceContact& touch, int a, int b) {
+/// Would the two close their gap within this step? It touches who has rubber against them, that does not press yet.
+bool closes(const Outlook& outlook, const SurfaceContact& touch, const ShapePair& shapes, int a, int b) {
+  const double gives = shapes.b == ShapeKind::tyre && yields_as_rubber(outlook.world.model, a) ? kTyreGives : 0;
   const double closing = -touch.normal.dot(velocity_at(outlook, a, touch.p_a) - velocity_at(outlook, b, touch.p_a));
-  return touch.gap - closing * outlook.within <= 0 && closing > 0;
+  return touch.gap - gives - closing * outlook.within <= 0 && closing > 0;
 }
 
 /// What has come to bear somebody since the start, or bore them then, moves away under them.
@@ -97,7 +99,7 @@ void watch(const Outlook& outlook, const PairKind& kind, const ContactPair& pair
       release(world, state, pair.a, pair.b, touch.p_a);
       continue;
     }
-    if (!closes(outlook, touch, pair.a, pair.b)) {
+    if (!closes(outlook, touch, kind.shapes, pair.a, pair.b)) {
       if (warn) warn_of_overlap(world, pair.a, pair.b, touch.gap);
       continue;
     }
