@@ -34,6 +34,7 @@ Finding look_for_body_contact(const Model& model) {
 class BodyContact final : public Effect {
  public:
   static constexpr const char* kName = "body_contact";
+  static constexpr bool kPassive = true;
   static Finding look(const Model& model) { return look_for_body_contact(model); }
   static double not_before(const Model&, const Reach& reach) { return reach.groups_are_simple ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }

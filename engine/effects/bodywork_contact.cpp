@@ -50,6 +50,7 @@ Finding look_for_bodywork_contact(const Model& model) {
 class BodyworkContact final : public Effect {
  public:
   static constexpr const char* kName = "bodywork_contact";
+  static constexpr bool kPassive = true;
   static Finding look(const Model& model) { return look_for_bodywork_contact(model); }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }
 

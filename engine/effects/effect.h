@@ -119,6 +119,8 @@ struct EffectKind {
   LeftOut (*left_out)(const Model&, const Recording&, bool active) = nullptr;
   /// May it give energy that its account did not take before: springs, surfaces that give way, the wind? Null: never.
   bool (*gives)(const Model&) = nullptr;
+  /// Has it nothing to give over a whole run but what springs held at the start?
+  bool passive = false;
   /// [s] before which it cannot matter, proved from the reach; infinity: not in this run. Null: from the start.
   double (*not_before)(const Model&, const Reach&) = nullptr;
   /// Where it acts under schemes rk4 and adaptive. Null: contacts where their law allows, stops of joints once a step, all else in

@@ -25,6 +25,7 @@ Finding look_for_ground_contact(const Model& model) {
 class GroundContact final : public Effect {
  public:
   static constexpr const char* kName = "ground_contact";
+  static constexpr bool kPassive = true;
   static Finding look(const Model& model) { return look_for_ground_contact(model); }
   static double not_before(const Model&, const Reach& reach) { return reach.all_rounds_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }

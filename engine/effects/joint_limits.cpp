@@ -96,6 +96,7 @@ void add_limit(ContactSearch& search, const JointCoordinates& now, const End& en
 class JointLimits final : public Effect {
  public:
   static constexpr const char* kName = "joint_limits";
+  static constexpr bool kPassive = true;
   static Finding look(const Model& model) { return look_for_joint_limits(model); }
   static double not_before(const Model&, const Reach& reach) { return reach.all_joints_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }

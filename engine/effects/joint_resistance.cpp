@@ -106,6 +106,7 @@ Vec3 relative_turning(const Joint& joint, const std::vector<Twist>& V) {
 class JointResistance final : public EffectWith<FrictionMemory> {
  public:
   static constexpr const char* kName = "joint_resistance";
+  static constexpr bool kPassive = true;
   static Finding look(const Model& model) { return look_for_joint_resistance(model); }
   static Staged staged(const Model& model) { return staged_resistance(model); }
   static double not_before(const Model&, const Reach& reach) { return reach.all_joints_wait ? reach.first_touch : 0; }
@@ -212,6 +213,18 @@ class JointResistance final : public EffectWith<FrictionMemory> {
         }
   }
 
+  /// A spring taken at the end of the step is stable however stiff, and damps out what it would swing.
+  void tell_of_lost_swing(StepContext& step, const Joint& joint, const JointCoordinate& a, double response) {
+    const Model& model = step.world.model;
+    const bool within_person = joint.parent >= 0 && model.bodies[joint.parent].person >= 0;  // damped by themselves
+    if (within_person || a.damping * a.damping * response >= 4 * a.stiffness || told_of_swing_) return;
+    told_of_swing_ = true;
+    step.world.log.diagnostics.warnings.push_back(
+        "joint " + joint.name + ": its spring swings at " + number(std::sqrt(a.stiffness * response)) + " rad/s, which a step of " +
+        number(1e3 * step.length) + " ms does not follow: the swing is damped out; take a step below " +
+        number(1e3 * std::sqrt(0.5 / (a.stiffness * response))) + " ms, or less stiffness");
+  }
+
   void resist_in(StepContext& step, int j) {
     const Joint& joint = step.world.model.joints[j];
     JointDamper& damper = step.buffers.dampers[j];
@@ -238,7 +251,9 @@ class JointResistance final : public EffectWith<FrictionMemory> {
       if (a.stiffness == 0) continue;
       // a spring at the mean of its values at both ends neither gains nor loses energy of itself; one too stiff for the step at its
       // end, which is stable however stiff
-      const bool followed = h * h * a.stiffness * coordinate_response(step, j, i, axis) < 0.5;
+      const double response = coordinate_response(step, j, i, axis);
+      const bool followed = h * h * a.stiffness * response < 0.5;
+      if (!followed) tell_of_lost_swing(step, joint, a, response);
       const double rate = followed ? g.dot(part_of(relative, i)) : 0;
       matrix += (followed ? 0.25 : 1) * h * h * a.stiffness * g * g.transpose();
       (i == kSlide ? resistance.force_W : resistance.torque_W) -= a.stiffness * (now.value[i] + 0.25 * h * rate - a.rest) * g;
@@ -273,6 +288,7 @@ class JointResistance final : public EffectWith<FrictionMemory> {
   std::vector<PassiveLeg> awake_legs_;
   double power_ = 0;  // [W] what those take out at the start of the step
   long listed_ = 0;   // StillBodies::changes when the awake legs were
+  bool told_of_swing_ = false;
 };
 template struct Registered<JointResistance>;
 

@@ -55,6 +55,7 @@ void add_to_runs(std::vector<MeshPairRun>& runs, int effect, int tree_a, int tre
 class MeshContact final : public Effect {
  public:
   static constexpr const char* kName = "mesh_contact";
+  static constexpr bool kPassive = true;
   static Finding look(const Model& model) { return look_for_mesh_contact(model); }
   static double not_before(const Model&, const Reach& reach) { return reach.groups_are_simple ? reach.first_touch : 0; }
   static bool gives(const Model& model) {  // tyres yield under every law

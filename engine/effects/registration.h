@@ -33,6 +33,7 @@ constexpr EffectKind describe() {
   kind.look = E::look;
   if constexpr (requires { E::left_out; }) kind.left_out = E::left_out;
   if constexpr (requires { E::gives; }) kind.gives = E::gives;
+  if constexpr (requires { E::kPassive; }) kind.passive = E::kPassive;
   if constexpr (requires { E::not_before; }) kind.not_before = E::not_before;
   if constexpr (requires { E::staged; }) kind.staged = E::staged;
   if constexpr (requires { E::kSection; }) kind.section = E::kSection;

@@ -29,6 +29,7 @@ Finding look_for_self_contact(const Model& model) {
 class SelfContact final : public Effect {
  public:
   static constexpr const char* kName = "self_contact";
+  static constexpr bool kPassive = true;
   static Finding look(const Model& model) { return look_for_self_contact(model); }
   static double not_before(const Model&, const Reach& reach) { return reach.all_joints_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }

@@ -22,6 +22,7 @@ Finding look_for_terrain_contact(const Model& model) {
 class TerrainContact final : public Effect {
  public:
   static constexpr const char* kName = "terrain_contact";
+  static constexpr bool kPassive = true;
   static Finding look(const Model& model) { return look_for_terrain_contact(model); }
   static double not_before(const Model&, const Reach& reach) { return reach.all_rounds_wait ? reach.first_touch : 0; }
   static bool gives(const Model& model) { return model.settings.contact_law != ContactLaw::default_auto; }

@@ -29,18 +29,21 @@ void BoundsWatch::watch_compression(const Constraint& c, double time, double dur
   compression_ = std::max(compression_, depth);
 }
 
-/// A panel that is dented leaves the part its own share of the depth. What has no panels, a box or a wall, keeps its shape.
+/// A panel that is dented leaves the part its own share of the depth, and so does another part. What is neither, a box or a wall,
+/// keeps its shape.
 void BoundsWatch::note_press(const Model& model, const Constraint& c, int part, int by) {
   if (!is_part(model, part)) return;
-  const bool is_a = part == c.a.record, dented = by >= 0 && model.bodies[by].vehicle >= 0;
+  const bool is_a = part == c.a.record, dented = by >= 0 && (model.bodies[by].vehicle >= 0 || is_part(model, by));
   const double share = !dented ? 1 : is_a ? c.spring.share_a : 1 - c.spring.share_a;
-  presses_.push_back({part, by, (is_a ? 1 : -1) * c.frame.col(0), -c.gap, -share * c.gap, c.spring.thickness});
+  presses_.push_back({part, by, (is_a ? 1 : -1) * c.frame.col(0), -c.gap, -share * c.gap, c.spring.thickness, c.shapes.one_person});
 }
 
 /// Half of its thickness is what one side may press in (scenes/README.md), and what two may together. Whatever the dents hold of
 /// it, surfaces that overlap by all of the thickness have met through the part.
 double BoundsWatch::Squeeze::excess() const {
+  constexpr double kOfItself = 1.0;  // [-] of the thickness: who curls up presses an arm to the neck, and nothing is lost by it
   const double thickness = std::min(one.thickness, other.thickness);
+  if (one.by_itself || other.by_itself) return (one.own + other.own) / (kOfItself * thickness);
   return std::max((one.own + other.own) / (0.5 * thickness), (one.depth + other.depth) / thickness);
 }
 
@@ -49,7 +52,7 @@ void BoundsWatch::watch_squeezes(const World& world, const std::vector<Constrain
   constexpr double kOpposite = -0.5;  // [-] normals less than 60 degrees from straight against each other
   presses_.clear();
   for (const Constraint& c : conditions) {
-    if (!is_contact(c) || !is_compliant(c) || c.shapes.one_person || c.impulse[0] <= 0 || c.gap >= 0) continue;
+    if (!is_contact(c) || !is_compliant(c) || c.impulse[0] <= 0 || c.gap >= 0) continue;
     note_press(world.model, c, c.a.record, c.b.record);
     note_press(world.model, c, c.b.record, c.a.record);
   }
@@ -92,7 +95,7 @@ void BoundsWatch::close(const World& world, Diagnostics& diagnostics) const {
     warnings.push_back(name(squeezed_.one.part) + " was pressed " + told(1e3 * squeezed_.one.depth) + " mm by " +
                        name(squeezed_.one.by) + " and " + told(1e3 * squeezed_.other.depth) + " mm by " + name(squeezed_.other.by) +
                        " from the other side at " + std::to_string(std::lround(1e3 * squeezed_.time)) +
-                       " ms, together more than half its thickness: the contact law holds for less, do not rely on forces and "
+                       " ms, together more than it has room for: the contact law holds for less, do not rely on forces and "
                        "motion from there on");
   if (world.log.unsettled.amount > kToldUnsettled)
     warnings.push_back("the forces between " + name(world.log.unsettled.body_a) + " and " + name(world.log.unsettled.body_b) +

@@ -31,6 +31,7 @@ class BoundsWatch {
     double depth = 0;            // [m] of both surfaces
     double own = 0;              // [m] of it, by which the part gives way
     double thickness = 0;        // [m] of the part
+    bool by_itself = false;      // by a part of the same person
   };
   struct Squeeze {
     double time = 0;

@@ -5,6 +5,7 @@
 
 #include "engine/effects/effect.h"
 #include "engine/effects/words.h"
+#include "engine/joints/coordinates.h"
 
 namespace engine {
 namespace {
@@ -12,13 +13,31 @@ namespace {
 constexpr double kTold = 0.01;         // [-] of what was turned over
 constexpr double kLeastEnergy = 1e-3;  // [-] of what the scene's masses have a metre up: what only rests turns nothing over
 
+constexpr double kGift = 0.1;     // [-] of what was turned over: springs give back, and no more than they took
+constexpr double kLeastGift = 5;  // [J]
+
+/// [J] that the springs of joints hold.
+double in_springs(const Model& model, const Motion& at) {
+  double out = 0;
+  for (const Joint& joint : model.joints) {
+    const JointCoordinates now = joint_coordinates(joint, joint.parent >= 0 ? at.X_WB[joint.parent] : Pose{}, at.X_WB[joint.child]);
+    for (int i = 0; i < kCoordinates; ++i) {
+      const JointCoordinate& a = joint.coordinate(i);
+      if (now.free[i]) out += 0.5 * a.stiffness * (now.value[i] - a.rest) * (now.value[i] - a.rest);
+    }
+  }
+  return out;
+}
+
 std::string moment(double time) {
   return std::to_string(std::lround(1e3 * time)) + " ms";
 }
 
 }  // namespace
 
-void EnergyWatch::weigh(const State& state, const Energies& now) {
+void EnergyWatch::weigh(const World& world, const State& state, const Energies& now) {
+  if (!begun_) stored_ = in_springs(world.model, state);
+  dissipated_ = now.dissipated;
   const double mechanical = now.kinetic + now.potential - now.added;
   if (begun_) rise_ = std::max(rise_, mechanical - mechanical_);
   begun_ = true;
@@ -32,6 +51,20 @@ void EnergyWatch::weigh(const State& state, const Energies& now) {
   at_ = state.time;
 }
 
+/// Surfaces and joints that yield may give within a step what they took before. Over a run they have nothing to give but what they
+/// held at the start.
+void EnergyWatch::tell_of_gifts(const World& world, Diagnostics& out) const {
+  if (!world.log.overlaps.empty()) return;  // what is moved apart is given that
+  for (std::size_t e = 0; e < dissipated_.size(); ++e) {
+    const EffectKind& kind = *world.plan.active[e];
+    const double given = -dissipated_[e] - stored_;
+    if (!kind.passive || given < std::max(kLeastGift, kGift * turned_over_)) continue;
+    out.warnings.push_back("energy: " + std::string(kind.name) + " gave " + number(given) +
+                           " J over the run, and had none to give: what rests or lies in that time may creep, do not rely on it; a "
+                           "smaller step gives less");
+  }
+}
+
 void EnergyWatch::close(const World& world, Diagnostics& out) const {
   const Shortfall& gain = world.log.gain;
   out.max_energy_rise = rise_;
@@ -43,6 +76,7 @@ void EnergyWatch::close(const World& world, Diagnostics& out) const {
   if (unexplained_ > worth)
     out.warnings.push_back("energy: " + number(unexplained_) + " J at " + moment(at_) +
                            " that no effect explains, more than 1 % of the " + number(turned_over_) + " J turned over" + kCompare);
+  tell_of_gifts(world, out);
   if (gain.amount <= worth) return;
   const auto name = [&](int b) { return b >= 0 ? world.model.bodies[b].name : std::string("the world"); };
   const bool known = gain.body_a >= 0 || gain.body_b >= 0;

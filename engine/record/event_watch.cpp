@@ -21,13 +21,16 @@ std::vector<double> least_loads(const World& world, const State& state) {
 /// Whether a tyre of a vehicle that heads `forward` stands on the part. One that shoves a part ahead of it, or climbs it, does not
 /// yet: seen from the side its push comes from in front. A shoulder on something round never comes from quite above: there the
 /// load tells. A wheel's side that rubs a part bears of it no more than that part weighs; half of what it bears on the road is
-/// beyond doubt, and left to the wheel where brakes relieve its axle by a third.
+/// beyond doubt, and left to the wheel where brakes relieve its axle by a third. From straight above a twentieth is enough: the
+/// wheel of a bicycle that falls over brushes who lies there with less.
 bool stands_on(const Constraint& c, const Vec3& forward, double least_load, double duration) {
-  constexpr double kOnTop = 0.9, kShare = 0.5;  // [-] upright part of the normal: 26 degrees; of the load
+  constexpr double kOnTop = 0.9, kShare = 0.5, kLeast = 0.05;  // [-] upright part of the normal: 26 degrees; of the load
   const Vec3 down = -c.frame.col(0);
+  const double load = down.z() * c.impulse[0];
+  if (duration <= 0 || load < kLeast * least_load * duration) return false;
   if (down.z() > kOnTop) return true;
   const bool over = down.z() > kOnTop * math::hypot(down.z(), down.dot(forward));
-  return over && bears(down) && down.z() * c.impulse[0] > kShare * least_load * duration && duration > 0;
+  return over && bears(down) && load > kShare * least_load * duration;
 }
 
 }  // namespace

@@ -182,7 +182,7 @@ void Recorder::snapshot(const World& world, const State& state, Recording& recor
   s.tyre_impulse = tyre_impulse_;
   std::fill(tyre_impulse_.begin(), tyre_impulse_.end(), Vec3::Zero());
   s.energies = energies(world, state);
-  energy_.weigh(state, s.energies);
+  energy_.weigh(world, state, s.energies);
   recording.snapshots.push_back(std::move(s));
   rest_.watch_snapshot(world, state, since);
 }

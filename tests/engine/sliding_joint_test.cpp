@@ -343,6 +343,23 @@ TEST(Prismatic, ClosesTheRingOfASliderCrank) {
   EXPECT_NEAR(end[0], end[1], kGrid);  // cut at the slider or at the small end: the same mechanism
 }
 
+/// A spring too stiff for the step is held stable, and loses its swing: that is told, with the step that keeps it. One with enough
+/// of a damper has none to lose.
+TEST(JointSpring, TellsWhatAStepDoesNotFollow) {
+  for (const double step : {1e-3, 0.5e-3})
+    for (const double damping : {0.0, 4e3}) {
+      Model model = on_a_rail(Scheme::stepping, 0.02, step);
+      model.joints[0].slide.stiffness = 1e6 * kMass;  // 1000 rad/s
+      model.joints[0].slide.damping = damping;
+      const Recording run = simulate(model);
+      const bool lost = step > 0.7e-3 && damping == 0;
+      ASSERT_EQ(run.diagnostics.warnings.size(), lost ? 1u : 0u) << step;
+      if (lost) {
+        EXPECT_NE(run.diagnostics.warnings[0].find("take a step below 0.707 ms"), std::string::npos);
+      }
+    }
+}
+
 TEST(MotionSubspace, IsWhatTheRowsLeaveFree) {
   for (int k = 0; k < static_cast<int>(JointKind::count); ++k) {
     const auto kind = static_cast<JointKind>(k);

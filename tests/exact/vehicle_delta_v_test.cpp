@@ -106,6 +106,23 @@ TEST(VehicleDeltaV, OfACarThatWentThroughAWallIsNotTold) {
   for (const Metric& m : measure(run.scene.model, run.recording)) EXPECT_NE(m.key, "delta_v_mps");
 }
 
+/// So is one through a thin mesh, or another vehicle: whose points are farther in than 15 cm are dropped.
+TEST(VehicleDeltaV, OfACarThatWentThroughAMeshIsNotTold) {
+  const auto told = [](const Crash& run, int v) {
+    const std::vector<Metric> all = measure(run.scene.model, run.recording);
+    return std::any_of(all.begin(), all.end(), [&](const Metric& m) {
+      return m.key == "delta_v_mps" && m.object == run.scene.model.vehicles[static_cast<std::size_t>(v)].name;
+    });
+  };
+  const std::string law = "contact_law = \"compliant\"\n";
+  const std::string kind = "collision = \"default_auto\"\n";
+  const Crash pair(law + vehicle("a", "sedan", 0, 0, 0, 80) + kind + vehicle("b", "sedan", 6, 0, 180, 80) + kind);
+  for (const int v : {0, 1}) {
+    EXPECT_TRUE(went_through(pair.scene.model, pair.recording, v));
+    EXPECT_FALSE(told(pair, v));
+  }
+}
+
 /// Its trailer jackknifes into it later: a larger impulse, which the coupling takes back.
 TEST(VehicleDeltaV, OfWhatTowsIsThatOfTheBlow) {
   const Crash run(vehicle("a", "sedan", 0, 0, 0, 50) + vehicle("b", "suv", 5.5, 1, 90, 0) +

@@ -38,7 +38,8 @@ struct Law {
   double depth;  // [m]
   std::vector<std::string> may_warn;
 };
-const Law kLaws[] = {{"default_auto", 2e-3, {}}, {"persons_yield", 0.25, {"more than its thickness", "the neck of"}}};
+const Law kLaws[] = {{"default_auto", 2e-3, {}},
+                     {"persons_yield", 0.25, {"more than its thickness", "from the other side", "the neck of"}}};
 
 class RandomAccidents : public testing::TestWithParam<std::tuple<int, Law>> {};
 INSTANTIATE_TEST_SUITE_P(Group, RandomAccidents, testing::Combine(testing::Range(0, kGroups), testing::ValuesIn(kLaws)),
