@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -90,11 +91,20 @@ render::PersonFacts facts_of(const engine::Model& model, const engine::Recording
   return facts;
 }
 
-/// The first collision phase of every pair; later ones of two that rub against each other would fill the sheet. And what several
-/// that strike a vehicle at once did to it: each of their rows holds part of the others'.
-std::vector<std::string> impact_lines(const engine::Model& model, const engine::Recording& recording) {
+/// What of a delta-v the pair alone did, where others did much of it: who stands between two cars, or is thrown onto another.
+std::string of_it_alone(const engine::ImpactSide& side) {
+  constexpr double kMost = 0.9;  // [-] of it
+  if (side.party.vehicle >= 0 || side.own_delta_v.norm() > kMost * side.delta_v.norm()) return "";
+  return fmt::format(", {} by this pair alone {:.2f}", side.name, side.own_delta_v.norm());
+}
+
+/// The first collision phase of every pair; later ones of two that rub against each other would fill the sheet. Then the delta-v of
+/// vehicles where no line has it: it is of several phases together, or of a later one. And who was run over.
+std::vector<std::string> impact_lines(const engine::Model& model, const engine::Recording& recording,
+                                      const std::vector<engine::Metric>& metrics) {
   const std::vector<engine::Impact> impacts = engine::impacts_of(model, recording);
   std::vector<std::string> out;
+  std::map<std::string, std::string> told;  // [m/s] by the last line of a vehicle
   std::size_t later = 0;
   for (const engine::Impact& i : impacts) {
     if (i.phase > 1) {
@@ -108,15 +118,23 @@ std::vector<std::string> impact_lines(const engine::Model& model, const engine::
       closing = aslant ? fmt::format("relative {:.2f} m/s, of it closing {:.2f}, ", i.relative_speed, i.closing_speed)
                        : fmt::format("closing {:.2f} m/s, ", i.closing_speed);
     }
-    out.push_back(fmt::format("{} / {}  {:.3f} s: {}delta-v {:.2f} / {:.2f} m/s", i.a.name, i.b.name, i.time, closing,
-                              i.a.delta_v.norm(), i.b.delta_v.norm()));
+    out.push_back(fmt::format("{} / {}  {:.3f} s: {}delta-v {:.2f} / {:.2f} m/s{}{}", i.a.name, i.b.name, i.time, closing,
+                              i.a.delta_v.norm(), i.b.delta_v.norm(), of_it_alone(i.a), of_it_alone(i.b)));
+    for (const engine::ImpactSide* side : {&i.a, &i.b}) told[side->name] = fmt::format("{:.2f}", side->delta_v.norm());
   }
   if (later > 0) out.push_back(fmt::format("and {} later {} of the same: impacts.csv", later, later == 1 ? "phase" : "phases"));
-  for (int v = 0; v < static_cast<int>(model.vehicles.size()); ++v)
-    if (const auto event = engine::hardest_event(model, recording, impacts, v);
-        event && event->phases > 1 &&
-        !model.bodies[static_cast<std::size_t>(model.vehicles[static_cast<std::size_t>(v)].body)].fixed)
-      out.push_back(fmt::format("{}: delta-v {:.2f} m/s of {} phases together", event->name, event->delta_v.norm(), event->phases));
+  for (int v = 0; v < static_cast<int>(model.vehicles.size()); ++v) {
+    const auto event = engine::hardest_event(model, recording, impacts, v);
+    if (!event || model.bodies[static_cast<std::size_t>(model.vehicles[static_cast<std::size_t>(v)].body)].fixed) continue;
+    const std::string delta_v = fmt::format("{:.2f}", event->delta_v.norm());
+    if (event->phases > 1)
+      out.push_back(fmt::format("{}: delta-v {} m/s of {} phases together", event->name, delta_v, event->phases));
+    else if (told[event->name] != delta_v)
+      out.push_back(fmt::format("{}: delta-v {} m/s in its hardest phase", event->name, delta_v));
+  }
+  for (const engine::Metric& m : metrics)
+    if (m.key == "run_over_s" || m.key == "passed_over_s")
+      out.push_back(fmt::format("{}: {} at {:.3f} s", m.object, engine::definition_of(m.key)->title, m.value));
   return out;
 }
 
@@ -146,7 +164,7 @@ int draw_figures(const FigureWish& wish) {
   recording.events = engine::told_events(scene.model, recording);
   if (recording.failure) scene.stage.warnings.push_back(fmt::format("the model diverged at {:.3f} s", recording.failure->time));
   const std::vector<engine::Metric> metrics = engine::measure(scene.model, recording);
-  job.impacts = impact_lines(scene.model, recording);
+  job.impacts = impact_lines(scene.model, recording, metrics);
   for (int p = 0; p < static_cast<int>(scene.model.persons.size()); ++p)
     job.persons.push_back(facts_of(scene.model, recording, p, metrics));
 

@@ -86,13 +86,21 @@ Json events_json(const engine::Model& model, const engine::Recording& recording)
   return out;
 }
 
-/// A number where one object has the metric, an object by name where several do.
-Json metrics_json(const std::vector<engine::Metric>& metrics) {
+/// Has the scene several persons, or several vehicles, and is this one of them?
+bool one_of_several(const engine::Model& model, const std::string& object) {
+  const auto among = [&](const auto& all) {
+    return all.size() > 1 && std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.name == object; });
+  };
+  return among(model.persons) || among(model.vehicles);
+}
+
+/// A number where one object can have the metric, an object by name where several can.
+Json metrics_json(const engine::Model& model, const std::vector<engine::Metric>& metrics) {
   Json out = Json::object();
   for (const engine::Metric& metric : metrics) {
     const auto same_key = [&metric](const engine::Metric& other) { return other.key == metric.key; };
     const Json value = metric.text.empty() ? Json(metric.value) : Json(metric.text);
-    if (std::count_if(metrics.begin(), metrics.end(), same_key) == 1) {
+    if (std::count_if(metrics.begin(), metrics.end(), same_key) == 1 && !one_of_several(model, metric.object)) {
       out[metric.key] = value;
     } else {
       out[metric.key][metric.object] = value;
@@ -101,11 +109,13 @@ Json metrics_json(const std::vector<engine::Metric>& metrics) {
   return out;
 }
 
-/// The reason by name; where several objects lack the measure, or another has it, by name and object.
-Json absent_json(const std::vector<engine::AbsentMetric>& absent, const std::vector<engine::Metric>& metrics) {
+/// The reason by name; where several objects lack the measure or could have it, by name and object.
+Json absent_json(const engine::Model& model, const std::vector<engine::AbsentMetric>& absent,
+                 const std::vector<engine::Metric>& metrics) {
   Json out = Json::object();
   for (const engine::AbsentMetric& a : absent) {
-    const auto alone = std::count_if(absent.begin(), absent.end(), [&](const auto& other) { return other.key == a.key; }) == 1 &&
+    const auto alone = !one_of_several(model, a.object) &&
+                       std::count_if(absent.begin(), absent.end(), [&](const auto& other) { return other.key == a.key; }) == 1 &&
                        std::none_of(metrics.begin(), metrics.end(), [&](const auto& there) { return there.key == a.key; });
     if (alone)
       out[a.key] = a.reason;
@@ -263,9 +273,9 @@ Json summary_json(const scenes::Scene& scene, const engine::Recording& recording
   out["settings"] = settings_json(scene.model);
   out["plan"] = plan_json(recording.plan);
   out["events"] = events_json(scene.model, recording);
-  out["metrics"] = metrics_json(metrics);
+  out["metrics"] = metrics_json(scene.model, metrics);
   const auto absent = engine::absent_metrics(scene.model, recording, metrics);
-  if (!absent.empty()) out["absent"] = absent_json(absent, metrics);
+  if (!absent.empty()) out["absent"] = absent_json(scene.model, absent, metrics);
   out["impacts"] = impacts_json(engine::impacts_of(scene.model, recording));
   if (Json phases = phases_json(scene.model, recording); !phases.empty()) out["phases"] = phases;
   out["energy"] = energy_json(recording);
@@ -377,7 +387,8 @@ bool lacks(const Absent& absent, const char* key, const std::string& object) {
 /// Beside the way of a phase that leads back: the ways are parts of the line from first touch to rest.
 const char* backwards(const engine::Metric& metric) {
   constexpr double kSeen = 0.005;  // [m] less is printed as none
-  const bool phase = metric.key == "airborne_m" || metric.key == "fall_m" || metric.key == "slide_m";
+  constexpr const char* kPhases[] = {"contact_m", "carried_m", "airborne_m", "fall_m", "landing_m", "slide_m"};
+  const bool phase = std::any_of(std::begin(kPhases), std::end(kPhases), [&](const char* key) { return metric.key == key; });
   return phase && metric.value < -kSeen ? ", against the throw" : "";
 }
 

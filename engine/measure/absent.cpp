@@ -91,7 +91,7 @@ void absent_head(const Model& model, const Recording& recording, int p, Absences
   const std::string none = wheel ? kByWheel : "the head touched neither vehicle nor ground";
   for (const char* key : {"hic15", "hic36", "three_ms_g"}) absent.note(key, person.name, law.empty() ? none : law);
   absent.note("hic15_vehicle", person.name, !law.empty() ? law : wheel ? kByWheel : "no vehicle touched the head");
-  absent.note("hic15_ground", person.name, law.empty() ? "the head did not touch the ground" : law);
+  absent.note("hic15_ground", person.name, !law.empty() ? law : wheel ? kByWheel : "the head did not touch the ground");
   absent.note("hic15_object", person.name, law.empty() ? "no object and nobody else touched the head" : law);
   if (!law.empty()) absent.note("peak_acceleration_mps2", person.name, law);
 }

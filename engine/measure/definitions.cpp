@@ -137,7 +137,7 @@ constexpr Definition kDefinitions[] = {
      kNoForce, kHic},
     {"hic15_vehicle", "", "HIC15 vehicle",
      "HIC15 of the head's touches of vehicles alone, each from 5 ms before to 5 ms after by itself; the worst of them. While "
-     "vehicle and ground push at once, the blow is of the one that pushes harder.",
+     "vehicle and ground push at once, the blow is of the one that pushes harder. A touch within 5 ms of a wheel's does not count.",
      kNoForce, kHic, true},
     {"three_ms_vehicle_g", "g", "3 ms clip, vehicle", "3 ms clip of the same.", kNoForce, kHic},
     {"hic15_vehicle_s", "s", "HIC15 vehicle at", "When the window of hic15_vehicle begins.", kNoForce, "as hic15_vehicle"},

@@ -190,7 +190,8 @@ const char* why_no_ees(const Model& model, const Snapshot& before, const Impact&
   if (has_person({a, b})) return "its hardest impact was with a person, who deforms no car";
   if (!(impact.energy_lost > 0)) return "its hardest impact cost no energy";
   if (by_mass && is_two_wheeler(model, a) != is_two_wheeler(model, b))
-    return "its hardest impact was that of a two-wheeler and a car, and the scene does not tell their stiffnesses apart: the rule "
+    return "its hardest impact was that of a two-wheeler and another vehicle, and the scene does not tell their stiffnesses apart: "
+           "the rule "
            "of masses is that of cars";
   // a trailer of 300 kg before a car of 1500 kg would get nearly all of what stops both: more than it closed at
   if (by_mass && (is_coupled(model, a) || is_coupled(model, b)))
@@ -266,14 +267,19 @@ double duration_of(const Recording& recording, const Pair& pair, const Stretch& 
 }
 
 /// Velocity [m/s] that all who struck a person or an object gave it in a phase, walls too: a car presses who stands between it and
-/// another with twice what both change. Not what bears it, nor what it holds.
-Vec3 given_to(const Model& model, const Recording& recording, const Party& party, const Stretch& span) {
+/// another with twice what both change. Not what bears it, nor what it holds. Of the road only what it takes of a push `along` it:
+/// it holds who lies under a wheel.
+Vec3 given_to(const Model& model, const Recording& recording, const Party& party, const Stretch& span, bool along) {
   std::map<int, double> held;  // [s] by the first body of who is joined to it
   Vec3 impulse = Vec3::Zero();
   for (std::size_t i = span.first; i <= span.last; ++i)
     for (const ContactRecord& c : recording.snapshots[i].contacts) {
       const bool first = holds(party, c.body_a);
-      if (c.body_b < 0 || first == holds(party, c.body_b) || c.impulse.isZero(0)) continue;
+      if (first == (c.body_b >= 0 && holds(party, c.body_b)) || c.impulse.isZero(0)) continue;
+      if (c.body_b < 0) {
+        if (along) impulse += c.impulse;
+        continue;
+      }
       const int other = first ? c.body_b : c.body_a;
       if (is_ground(model, c.shapes, other, first ? c.normal : Vec3(-c.normal))) continue;
       if (model.bodies[other].vehicle < 0) {
@@ -292,7 +298,7 @@ void tell_shares(const Model& model, const Recording& recording, const Pair& pai
   const auto tell = [&](ImpactSide& side, const Vec3& impulse) {
     if (model.bodies[side.party.bodies.front()].fixed) return;
     side.own_delta_v = impulse / mass_of(model, side.party);
-    if (side.party.vehicle < 0) side.delta_v = given_to(model, recording, side.party, impact.span);
+    if (side.party.vehicle < 0) side.delta_v = given_to(model, recording, side.party, impact.span, has_vehicle(pair));
     // things fall on heads: without a vehicle there is no plane that the blow lies in
     if (has_vehicle(pair)) side.own_delta_v.z() = side.delta_v.z() = 0;
   };

@@ -142,6 +142,15 @@ StruckAtWorst hardest_in(const Model& model, const Recording& recording, int hea
   return {hardest->first, upwards[hardest->first] > 0.5 * hardest->second};
 }
 
+/// Without the stretches that others come within: a head pressed on the road by a wheel has no course of forces.
+std::vector<Span> clear_of(std::vector<Span> spans, const std::vector<Span>& others) {
+  std::erase_if(spans, [&](const Span& span) {
+    return std::any_of(others.begin(), others.end(),
+                       [&](const Span& o) { return o.from < span.to + kAround && span.from < o.to + kAround; });
+  });
+  return spans;
+}
+
 std::string name_of_party(const Model& model, int body) {
   if (body < 0) return "the road";
   const Party party = party_of(model, body);
@@ -163,7 +172,8 @@ StruckAtWorst struck_at_worst(const Model& model, const Recording& recording, in
   const int part = model.persons[p].head;
   for (const HeadMotion& head : recording.heads) {
     if (head.person != p) continue;
-    const Criteria ground = criteria(head, touches(model, recording, part, Partner::ground));
+    const Criteria ground =
+        criteria(head, clear_of(touches(model, recording, part, Partner::ground), touches(model, recording, part, Partner::wheel)));
     return hardest_in(model, recording, part, Partner::ground, ground.worst);
   }
   return {};
@@ -196,9 +206,10 @@ void measure_injury(const Model& model, const Recording& recording, int p, std::
       const int by = hardest_in(model, recording, person.head, partner, of.worst).body;
       out.push_back({"hic15_" + name + "_by", person.name, 0, name_of_party(model, by)});
     };
-    note(car, Partner::vehicle, "vehicle");
-    note(road, Partner::ground, "ground");
-    note(thing, Partner::object, "object");
+    const std::vector<Span> wheel = touches(model, recording, person.head, Partner::wheel);
+    note(clear_of(car, wheel), Partner::vehicle, "vehicle");
+    note(clear_of(road, wheel), Partner::ground, "ground");
+    note(clear_of(thing, wheel), Partner::object, "object");
   }
 }
 

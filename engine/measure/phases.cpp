@@ -6,6 +6,8 @@
 namespace engine {
 namespace {
 
+constexpr double kGoes = 0.3;  // [m/s] slower, a vehicle stands
+
 constexpr double kBreak = 0.05;  // [s] that long off the ground is a flight or a bounce, less is rolling over an edge
 
 struct Touch {
@@ -84,7 +86,6 @@ Vec3 heading_of(const Model& model, const Snapshot& s, int struck_by, int mount)
   int body = struck_by;
   const auto speed = [&](int b) { return b < 0 ? -1.0 : s.bodies[b].V_WB.v.norm(); };
   if (speed(mount) > speed(struck_by)) body = mount;
-  constexpr double kGoes = 0.3;  // [m/s] slower, it stands
   // a barrier goes nowhere: what runs against it does
   if (body >= 0 && model.bodies[body].vehicle < 0 && mount >= 0) body = mount;
   Vec3 heading = body < 0 ? Vec3(Vec3::UnitX()) : Vec3(s.bodies[body].X_WB.q * Vec3::UnitX());
@@ -93,7 +94,8 @@ Vec3 heading_of(const Model& model, const Snapshot& s, int struck_by, int mount)
   return heading.norm() > 1e-6 ? Vec3(heading.normalized()) : Vec3(Vec3::UnitX());
 }
 
-/// First instant from `from` to `to` at which the party goes along the throw as fast as the vehicle does.
+/// First instant up to `to` at which the party goes along the throw as fast as the vehicle does. One that stood when it was touched
+/// carries nobody.
 std::optional<double> as_fast(const Model& model, const Recording& recording, const Party& party, const Throw& t, double to) {
   if (t.vehicle < 0 || model.bodies[t.vehicle].fixed) return std::nullopt;
   const auto faster = [&](const Snapshot& s) {
@@ -101,7 +103,7 @@ std::optional<double> as_fast(const Model& model, const Recording& recording, co
   };
   // who was as fast before, a rider that runs into the vehicle, is not taken along by it
   const Snapshot& before = found_at(recording, t.hit);
-  if (faster(before)) return std::nullopt;
+  if (faster(before) || before.bodies[t.vehicle].V_WB.v.norm() < kGoes) return std::nullopt;
   for (const Snapshot& s : recording.snapshots) {
     if (s.time >= to) break;
     if (s.time > before.time && faster(s)) return s.time;

@@ -161,7 +161,9 @@ void draw_key(cairo_t* c, const std::vector<Touch>& marks, double first, double 
   }
   y += 10;
   draw_text(c, x, y, "time (lightness)", 3.2);
+  constexpr double kTold = 5e-4;  // [s] times are told to a millisecond
   for (const double share : {0.0, 0.5, 1.0}) {
+    if (share > 0 && last - first < kTold) break;
     y += 6;
     const Float4 k = colour_of_share(share);
     cairo_set_source_rgb(c, k[0], k[1], k[2]);

@@ -242,8 +242,11 @@ void draw_events(cairo_t* c, const engine::Recording& recording, double end, std
     set_dashes(c, 0);
     grey(c, 0);
     // numbers of events close in time stand side by side
-    taken = std::max(taken + 3.4, box.x(e.time));
-    draw_text(c, taken, kTop - 1.5, fmt::format("{}", number), 3, Align::centre);
+    const std::string told = fmt::format("{}", number);
+    const double half = 0.5 * text_width(c, told, 3) + 0.6;
+    taken = std::max(taken + half, box.x(e.time));
+    draw_text(c, taken, kTop - 1.5, told, 3, Align::centre);
+    taken += half;
     for (const std::string& line : lines) {
       draw_text(c, kRight + 5, rooms[0].from, line, 2.5);
       rooms[0].from += kEventLine;

@@ -435,3 +435,17 @@ TEST(Simulate, HeadImpactWithoutCriterionGivesTheReason) {
   ASSERT_EQ(run(folder, {"simulate", "ball.toml", "-o", "ball"}).code, 0);
   EXPECT_FALSE(Json::parse(contents(folder / "ball/summary.json")).contains("absent")) << "nobody's head was struck";
 }
+
+/// Of two vehicles one alone has a delta-v: by name all the same, for a script cannot know whose a bare number is.
+TEST(Results, OfSeveralVehiclesEachMeasureIsByName) {
+  const Folder folder;
+  folder.write(
+      "two.toml",
+      std::string("[simulation]\nduration = \"0.3 s\"\n[[vehicle]]\nname = \"a\"\nmodel = \"sedan\"\nspeed = \"36 km/h\"\n") +
+          "[[vehicle]]\nname = \"b\"\nmodel = \"sedan\"\nposition = \"0 9 m\"\n[[body]]\nname = \"post\"\nfixed = true\n" +
+          "axes = \"0.2 0.2 1 m\"\nposition = \"4 0 1 m\"\n");
+  ASSERT_EQ(run(folder, {"simulate", "two.toml", "-o", "out", "--quiet"}).code, 0);
+  const Json metrics = Json::parse(contents(folder / "out/summary.json")).at("metrics");
+  EXPECT_TRUE(metrics.at("delta_v_mps").at("a").is_number());
+  EXPECT_FALSE(metrics.at("delta_v_mps").contains("b"));
+}

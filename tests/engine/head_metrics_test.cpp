@@ -372,6 +372,24 @@ TEST(HeadMetrics, AWheelGivesNoCriterion) {
   }
 }
 
+/// Pressed to the road by a wheel, or just before and after: what the road gives it then is the wheel's.
+TEST(HeadMetrics, AHeadThatAWheelPressesToTheRoadHasNoCriterionOfIt) {
+  Model model = person_and_car();
+  model.settings.contact_law = ContactLaw::compliant;
+  Recording run = pushed_at_50_g(push(kHead, -1, {ShapeKind::round, ShapeKind::plane}, {0, 0, 5}));
+  std::vector<Metric> out;
+  measure_injury(model, run, 0, out);
+  EXPECT_TRUE(value_of(out, "hic15_ground"));
+  for (Snapshot& s : run.snapshots)
+    if (!s.contacts.empty()) {
+      s.contacts.push_back(push(kHead, kCar, {ShapeKind::round, ShapeKind::tyre}, {0, 0, -9}));
+      break;
+    }
+  out.clear();
+  measure_injury(model, run, 0, out);
+  EXPECT_FALSE(value_of(out, "hic15_ground"));
+}
+
 TEST(HeadMetrics, AWallIsNoVehicleToAHead) {
   Model model = person_and_car();
   model.settings.contact_law = ContactLaw::compliant;

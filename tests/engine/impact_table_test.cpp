@@ -364,6 +364,16 @@ TEST(ImpactTable, WhoIsPressedFromTwoSidesHasTheDeltaVOfBoth) {
   EXPECT_NEAR(with_car->b.own_delta_v.x(), 5, kAlmost);
 }
 
+/// A wheel pushes who lies under it along the road with 200 N s, and the road holds with 180.
+TEST(ImpactTable, TheRoadHoldsWhoLiesUnderAWheel) {
+  Model model = person_and_car();
+  Recording run = standing_still(20);
+  run.snapshots[5].contacts = {push(kHips, kCar, ShapePair{ShapeKind::round, ShapeKind::tyre}, {200, 0, -300}),
+                               push(kHips, -1, kOnGround, {-180, 0, 300})};
+  const Impact impact = impacts_of(model, run).at(0);
+  EXPECT_NEAR((impact.a.party.person >= 0 ? impact.a : impact.b).delta_v.norm(), 0.5, kAlmost);
+}
+
 TEST(ImpactTable, AFixtureStrikesNobody) {
   Model model = person_and_log();
   model.bodies[kLog].fixed = true;

@@ -47,6 +47,28 @@ TEST(RecordingAt, ATimeARoundingBesideASnapshotShowsThatOne) {
   EXPECT_NEAR(run.at(0.2001).bodies[0].X_WB.p.x(), 0.2001, 1e-12);
 }
 
+/// Between two snapshots it has one speed or the other: half way between stood in captions of films, as what nobody had.
+TEST(RecordingAt, ABlowIsNotSpreadOverTheInterval) {
+  Recording run;
+  run.interval = 0.005;
+  for (int i = 0; i <= 1; ++i) {
+    Snapshot s;
+    s.time = 0.005 * i;
+    s.bodies.own().resize(2);
+    s.bodies.own()[0].V_WB.v = {i == 0 ? 14.0 : 11.0, 0, 0};  // struck
+    s.bodies.own()[1].V_WB.v = {i == 0 ? 14.0 : 13.9, 0, 0};  // braked
+    run.snapshots.push_back(s);
+  }
+  EXPECT_EQ(run.at(0.004).bodies[0].V_WB.v.x(), 14) << "no contact tells when";
+  ContactRecord c;
+  c.body_a = 0;
+  c.begun = 0.003;
+  run.snapshots[1].contacts = {c};
+  EXPECT_EQ(run.at(0.0029).bodies[0].V_WB.v.x(), 14);
+  EXPECT_EQ(run.at(0.0031).bodies[0].V_WB.v.x(), 11);
+  EXPECT_NEAR(run.at(0.0025).bodies[1].V_WB.v.x(), 13.95, 1e-12);
+}
+
 /// A ball comes along y and strikes the head of somebody who waits, at 40 ms; somebody else waits on, one body is fixed.
 Recording somebody_struck(const Vec3& place, bool waiting) {
   Model model;
