@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "cli/drawn_reach.h"
 #include "cli/estimate.h"
 #include "cli/exit.h"
 #include "cli/foresight.h"
@@ -211,6 +212,7 @@ std::vector<std::string> warnings_of(const scenes::Scene& scene, const engine::R
   for (const std::string& unfit : unfit_riders(scene.model)) seen.push_back(unfit);
   for (const std::string& glance : engine::doubtful_glances(scene.model, recording)) seen.push_back(glance);
   for (const std::string& passage : engine::passages(scene.model, recording)) seen.push_back(passage);
+  for (const std::string& reach : drawn_reaches(scene, recording)) seen.push_back(reach);
   for (const std::string& warning : seen)
     if (std::find(out.begin(), out.end(), warning) == out.end()) out.push_back(warning);
   return out;

@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <tuple>
 
 #include "cli/apart.h"
@@ -104,7 +104,7 @@ std::vector<std::string> impact_lines(const engine::Model& model, const engine::
                                       const std::vector<engine::Metric>& metrics) {
   const std::vector<engine::Impact> impacts = engine::impacts_of(model, recording);
   std::vector<std::string> out;
-  std::map<std::string, std::string> told;  // [m/s] by the last line of a vehicle
+  std::set<std::pair<std::string, std::string>> told;  // whose, and what [m/s]
   std::size_t later = 0;
   for (const engine::Impact& i : impacts) {
     if (i.phase > 1) {
@@ -120,7 +120,7 @@ std::vector<std::string> impact_lines(const engine::Model& model, const engine::
     }
     out.push_back(fmt::format("{} / {}  {:.3f} s: {}delta-v {:.2f} / {:.2f} m/s{}{}", i.a.name, i.b.name, i.time, closing,
                               i.a.delta_v.norm(), i.b.delta_v.norm(), of_it_alone(i.a), of_it_alone(i.b)));
-    for (const engine::ImpactSide* side : {&i.a, &i.b}) told[side->name] = fmt::format("{:.2f}", side->delta_v.norm());
+    for (const engine::ImpactSide* side : {&i.a, &i.b}) told.emplace(side->name, fmt::format("{:.2f}", side->delta_v.norm()));
   }
   if (later > 0) out.push_back(fmt::format("and {} later {} of the same: impacts.csv", later, later == 1 ? "phase" : "phases"));
   for (int v = 0; v < static_cast<int>(model.vehicles.size()); ++v) {
@@ -129,7 +129,7 @@ std::vector<std::string> impact_lines(const engine::Model& model, const engine::
     const std::string delta_v = fmt::format("{:.2f}", event->delta_v.norm());
     if (event->phases > 1)
       out.push_back(fmt::format("{}: delta-v {} m/s of {} phases together", event->name, delta_v, event->phases));
-    else if (told[event->name] != delta_v)
+    else if (!told.contains({event->name, delta_v}))
       out.push_back(fmt::format("{}: delta-v {} m/s in its hardest phase", event->name, delta_v));
   }
   for (const engine::Metric& m : metrics)

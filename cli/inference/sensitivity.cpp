@@ -15,7 +15,7 @@
 namespace cli::inference {
 namespace {
 
-constexpr std::size_t kFewest = 20;
+constexpr std::size_t kFewestRuns = 20;
 constexpr int kHighestDegree = 5;
 constexpr std::size_t kMostTerms = 120;
 constexpr int kResamples = 50;
@@ -151,7 +151,7 @@ Sensitivity sensitivity(const std::vector<scenes::Uncertain>& inputs, const std:
   Sensitivity out;
   const std::size_t n = values.size();
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  if (inputs.empty() || n < kFewest || !(*most - *least > 1e-9 * std::max(std::abs(*most), std::abs(*least)))) return out;
+  if (inputs.empty() || n < kFewestRuns || !(*most - *least > 1e-9 * std::max(std::abs(*most), std::abs(*least)))) return out;
   const Eigen::VectorXd y = Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(n));
   const Basis basis = basis_of(inputs, u);
   std::vector<Exponents> terms;

@@ -154,3 +154,18 @@ TEST(Simulate, VerboseTellsTheEffectsAndTheirCost) {
 
 }  // namespace
 }  // namespace cli_tests
+
+/// A mirror is drawn and strikes nobody: who is reached by it is told, unless something else touched them before.
+TEST(PrintedSummary, TellsWhomADrawnMirrorReaches) {
+  const Folder folder;
+  for (const auto& [name, side, reached] :
+       {std::tuple("near", "-1.15", true), std::tuple("far", "-1.6", false), std::tuple("hit", "-0.7", false)}) {
+    folder.write(std::string(name) + ".toml", std::string("[simulation]\nduration = \"0.5 s\"\n[[vehicle]]\nname = \"van\"\nmodel "
+                                                          "= \"van\"\nfront = \"-1 0 m\"\nspeed = \"50 km/h\"\n") +
+                                                  "[[person]]\nname = \"p\"\nposition = \"0 " + side +
+                                                  " m\"\nheading = \"90 deg\"\n");
+    const Result result = run(folder, {"simulate", std::string(name) + ".toml", "-o", name, "--quiet"});
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.out.find("van as drawn reaches p/") != std::string::npos, reached) << result.out;
+  }
+}
