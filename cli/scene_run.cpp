@@ -15,6 +15,7 @@
 #include "cli/output/summary.h"
 #include "cli/process.h"
 #include "engine/measure/glance.h"
+#include "engine/measure/flung.h"
 #include "engine/measure/passage.h"
 #include "engine/simulate.h"
 #include "scenes/loader/value.h"
@@ -212,6 +213,7 @@ std::vector<std::string> warnings_of(const scenes::Scene& scene, const engine::R
   for (const std::string& unfit : unfit_riders(scene.model)) seen.push_back(unfit);
   for (const std::string& glance : engine::doubtful_glances(scene.model, recording)) seen.push_back(glance);
   for (const std::string& passage : engine::passages(scene.model, recording)) seen.push_back(passage);
+  for (const std::string& flung : engine::flung_parts(scene.model, recording)) seen.push_back(flung);
   for (const std::string& reach : drawn_reaches(scene, recording)) seen.push_back(reach);
   for (const std::string& warning : seen)
     if (std::find(out.begin(), out.end(), warning) == out.end()) out.push_back(warning);

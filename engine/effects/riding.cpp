@@ -90,7 +90,7 @@ Demand demand_at(const World& world, State& state, const Stance& stance, int veh
 
 /// The load goes to the front as the pair slows. Where a wheel would leave the road the driver holds back at that.
 Demand demand_of(const World& world, State& state, const Stance& stance, int vehicle, const Vec3& forward, double h, double speed) {
-  constexpr double kShare = 1e-9;  // [-]
+  constexpr double kLeastShare = 1e-9;  // [-]
   const double base = stance.front - stance.rear, at_rest = base > 0 ? -stance.rear / base : 0.5;
   const auto demand = [&](double share) { return demand_at(world, state, stance, vehicle, forward, share, h, speed); };
   const auto follows = [&](double share) {  // from what the wheels take with this one
@@ -101,7 +101,7 @@ Demand demand_of(const World& world, State& state, const Stance& stance, int veh
   if (base <= 0 || stance.weight <= 0 || (evenly.brake == 0 && evenly.drive == 0)) return evenly;
   const bool pitches = follows(1) > 1;
   if (!pitches && follows(0) >= 0)
-    return demand(math::bisect({0, 1}, math::kToTheWidth, kShare, [&](double share) { return follows(share) > share; }).low);
+    return demand(math::bisect({0, 1}, math::kToTheWidth, kLeastShare, [&](double share) { return follows(share) > share; }).low);
   Demand held = demand(pitches ? 1 : 0);
   const double most = stance.weight * (pitches ? stance.front : -stance.rear) / stance.height;
   held.brake = std::min(held.brake, most);
