@@ -210,15 +210,15 @@ constexpr Definition kDefinitions[] = {
      "or to the end of the run.",
      kNotRolled, kRolls, true},
     {"ground_strikes", "", "ground strikes",
-     "How often the bodywork of a vehicle came down on the ground, from the trip to rest where it rolled over: the ground pushed "
-     "it "
-     "by more than 0.8 km/h times its mass within 20 ms, as collision phases are counted. The table of impacts has no rows of the "
-     "ground. Scraping and what the wheels bear do not count.",
+     "How often the bodywork of a vehicle came down on the ground, from the trip to rest where it rolled over: beyond its weight "
+     "the ground pushed it by more than 0.8 km/h times its mass within 20 ms, as collision phases are counted. The table of "
+     "impacts "
+     "has no rows of the ground. Scraping and what the wheels bear do not count.",
      kNotDown, kRolls, true},
     {"ground_strike_s", "s", "hardest ground strike", "Time at which the hardest of them began.", kNoStrike, kRolls, true},
     {"ground_strike_mps", "m/s", "delta-v, ground strike",
-     "Impulse of the ground on the bodywork in the hardest of them over the vehicle's mass: what it changes of the velocity, "
-     "upwards included.",
+     "Impulse of the ground on the bodywork in the hardest of them over the vehicle's mass, less its weight meanwhile: what it "
+     "changes of the velocity, upwards included.",
      kNoStrike, kRolls, true},
     {"ground_strike_panel", "", "panel, ground strike",
      "What of the vehicle took the hardest push of it, by the names of head_impact_panel.", kNoStrike, "on an edge either of two",

@@ -45,33 +45,43 @@ bool is_strike(const Party& party, const ContactRecord& c) {
   return c.body_b < 0 && holds(party, c.body_a) && !c.impulse.isZero(0);
 }
 
-Strike strike_of(const Recording& recording, const Party& party, const Stretch& span) {
+/// What of the ground's push since the snapshot before is no weight that it bears meanwhile [N s].
+Vec3 beyond_weight(const Model& model, const Recording& recording, const Party& party, std::size_t i) {
+  Vec3 sum = Vec3::Zero();
+  for (const ContactRecord& c : recording.snapshots[i].contacts)
+    if (is_strike(party, c)) sum += c.impulse;
+  if (i == 0 || sum.isZero(0)) return sum;
+  const double length = recording.snapshots[i].time - recording.snapshots[i - 1].time;
+  const Vec3 weight = mass_of(model, party) * length * model.settings.gravity, up = -weight.normalized();
+  return sum - std::clamp(sum.dot(up), 0.0, weight.norm()) * up;
+}
+
+Strike strike_of(const Model& model, const Recording& recording, const Party& party, const Stretch& span) {
   const auto& all = recording.snapshots;
   Strike out;
   out.time = all[span.first].time;
-  for (std::size_t i = span.first; i <= span.last; ++i)
+  for (std::size_t i = span.first; i <= span.last; ++i) {
+    out.impulse += beyond_weight(model, recording, party, i);
     for (const ContactRecord& c : all[i].contacts) {
       if (!is_strike(party, c)) continue;
-      out.impulse += c.impulse;
       if (i == span.first) out.time = std::min(out.time, std::max(c.begun, all[i > 0 ? i - 1 : 0].time));
       if (!out.at || c.normal_impulse > out.hardest.normal_impulse) out.hardest = c, out.at = &all[i];
     }
+  }
   return out;
 }
 
 /// Scraping along is none: what is exchanged has to make a collision, as in the table of impacts.
 std::vector<Strike> ground_strikes(const Model& model, const Recording& recording, const Party& party, double from, double to) {
   std::vector<Vec3> push;
-  for (const Snapshot& s : recording.snapshots) {
-    Vec3 sum = Vec3::Zero();
-    for (const ContactRecord& c : s.contacts)
-      if (s.time >= from && s.time <= to && is_strike(party, c)) sum += c.impulse;
-    push.push_back(sum);
+  for (std::size_t i = 0; i < recording.snapshots.size(); ++i) {
+    const double time = recording.snapshots[i].time;
+    push.push_back(time >= from && time <= to ? beyond_weight(model, recording, party, i) : Vec3(Vec3::Zero()));
   }
   const double bound = kChange * mass_of(model, party);
   std::vector<Strike> out;
   for (const Stretch& span : stretches(recording, push, bound))
-    if (const Strike strike = strike_of(recording, party, span); strike.impulse.norm() > bound) out.push_back(strike);
+    if (const Strike strike = strike_of(model, recording, party, span); strike.impulse.norm() > bound) out.push_back(strike);
   return out;
 }
 
