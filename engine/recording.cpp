@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 #include "engine/contact/pair_table.h"
 #include "engine/math/functions.h"
@@ -27,18 +28,18 @@ Vec3 hermite(const Vec3& p0, const Vec3& v0, const Vec3& p1, const Vec3& v1, dou
   return (2 * s3 - 3 * s2 + 1) * p0 + (s3 - 2 * s2 + s) * interval * v0 + (-2 * s3 + 3 * s2) * p1 + (s3 - s2) * interval * v1;
 }
 
-/// Did a blow change the velocity between two snapshots? Half way it would have a speed that it never had.
-bool is_struck(const BodyState& from, const BodyState& to, double interval) {
-  constexpr double kChange = 0.8 / 3.6;      // [m/s] as collision phases are counted
-  constexpr double kSmoothly = 2 * 9.80665;  // [m/s^2] tyres and gravity do no more
-  return (to.V_WB.v - from.V_WB.v).norm() > std::max(kChange, kSmoothly * interval);
-}
-
-/// When [s] that was, by the contacts of the later snapshot; its own time where they do not tell.
-double struck_at(const Snapshot& later, int body, double since) {
-  double out = later.time;
-  for (const ContactRecord& c : later.contacts)
-    if ((c.body_a == body || c.body_b == body) && c.begun > since) out = std::min(out, c.begun);
+/// When [s] between two snapshots an impact at an instant changed the velocity of a body, by the contacts of the later one: half
+/// way it would have a speed that it never had. What pushes for a while, or pulls at a joint, changes it little by little.
+std::optional<double> struck_at(const Snapshot& before, const Snapshot& later, int body) {
+  constexpr double kChange = 0.8 / 3.6;  // [m/s] as collision phases are counted
+  const auto velocity = [&](const Snapshot& s) { return s.bodies[static_cast<std::size_t>(body)].V_WB.v; };
+  if ((velocity(later) - velocity(before)).norm() < kChange) return std::nullopt;
+  std::optional<double> out;
+  for (const ContactRecord& c : later.contacts) {
+    const bool at_once = c.exchange || c.state == ContactState::impact;
+    if (at_once && (c.body_a == body || c.body_b == body) && c.begun > before.time)
+      out = std::min(out.value_or(later.time), c.begun);
+  }
   return out;
 }
 
@@ -92,8 +93,8 @@ Snapshot Recording::at(double time) const {
     const BodyState& to = later->bodies[b];
     between[b].X_WB.p = hermite(from.X_WB.p, from.V_WB.v, to.X_WB.p, to.V_WB.v, span, s);
     between[b].X_WB.q = math::slerp(from.X_WB.q, to.X_WB.q, s);
-    if (is_struck(from, to, span)) {
-      between[b].V_WB = time < struck_at(*later, static_cast<int>(b), a.time) ? from.V_WB : to.V_WB;
+    if (const auto struck = struck_at(a, *later, static_cast<int>(b))) {
+      between[b].V_WB = time < *struck ? from.V_WB : to.V_WB;
       continue;
     }
     between[b].V_WB.v = (1 - s) * from.V_WB.v + s * to.V_WB.v;

@@ -217,8 +217,8 @@ struct Recording {
   std::optional<Failure> failure;
 
   /// State at any time: poses between snapshots by cubic Hermite (positions) and slerp (attitudes), contacts and wheel forces of
-  /// the later snapshot of the interval. Velocities are linear between them, but for a blow: before it that of the earlier one,
-  /// from it on that of the later one. Clamped to the recorded span.
+  /// the later snapshot of the interval. Velocities are linear between them, but for an impact at an instant: before
+  /// it those of the earlier one, from it on those of the later one. Clamped to the recorded span.
   Snapshot at(double time) const;
   double end_time() const { return snapshots.back().time; }
 };

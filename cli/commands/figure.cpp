@@ -94,7 +94,7 @@ render::PersonFacts facts_of(const engine::Model& model, const engine::Recording
 /// What of a delta-v the pair alone did, where others did much of it: who stands between two cars, or is thrown onto another.
 std::string of_it_alone(const engine::ImpactSide& side) {
   constexpr double kMost = 0.9;  // [-] of it
-  if (side.party.vehicle >= 0 || side.own_delta_v.norm() > kMost * side.delta_v.norm()) return "";
+  if (side.party.vehicle >= 0 || side.own_delta_v.norm() >= kMost * side.delta_v.norm()) return "";
   return fmt::format(", {} by this pair alone {:.2f}", side.name, side.own_delta_v.norm());
 }
 

@@ -6,6 +6,8 @@
 namespace engine {
 namespace {
 
+constexpr double kPasses = 0.25;  // [-] of the body: ground gives way to nobody
+
 /// The mesh stands at X_WM, the round body at X_MA in its frame.
 Touches touches_on_mesh(const Outlook& outlook, const ContactPair& pair, const Pose& X_WM, const Pose& X_MA, double margin,
                         double may_pass) {
@@ -16,9 +18,11 @@ Touches touches_on_mesh(const Outlook& outlook, const ContactPair& pair, const P
   ContactPoints& touches = world.pairs.touches;
   const auto& shape = std::get<HyperEllipsoid>(world.model.bodies[pair.a].shape);
   const Pose& X_WA = outlook.at.X_WB[pair.a];
+  const bool by_history = !std::isfinite(may_pass);
+  if (by_history && !std::isfinite(clearance.least)) may_pass = kPasses;  // there is none yet
   contacts_with_mesh(shape, X_WA, *world.pairs.mesh[pair.at].mesh, X_WM, margin, clearance.by_now(X_MA, reach),
                      world.pairs.mesh_scratch, touches, may_pass, entered);
-  if (!std::isfinite(may_pass)) entered = sides_of(shape, X_WA.q, touches);
+  if (by_history) entered = sides_of(shape, X_WA.q, touches);
   clearance.note(world.pairs.mesh_scratch.apart, X_MA, reach);
   return {touches.begin(), touches.end()};
 }
@@ -35,7 +39,6 @@ Touches touches_between<ShapeKind::round, ShapeKind::mesh>(const Outlook& outloo
 
 template <>
 Touches touches_between<ShapeKind::round, ShapeKind::terrain>(const Outlook& outlook, const ContactPair& pair) {
-  constexpr double kPasses = 0.25;  // [-] of the body: ground gives way to nobody
   return touches_on_mesh(outlook, pair, Pose{}, outlook.at.X_WB[pair.a], contact_margin(outlook, pair.a), kPasses);
 }
 

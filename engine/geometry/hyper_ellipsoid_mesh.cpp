@@ -84,11 +84,23 @@ double sphere_of(const MeshTouch& s) {
 }
 
 /// Lists the triangles near the body. In the middle of a panel only those count that one of the points lies above that touch_face
-/// will look at. What came in may lie `behind` the body by now. Where there are none, `apart` has the least distance.
+/// will look at. What came in may lie `behind` the body by now, of a flat-sided one away from the sides it came through. Where
+/// there are none, `apart` has the least distance.
 bool list_near_triangles(MeshTouch& s, double behind) {
   constexpr double kSlack = 1e-5;  // [m] for normals that agree to rounding
   const Vec3& centre = s.X_MA.p;
   const Vec3 half = aabb_half_widths(s.shape, s.X_MA.q);
+  Aabb box{centre - half, centre + half};
+  if (s.flat()) {
+    const Aabb body = box;
+    for (int side = 0; side < 6; ++side) {
+      if (!(s.entered >> side & 1)) continue;
+      const Vec3 way = -behind * (s.X_MA.q * outward_of(side));
+      box.lower = box.lower.cwiseMin(body.lower + way);
+      box.upper = box.upper.cwiseMax(body.upper + way);
+    }
+    behind = 0;
+  }
   bool passed = false;
   auto pass = [&](const Vec3& n, double offset, const Aabb& branch) {
     for (const Vec3& p : s.points_against(n)) {
@@ -102,7 +114,7 @@ bool list_near_triangles(MeshTouch& s, double behind) {
   };
   auto look = [&](double around) {
     s.scratch.triangles.clear();
-    s.mesh.query({centre - half - Vec3::Constant(around), centre + half + Vec3::Constant(around)}, s.scratch.triangles, pass);
+    s.mesh.query({box.lower - Vec3::Constant(around), box.upper + Vec3::Constant(around)}, s.scratch.triangles, pass);
     return passed || !s.scratch.triangles.empty();
   };
   if (look(s.margin + behind)) return true;

@@ -82,8 +82,8 @@ constexpr Definition kDefinitions[] = {
     {"run_over_s", "s", "run over",
      "Time at which a wheel of a vehicle first stands on the person: its push on a part comes from within 26 degrees of "
      "upright; or does so as seen from the vehicle's side, from within 60 degrees in all, and bears more than half of what the "
-     "vehicle's least loaded wheel bears at rest. A wheel that shoves a part ahead, and a floor that passes over the person, do "
-     "not count.",
+     "vehicle's least loaded wheel bears at rest. Less than a twentieth of that never counts, nor does a wheel that shoves a part "
+     "ahead, or a floor that passes over the person.",
      "no wheel stood on the person", "exact to the step", true},
     {"run_over_part", "", "run over", "The part it stands on, and whose wheel it is.", "as run_over_s", "exact to the step", true},
     {"rest_s", "s", "rest",

@@ -22,6 +22,8 @@ std::vector<std::string> flung_parts(const Model& model, const Recording& record
   struct Fastest {
     double excess = 0, speed = 0, time = 0, vehicle = 0;
     int part = -1;
+    bool touched = false;
+    double own = 0;  // [m/s] before the first touch of a vehicle
   };
   std::vector<Fastest> found(model.persons.size());
   double vehicle = 0;  // [m/s] the fastest so far
@@ -29,11 +31,16 @@ std::vector<std::string> flung_parts(const Model& model, const Recording& record
     for (const Vehicle& v : model.vehicles)
       if (model.bodies[static_cast<std::size_t>(v.body)].person < 0 || &s == &recording.snapshots.front())  // mounts are flung too
         vehicle = std::max(vehicle, s.bodies[static_cast<std::size_t>(v.body)].V_WB.v.norm());
-    if (vehicle <= 0) continue;
+    for (const ContactRecord& c : s.contacts)
+      if (const int p = model.bodies[static_cast<std::size_t>(c.body_a)].person; c.shapes.on_vehicle() && p >= 0)
+        found[static_cast<std::size_t>(p)].touched = true;
     for (std::size_t p = 0; p < found.size(); ++p)
       for (const int b : model.persons[p].bodies) {
-        const double speed = s.bodies[static_cast<std::size_t>(b)].V_WB.v.norm(), excess = speed - kTimes * vehicle - kFalls;
-        if (excess > found[p].excess) found[p] = {excess, speed, s.time, vehicle, b};
+        Fastest& f = found[p];
+        const double speed = s.bodies[static_cast<std::size_t>(b)].V_WB.v.norm();
+        if (!f.touched) f.own = std::max(f.own, speed);
+        if (const double excess = speed - kTimes * vehicle - f.own - kFalls; f.touched && excess > f.excess)
+          f.excess = excess, f.speed = speed, f.time = s.time, f.vehicle = vehicle, f.part = b;
       }
   }
   std::vector<std::string> out;

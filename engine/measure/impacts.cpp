@@ -281,7 +281,10 @@ Vec3 given_to(const Model& model, const Recording& recording, const Party& party
         continue;
       }
       const int other = first ? c.body_b : c.body_a;
-      if (is_ground(model, c.shapes, other, first ? c.normal : Vec3(-c.normal))) continue;
+      if (is_ground(model, c.shapes, other, first ? c.normal : Vec3(-c.normal))) {
+        if (along && model.bodies[other].fixed) impulse += push_on(party, c);
+        continue;
+      }
       if (model.bodies[other].vehicle < 0) {
         const Party partner = party_of(model, other);
         const auto [known, is_new] = held.try_emplace(partner.bodies.front(), -1);

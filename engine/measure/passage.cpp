@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 #include <utility>
 
 #include "engine/geometry/hyper_ellipsoid.h"
@@ -45,23 +45,39 @@ bool went_in(const Body& body, const Vec3& from_B, const Vec3& to_B, std::vector
   });
 }
 
+/// Places [m], body axes, across a vehicle at its centre of mass. Those aside count for what was first met at one of its ends: what
+/// is pressed into a flank comes as near.
+std::vector<Vec3> across(const Body& vehicle, const Vec3& met_B) {
+  constexpr double kOfLength = 0.6, kOfWidth = 0.75;  // [-] of the halves
+  std::vector<Vec3> out{Vec3::Zero()};
+  const auto* shape = std::get_if<MeshShape>(&vehicle.shape);
+  if (!shape) return out;
+  const Vec3 middle = shape->X_BM * (0.5 * (shape->mesh->bounds().lower + shape->mesh->bounds().upper)),
+             half = 0.5 * (shape->mesh->bounds().upper - shape->mesh->bounds().lower);
+  if (std::abs(met_B.x() - middle.x()) < kOfLength * half.x()) return out;
+  for (const double side : {-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0}) out.emplace_back(0, middle.y() + side * kOfWidth * half.y(), 0);
+  return out;
+}
+
 std::optional<Passage> passage_of(const Model& model, const Recording& recording, int vehicle) {
   const int body = model.vehicles[static_cast<std::size_t>(vehicle)].body;
   if (!yields(model.settings.contact_law, false)) return std::nullopt;
-  std::set<int> struck;
+  std::map<int, std::vector<Vec3>> struck;  // by body: what must not get into it
   std::vector<int> triangles;
   const Snapshot* before = &recording.snapshots.front();
+  const auto pose = [](const Snapshot& s, int b) -> const Pose& { return s.bodies[static_cast<std::size_t>(b)].X_WB; };
   for (const Snapshot& s : recording.snapshots) {
-    for (const ContactRecord& c : s.contacts)
-      if (c.body_b >= 0 && (c.body_a == body || c.body_b == body)) struck.insert(c.body_a == body ? c.body_b : c.body_a);
-    for (const int other : struck) {
-      const Body& object = model.bodies[static_cast<std::size_t>(other)];
-      if (object.person >= 0) continue;
-      const auto centre = [&](const Snapshot& at) {
-        return at.bodies[static_cast<std::size_t>(other)].X_WB.inverse() * at.bodies[static_cast<std::size_t>(body)].X_WB.p;
-      };
-      if (went_in(object, centre(*before), centre(s), triangles)) return Passage{s.time, other};
+    for (const ContactRecord& c : s.contacts) {
+      const int other = c.body_a == body ? c.body_b : c.body_b == body ? c.body_a : -1;
+      if (other >= 0 && !struck.contains(other) && model.bodies[static_cast<std::size_t>(other)].person < 0)
+        struck[other] = across(model.bodies[static_cast<std::size_t>(body)], pose(s, body).inverse() * c.point);
     }
+    for (const auto& [other, places] : struck)
+      for (const Vec3& place : places) {
+        const auto seen = [&](const Snapshot& at) { return pose(at, other).inverse() * (pose(at, body) * place); };
+        if (went_in(model.bodies[static_cast<std::size_t>(other)], seen(*before), seen(s), triangles))
+          return Passage{s.time, other};
+      }
     before = &s;
   }
   return std::nullopt;

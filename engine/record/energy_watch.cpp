@@ -36,7 +36,7 @@ std::string moment(double time) {
 }  // namespace
 
 void EnergyWatch::weigh(const World& world, const State& state, const Energies& now) {
-  if (!begun_) stored_ = in_springs(world.model, state);
+  if (!begun_) stored_ = in_springs(world.model, state), dissipated_before_ = now.dissipated;
   dissipated_ = now.dissipated;
   const double mechanical = now.kinetic + now.potential - now.added;
   if (begun_) rise_ = std::max(rise_, mechanical - mechanical_);
@@ -57,7 +57,7 @@ void EnergyWatch::tell_of_gifts(const World& world, Diagnostics& out) const {
   if (!world.log.overlaps.empty()) return;  // what is moved apart is given that
   for (std::size_t e = 0; e < dissipated_.size(); ++e) {
     const EffectKind& kind = *world.plan.active[e];
-    const double given = -dissipated_[e] - stored_;
+    const double given = dissipated_before_[e] - dissipated_[e] - stored_;
     if (!kind.passive || given < std::max(kLeastGift, kGift * turned_over_)) continue;
     out.warnings.push_back("energy: " + std::string(kind.name) + " gave " + number(given) +
                            " J over the run, and had none to give: what rests or lies in that time may creep, do not rely on it; a "

@@ -86,8 +86,8 @@ struct Standing {
   double height = 0;                // [m] of the lowest point above the ground
   std::optional<double> cg_height;  // [m] of the centre of gravity above z = 0, in its place
 };
-/// Height [m] of what carries a person or a wheel at x, y; 0 over a hole.
-double ground_height(const engine::Ground&, double x, double y);
+/// Height [m] of what carries a person or a wheel at x, y; none over a hole.
+std::optional<double> ground_beneath(const engine::Ground&, double x, double y);
 
 /// Moves the person to its position and down to the ground, or to the height the scene gives.
 void set_down(Reader&, const engine::Vec3& position, const engine::Ground&, const Figure&, std::vector<engine::Pose>& X_WB);

@@ -3,12 +3,16 @@
 
 namespace scenes {
 
-double ground_height(const engine::Ground& ground, double x, double y) {
+std::optional<double> ground_beneath(const engine::Ground& ground, double x, double y) {
   const double top = std::max(ground.height, ground.terrain ? ground.terrain->bounds().upper.z() : 0) + 1;
-  return ground.height_below({x, y, top}).value_or(0);
+  return ground.height_below({x, y, top});
 }
 
 namespace {
+
+double ground_height(const engine::Ground& ground, double x, double y) {
+  return ground_beneath(ground, x, y).value_or(0);
+}
 
 /// How far the lowest support point stands above the ground.
 double clearance(const engine::Ground& ground, const Figure& figure, const std::vector<engine::Pose>& X_WB) {

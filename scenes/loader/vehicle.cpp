@@ -230,44 +230,59 @@ engine::MeshShape collision_shape(Builder& builder, const Meshes& meshes, const 
   return {coarse, X_BM, tolerance, panels};
 }
 
-/// The turn that lays a level vehicle whose mesh frame stands at X_WM along the ground under its wheels: the plane of least squares
-/// through it.
-engine::Quat along_ground(const engine::Ground& ground, const std::vector<engine::Vec3>& wheels_M, const engine::Pose& X_WM) {
-  if (wheels_M.size() < 2) return engine::Quat::Identity();
+/// Where the wheels of a vehicle whose mesh frame stands at X_WM are, with the height of the ground under each; those over a hole,
+/// or beyond an edge, left out.
+struct OnGround {
+  engine::Vec3 from;  // [m] from the mesh frame's place, world axes
+  double height = 0;  // [m]
+};
+std::vector<OnGround> on_ground(const engine::Ground& ground, const engine::Vehicle& vehicle, const engine::Vec3& cg,
+                                const engine::Pose& X_WM) {
+  std::vector<OnGround> out;
+  for (const engine::Wheel& wheel : vehicle.wheels) {
+    const engine::Vec3 from = X_WM.q * engine::Vec3(wheel.hub_B.x() + cg.x(), wheel.hub_B.y() + cg.y(), 0);
+    if (const auto height = ground_beneath(ground, X_WM.p.x() + from.x(), X_WM.p.y() + from.y())) out.push_back({from, *height});
+  }
+  return out;
+}
+
+/// The turn that lays a level vehicle along the ground under its wheels: the plane of least squares through it.
+engine::Quat along_ground(const std::vector<OnGround>& wheels) {
+  if (wheels.size() < 2) return engine::Quat::Identity();
   engine::Mat3 squares = engine::Vec3(1e-9, 1e-9, 1e-9).asDiagonal();  // of a two-wheeler, which tells no slope aside
   engine::Vec3 sum = engine::Vec3::Zero();
-  for (const engine::Vec3& wheel : wheels_M) {
-    const engine::Vec3 from = X_WM.q * wheel, at = X_WM.p + from, row(1, from.x(), from.y());
+  for (const OnGround& wheel : wheels) {
+    const engine::Vec3 row(1, wheel.from.x(), wheel.from.y());
     squares += row * row.transpose();
-    sum += ground_height(ground, at.x(), at.y()) * row;
+    sum += wheel.height * row;
   }
   const engine::Vec3 plane = squares.ldlt().solve(sum);
   return engine::Quat::FromTwoVectors(engine::Vec3::UnitZ(), engine::Vec3(-plane.y(), -plane.z(), 1).normalized());
 }
 
+/// Does the scene leave it to the ground how a vehicle stands?
+bool stands_freely(const Builder& builder, const Reader& r) {
+  return builder.scene.model.ground.terrain && !r.has("attitude") && !r.has("quaternion");
+}
+
 /// Sets a vehicle down on its wheels: along the ground if the scene gives no attitude, and none of them below it. Its speed turns
-/// with it.
+/// with it. One that is towed goes where its hitch is.
 void set_down(Builder& builder, Reader& r, const engine::Vehicle& vehicle, const engine::Vec3& cg, engine::Pose& X_WM,
               engine::Vec3& v) {
   constexpr double kFlat = 1e-6;  // [m] level ground at its own height is left as it is
   const engine::Ground& ground = builder.scene.model.ground;
   if (!ground.terrain || !r.text("towed_by").empty()) return;
-  std::vector<engine::Vec3> wheels_M;
-  for (const engine::Wheel& wheel : vehicle.wheels) wheels_M.emplace_back(wheel.hub_B.x() + cg.x(), wheel.hub_B.y() + cg.y(), 0);
-  if (wheels_M.empty()) wheels_M.emplace_back(0, 0, 0);
-  if (!r.has("attitude") && !r.has("quaternion")) {
-    const engine::Quat tilt = along_ground(ground, wheels_M, X_WM);
+  if (stands_freely(builder, r)) {
+    const engine::Quat tilt = along_ground(on_ground(ground, vehicle, cg, X_WM));
     if (tilt.vec().norm() > kFlat) {
       X_WM.q = tilt * X_WM.q;
       if (!r.has("velocity")) v = tilt * v;
     }
   }
   double up = -std::numeric_limits<double>::infinity();
-  for (const engine::Vec3& wheel : wheels_M) {
-    const engine::Vec3 from = X_WM.q * wheel;
-    up = std::max(up, ground_height(ground, X_WM.p.x() + from.x(), X_WM.p.y() + from.y()) - ground.height - from.z());
-  }
-  if (std::abs(up) > kFlat) X_WM.p.z() += up;
+  for (const OnGround& wheel : on_ground(ground, vehicle, cg, X_WM))
+    up = std::max(up, wheel.height - ground.height - wheel.from.z());
+  if (std::isfinite(up) && std::abs(up) > kFlat) X_WM.p.z() += up;
 }
 
 /// Where the mesh frame stands in the world, on level ground.
@@ -297,17 +312,23 @@ int find_tower(Builder& builder, Reader& r) {
 }
 
 /// Puts a towed vehicle on its hitch and joins the two.
-void couple(Builder& builder, Reader& r, const VehicleGiven& given, int tower, engine::Body& body) {
+void couple(Builder& builder, Reader& r, const VehicleGiven& given, const engine::Vehicle& vehicle, int tower, engine::Body& body) {
   engine::Model& model = builder.scene.model;
   const engine::Body& front = model.bodies[static_cast<std::size_t>(tower)];
   const engine::Vec3 hitch_B = builder.hitches.at(front.name), coupling_B = *given.coupling - given.cg;
   const engine::Vec3 at = front.X_WB * hitch_B;
   if (!r.has("heading")) body.X_WB.q = front.X_WB.q;
-  const double height = (body.X_WB * coupling_B).z();
   body.X_WB.p += at - body.X_WB * coupling_B;
-  if (std::abs(height - at.z()) > 0.02)
+  if (r.has("heading") && stands_freely(builder, r)) {
+    const engine::Pose X_WM{body.X_WB * -given.cg, body.X_WB.q};
+    body.X_WB.q = (along_ground(on_ground(model.ground, vehicle, given.cg, X_WM)) * body.X_WB.q).normalized();
+    body.X_WB.p += at - body.X_WB * coupling_B;
+  }
+  const double height = given.coupling->z(),
+               hitch = at.z() - ground_beneath(model.ground, at.x(), at.y()).value_or(model.ground.height);
+  if (std::abs(height - hitch) > 0.02)
     r.warn("coupling",
-           fmt::format("is {:.3g} m above the ground and the hitch {:.3g} m; the trailer is lifted to it", height, at.z()));
+           fmt::format("is {:.3g} m above the ground and the hitch {:.3g} m; the trailer is lifted to it", height, hitch));
   body.V_WB.w = front.V_WB.w;
   body.V_WB.v = front.V_WB.v + front.V_WB.w.cross(body.X_WB.p - front.X_WB.p);
   engine::Joint joint;
@@ -379,7 +400,7 @@ void read_vehicle(Builder& builder, Reader scene) {
   set_down(builder, r, vehicle, given.cg, X_WM, body.V_WB.v);
   body.shape = collision_shape(builder, meshes, X_BM, given.mesh_tolerance);
   body.X_WB = {X_WM * given.cg, X_WM.q.normalized()};
-  if (const int tower = find_tower(builder, r); tower >= 0 && given.coupling) couple(builder, r, given, tower, body);
+  if (const int tower = find_tower(builder, r); tower >= 0 && given.coupling) couple(builder, r, given, vehicle, tower, body);
   if (given.saddle) builder.saddles[vehicle.name] = *given.saddle - given.cg;
   if (given.hitch) builder.hitches[vehicle.name] = *given.hitch - given.cg;
   vehicle.body = static_cast<int>(model.bodies.size());

@@ -21,6 +21,7 @@ TEST(FlungParts, AreToldBeyondWhatABlowGives) {
     Recording run = standing_still(10);
     for (Snapshot& s : run.snapshots) s.bodies.own()[kCar].V_WB.v = {10, 0, 0};
     run.snapshots[7].bodies.own()[kHips].V_WB.v = {0, speed, 0};
+    run.snapshots[6].contacts = {push(kHips, kCar, kOnVehicle, {5, 0, 0})};
     const std::vector<std::string> told = flung_parts(model, run);
     if (speed < 30)
       EXPECT_THAT(told, IsEmpty());
@@ -29,7 +30,8 @@ TEST(FlungParts, AreToldBeyondWhatABlowGives) {
   }
 }
 
-TEST(FlungParts, AreNotLookedForWithoutAVehicleThatMoves) {
+/// Who runs, or falls, beside a vehicle.
+TEST(FlungParts, AreNotLookedForBeforeAVehicleTouches) {
   Recording run = standing_still(10);
   run.snapshots[7].bodies.own()[kHips].V_WB.v = {0, 50, 0};
   EXPECT_THAT(flung_parts(person_and_car(), run), IsEmpty());

@@ -106,6 +106,23 @@ TEST(VehicleDeltaV, OfACarThatWentThroughAWallIsNotTold) {
   for (const Metric& m : measure(run.scene.model, run.recording)) EXPECT_NE(m.key, "delta_v_mps");
 }
 
+/// A pole at the side of its front is not held: that is told.
+TEST(VehicleDeltaV, OfACarThatAPoleAtTheSideWentThroughIsNotTold) {
+  for (const double y : {0.4, 0.5, 0.7}) {
+    const Crash run = pressed_in(50, {"0.15 0.15 3", 2, y});
+    if (run.recording.diagnostics.max_compression > 1) continue;  // held
+    EXPECT_TRUE(went_through(run.scene.model, run.recording, 0)) << y;
+  }
+}
+
+/// What stands close before a car at the start is met from the car's front, not from within through its rear: a pole half a metre
+/// ahead drove a standing sedan off.
+TEST(VehicleDeltaV, OfACarThatStandsNearAPoleIsNone) {
+  const Crash run = pressed_in(0, {"0.15 0.15 3", 20, 0.4});
+  EXPECT_EQ(run.recording.diagnostics.max_compression, 0);
+  EXPECT_LT(run.recording.snapshots.back().bodies[0].V_WB.v.norm(), 1e-3);
+}
+
 /// So is one through a thin mesh, or another vehicle: whose points are farther in than 15 cm are dropped.
 TEST(VehicleDeltaV, OfACarThatWentThroughAMeshIsNotTold) {
   const auto told = [](const Crash& run, int v) {
