@@ -55,7 +55,8 @@ std::vector<Vec3> across(const Body& vehicle, const Vec3& met_B) {
   const Vec3 middle = shape->X_BM * (0.5 * (shape->mesh->bounds().lower + shape->mesh->bounds().upper)),
              half = 0.5 * (shape->mesh->bounds().upper - shape->mesh->bounds().lower);
   if (std::abs(met_B.x() - middle.x()) < kOfLength * half.x()) return out;
-  for (const double side : {-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0}) out.emplace_back(0, middle.y() + side * kOfWidth * half.y(), 0);
+  for (const double side : {-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0})
+    out.emplace_back(0, middle.y() + side * kOfWidth * half.y(), 0);
   return out;
 }
 
