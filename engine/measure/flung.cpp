@@ -8,7 +8,7 @@ namespace {
 
 // What a limb gets of a vehicle that goes at v: 2 v of a blow that gives all back, and half as much of its own swing about the
 // trunk; 5 m/s of a fall beside it. The fastest limb of the families of tests/validation has 2.1 v.
-constexpr double kTimes = 2.5, kFalls = 5;  // [-], [m/s]
+constexpr double kTimes = 2.5, kBeside = 5;  // [-], [m/s]
 
 std::string with_one_digit(double value) {
   std::string out = std::to_string(std::lround(10 * value));
@@ -39,7 +39,7 @@ std::vector<std::string> flung_parts(const Model& model, const Recording& record
         Fastest& f = found[p];
         const double speed = s.bodies[static_cast<std::size_t>(b)].V_WB.v.norm();
         if (!f.touched) f.own = std::max(f.own, speed);
-        if (const double excess = speed - kTimes * vehicle - f.own - kFalls; f.touched && excess > f.excess)
+        if (const double excess = speed - kTimes * vehicle - f.own - kBeside; f.touched && excess > f.excess)
           f.excess = excess, f.speed = speed, f.time = s.time, f.vehicle = vehicle, f.part = b;
       }
   }

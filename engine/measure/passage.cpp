@@ -73,12 +73,14 @@ std::optional<Passage> passage_of(const Model& model, const Recording& recording
       if (other >= 0 && !struck.contains(other) && model.bodies[static_cast<std::size_t>(other)].person < 0)
         struck[other] = across(model.bodies[static_cast<std::size_t>(body)], pose(s, body).inverse() * c.point);
     }
-    for (const auto& [other, places] : struck)
-      for (const Vec3& place : places) {
+    for (const auto& met : struck) {
+      const int other = met.first;
+      for (const Vec3& place : met.second) {
         const auto seen = [&](const Snapshot& at) { return pose(at, other).inverse() * (pose(at, body) * place); };
         if (went_in(model.bodies[static_cast<std::size_t>(other)], seen(*before), seen(s), triangles))
           return Passage{s.time, other};
       }
+    }
     before = &s;
   }
   return std::nullopt;
