@@ -7,7 +7,7 @@ namespace engine {
 namespace {
 
 // What a limb gets of a vehicle that goes at v: 2 v of a blow that gives all back, and half as much of its own swing about the
-// trunk; 5 m/s of a fall beside it. The fastest limb of the families of tests/validation has 2.1 v.
+// trunk; 5 m/s of a fall beside it.
 constexpr double kTimes = 2.5, kBeside = 5;  // [-], [m/s]
 
 std::string with_one_digit(double value) {

@@ -41,9 +41,9 @@ void BoundsWatch::note_press(const Model& model, const Constraint& c, int part, 
 /// Half of its thickness is what one side may press in (scenes/README.md), and what two may together. Whatever the dents hold of
 /// it, surfaces that overlap by all of the thickness have met through the part.
 double BoundsWatch::Squeeze::excess() const {
-  constexpr double kOfItself = 1.0;  // [-] of the thickness: who curls up presses an arm to the neck, and nothing is lost by it
   const double thickness = std::min(one.thickness, other.thickness);
-  if (one.by_itself || other.by_itself) return (one.own + other.own) / (kOfItself * thickness);
+  // who curls up presses an arm to the neck, and nothing is lost by it until all of the arm is pressed in
+  if (one.by_itself || other.by_itself) return (one.own + other.own) / thickness;
   return std::max((one.own + other.own) / (0.5 * thickness), (one.depth + other.depth) / thickness);
 }
 

@@ -106,12 +106,12 @@ TEST(VehicleDeltaV, OfACarThatWentThroughAWallIsNotTold) {
   for (const Metric& m : measure(run.scene.model, run.recording)) EXPECT_NE(m.key, "delta_v_mps");
 }
 
-/// A pole at the side of its front is not held: that is told.
+/// A pole at the side of its front is held, or it is told that it is not.
 TEST(VehicleDeltaV, OfACarThatAPoleAtTheSideWentThroughIsNotTold) {
   for (const double y : {0.4, 0.5, 0.7}) {
     const Crash run = pressed_in(50, {"0.15 0.15 3", 2, y});
-    if (run.recording.diagnostics.max_compression > 1) continue;  // held
-    EXPECT_TRUE(went_through(run.scene.model, run.recording, 0)) << y;
+    const bool held = run.recording.diagnostics.max_compression > 1;  // [m] v sqrt(m / S) is 1.2
+    EXPECT_TRUE(held || went_through(run.scene.model, run.recording, 0)) << y;
   }
 }
 
