@@ -26,12 +26,12 @@ constexpr double kRegularJammed = 1e-8;  // where impulses are large and well de
 }  // namespace
 
 /// How a sliding contact's tangential impulse follows its slip, x = L_t - rho u_t.
-ContactSolver::Slip ContactSolver::slipping(const Constraint& c, int member, double rho, const Eigen::Vector2d& x) const {
+ContactSolver::Slip ContactSolver::slipping(const Constraint& c, double rho, const Eigen::Vector2d& x) {
   const double length = x.norm();
   Slip slip;
   slip.rho = rho;
   slip.direction = x / length;
-  slip.most = bounded_ ? bound_[member] : c.surface.friction * std::max(0.0, c.impulse[0]);
+  slip.most = c.surface.friction * std::max(0.0, c.impulse[0]);
   slip.across = std::min(1.0, slip.most / length) * (Eigen::Matrix2d::Identity() - slip.direction * slip.direction.transpose());
   return slip;
 }
@@ -68,10 +68,10 @@ int ContactSolver::linearise(const std::vector<Constraint>& all, const std::vect
     }
     const double rho = 1 / std::max(A(1, 1), A(2, 2));
     const Eigen::Vector2d wanted = c.impulse.tail<2>() - rho * u.tail<2>();
-    const double most = bounded_ ? bound_[i] : c.surface.friction * active;
+    const double most = c.surface.friction * active;
     if (wanted.norm() > std::max(most, kTinyImpulse)) {
       kind = Row::slip;
-      slips_[static_cast<std::size_t>(i)] = slipping(c, i, rho, wanted);
+      slips_[static_cast<std::size_t>(i)] = slipping(c, rho, wanted);
     }
     for (int r = 1; r < 3; ++r) unknown_.push_back(offset_[i] + r), rule_.push_back({kind, i, r});
   }
@@ -115,7 +115,7 @@ bool ContactSolver::factor_linearised(const std::vector<Constraint>& all, const 
         newton_.A(k + 1, m) = a[1];
       }
       for (int q = 0; q < 2; ++q) {
-        if (!bounded_) newton_.A(k + q, k - 1) -= c.surface.friction * slip.direction[q];
+        newton_.A(k + q, k - 1) -= c.surface.friction * slip.direction[q];
         for (int p = 0; p < 2; ++p) newton_.A(k + q, k + p) += (p == q ? 1 : 0) - slip.across(q, p);
       }
     }
@@ -154,8 +154,7 @@ bool ContactSolver::newton_step(std::vector<Constraint>& all, const std::vector<
     Constraint& c = all[members[i]];
     Vec3 next = Vec3::Zero();
     for (int r = 0; r < c.rows; ++r) next[r] = L_[static_cast<std::size_t>(offset_[i] + r)];
-    if (c.kind == ConstraintKind::contact && bounded_) next.tail<2>() = shortened(next.tail<2>(), bound_[i]);
-    if (c.kind == ConstraintKind::contact && !bounded_) next = project_to_cone(next, c.surface.friction);
+    if (c.kind == ConstraintKind::contact) next = project_to_cone(next, c.surface.friction);
     if (c.kind != ConstraintKind::bilateral) next[0] = std::max(0.0, next[0]);
     const Vec3 change = next - c.impulse;
     c.impulse = next;

@@ -14,12 +14,8 @@ namespace {
 constexpr double kLeastResponse = 0.01;  // [-] of the free response of a contact's bodies
 constexpr int kFirstSweeps = 1;          // before Newton is tried; twice as many before it is tried again, and so on
 constexpr double kFirstGoal = 1e-3;      // [-] of the tolerance
-constexpr int kPlainSweeps = 1000;       // before the friction bounds are followed
-constexpr int kBoundedSweeps = 200;      // in each
-constexpr int kBoundSteps = 40;          // of the fixed point on the friction bounds
-constexpr int kMostSweeps = 2000;        // of all in one solve: what is not solved by then gets a shorter step instead
-constexpr double kHeld = 1e9;            // [N s] a friction bound that nothing reaches
-constexpr double kNearBound = 1e-2;      // [m/s] change of a step after which Newton on the whole is tried
+constexpr int kPlainSweeps = 50;         // before the conditions are smoothed
+constexpr int kLastSweeps = 100;         // of what is left then
 
 }  // namespace
 
@@ -30,10 +26,9 @@ void ContactSolver::reserve(const Topology& topology, std::size_t constraints) {
   newton_.reserve(rows);
   for (std::vector<Row>* list : {&rule_, &factored_rule_}) list->reserve(rows);
   slips_.reserve(constraints);
-  L_start_.reserve(constraints);
-  L_sliding_.reserve(constraints);
+  for (std::vector<Vec3>* list : {&L_start_, &L_nothing_, &L_best_}) list->reserve(constraints);
   own_.reserve(constraints);
-  for (std::vector<double>* list : {&u_, &L_, &u_kept_, &L_kept_, &u_start_, &u_sliding_, &bound_, &softened_}) list->reserve(rows);
+  for (std::vector<double>* list : {&u_, &L_, &u_kept_, &L_kept_, &softened_}) list->reserve(rows);
   for (std::vector<int>* list : {&offset_, &unknown_}) list->reserve(rows);
   runs_.reserve(rows);
 }
@@ -106,7 +101,7 @@ ContactSolver::Miss ContactSolver::largest_miss(const std::vector<Constraint>& a
   Miss largest;
   for (int i = 0; i < static_cast<int>(members.size()); ++i) {
     const Constraint& c = all[members[i]];
-    const double r = natural_residual(c, velocity(i, c.rows), own_[i], bounded_ ? bound_[i] : -1.0);
+    const double r = natural_residual(c, velocity(i, c.rows), own_[i]);
     if (!(r <= largest.residual)) largest = {r, members[i]};  // what is not a number stays visible
   }
   return largest;
@@ -127,10 +122,6 @@ double ContactSolver::sweep(std::vector<Constraint>& all, const std::vector<int>
     double scale = 1;
     switch (c.kind) {
       case ConstraintKind::contact: {
-        if (bounded_) {
-          next = solve_bounded_contact(A, u, c.target, c.softness, bound_[i], c.impulse);
-          break;
-        }
         Mat3 soft = A;
         soft(0, 0) += c.softness;
         next = solve_one_contact(soft, u - A * c.impulse, c.target, c.surface.friction, c.impulse);
@@ -188,76 +179,53 @@ void ContactSolver::iterate(std::vector<Constraint>& all, const std::vector<int>
   }
 }
 
-/// Fixed point on the friction bounds (Haslinger 1983): with every bound held the conditions are those of a convex problem, which
-/// sweeps and Newton always solve; then the bounds follow the normal impulses found. Where friction jams a chain of limits
-/// (Painleve's rod) the bounds climb from the sliding solution that no longer holds to the one that does. Where a limb is wedged
-/// between two vehicles, or between one and the ground, the climb does not end; from above, where all are held, it comes down to
-/// the solution that holds the wedge.
-void ContactSolver::follow_bounds(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance, Bounds from,
-                                  SolveReport& report) {
-  const std::size_t count = members.size();
-  bound_.resize(count);
-  for (std::size_t i = 0; i < count; ++i)
-    bound_[i] = from == Bounds::held ? kHeld : all[members[i]].surface.friction * all[members[i]].impulse[0];
-  double share = 1, last = std::numeric_limits<double>::infinity();
-  const int last_sweep = report.sweeps + kMostSweeps;
-  for (int k = 0; k < kBoundSteps && report.sweeps < last_sweep; ++k) {
-    bounded_ = true;
-    report.residual = residual(all, members);
-    iterate(all, members, 0.1 * tolerance, kBoundedSweeps, report);
-    bounded_ = false;
-    double change = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Constraint& c = all[members[i]];
-      if (c.kind != ConstraintKind::contact) continue;
-      const double difference = c.surface.friction * c.impulse[0] - bound_[i];
-      change = std::max(change, std::abs(difference) * G(offset_[i] + 1, offset_[i] + 1));
-      bound_[i] += share * difference;
-    }
-    report.residual = residual(all, members);
-    if (report.residual <= tolerance) return;
-    if (change < kNearBound || k % 4 == 3) {
-      newton(all, members, tolerance, Care::jammed, report);
-      if (report.residual <= tolerance) return;
-    }
-    if (change > 0.9 * last) share = std::max(0.25, 0.7 * share);
-    last = change;
+/// The velocities that the impulses given leave.
+void ContactSolver::begin(std::vector<Constraint>& all, const std::vector<int>& members, const std::vector<Vec3>& impulses) {
+  const int count = static_cast<int>(members.size());
+  for (int i = 0; i < count; ++i)
+    for (int r = 0; r < all[members[i]].rows; ++r) u_[static_cast<std::size_t>(offset_[i] + r)] = all[members[i]].u.free[r];
+  for (int i = 0; i < count; ++i) {
+    all[members[i]].impulse = impulses[i];
+    add_to_velocity(i, all[members[i]].rows, impulses[i]);
   }
+}
+
+void ContactSolver::note_best(const std::vector<Constraint>& all, const std::vector<int>& members) {
+  L_best_.clear();
+  for (const int m : members) L_best_.push_back(all[m].impulse);
+}
+
+/// For an island that goes round in circles: from nothing, then from the impulses of the last step. Sweeps follow, which leave what
+/// is open without the rest of an impulse. The best of all is taken.
+void ContactSolver::solve_smoothed(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance,
+                                   SolveReport& report) {
+  double best = std::numeric_limits<double>::infinity();
+  const auto note_if_best = [&] {
+    if (report.residual < best) best = report.residual, note_best(all, members);
+  };
+  note_if_best();
+  L_nothing_.assign(members.size(), Vec3::Zero());
+  for (const std::vector<Vec3>* from : {&L_nothing_, &L_start_}) {
+    if (best <= tolerance) break;
+    begin(all, members, *from);
+    follow_smoothing(all, members, tolerance, report);
+    note_if_best();
+    iterate(all, members, tolerance, kLastSweeps, report);
+    note_if_best();
+  }
+  begin(all, members, L_best_);
+  report.residual = best;
 }
 
 SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance) {
   const int count = static_cast<int>(members.size());
-  for (int i = 0; i < count; ++i)
-    for (int r = 0; r < all[members[i]].rows; ++r) u_[static_cast<std::size_t>(offset_[i] + r)] = all[members[i]].u.free[r];
-  for (int i = 0; i < count; ++i) add_to_velocity(i, all[members[i]].rows, all[members[i]].impulse);
-
-  SolveReport report;
-  report.residual = residual(all, members);
-  u_start_ = u_;
   L_start_.clear();
   for (const int m : members) L_start_.push_back(all[m].impulse);
+  SolveReport report;
+  begin(all, members, L_start_);
+  report.residual = residual(all, members);
   iterate(all, members, tolerance, kPlainSweeps, report);
-  auto begin_again = [&] {  // where the sweeps went may be far off
-    u_ = u_start_;
-    for (int i = 0; i < count; ++i) all[members[i]].impulse = L_start_[i];
-  };
-  if (!(report.residual <= tolerance)) {
-    begin_again();
-    follow_bounds(all, members, tolerance, Bounds::sliding, report);
-  }
-  if (!(report.residual <= tolerance)) {
-    const double sliding = report.residual;
-    u_sliding_ = u_;
-    L_sliding_.clear();
-    for (const int m : members) L_sliding_.push_back(all[m].impulse);
-    begin_again();
-    follow_bounds(all, members, tolerance, Bounds::held, report);
-    if (!(report.residual < sliding)) {
-      report.residual = sliding;
-      u_ = u_sliding_;
-      for (int i = 0; i < count; ++i) all[members[i]].impulse = L_sliding_[i];
-    }
-  }
+  if (!(report.residual <= tolerance)) solve_smoothed(all, members, tolerance, report);
   if (!(report.residual <= tolerance)) report.worst = largest_miss(all, members).constraint;
   for (int i = 0; i < count; ++i) {
     Constraint& c = all[members[i]];

@@ -6,7 +6,8 @@
 // Block Gauss-Seidel, each contact solved exactly for given others: open, stick, or slip along the direction c that its own slip
 // then has (Newton on c, no trigonometry). It finds who is open, who sticks, who slips in a few sweeps, but closes in on the
 // impulses slowly where light limbs are pressed between heavy things. So it alternates with Newton on all conditions at once
-// (semi-smooth, after Alart and Curnier 1991), at full length: the best of some steps is kept, then more sweeps follow.
+// (semi-smooth, after Alart and Curnier 1991), at full length: the best of some steps is kept, then more sweeps follow. Islands in
+// which the two go round in circles, where limbs jam, are followed from smoothed conditions instead (smoothed_newton.cpp).
 #pragma once
 
 #include <vector>
@@ -47,9 +48,9 @@ class ContactSolver {
   void add_to_velocity(int member, int rows, const Vec3& change);
   double sweep(std::vector<Constraint>&, const std::vector<int>& members);
   void iterate(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, int sweeps, SolveReport&);
-  /// Where the friction bounds come from: the impulses there are, or beyond all of them.
-  enum class Bounds { sliding, held };
-  void follow_bounds(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, Bounds from, SolveReport&);
+  void begin(std::vector<Constraint>&, const std::vector<int>& members, const std::vector<Vec3>& impulses);
+  void solve_smoothed(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, SolveReport&);
+  void note_best(const std::vector<Constraint>&, const std::vector<int>& members);
   struct Miss {
     double residual = 0;
     int constraint = -1;
@@ -61,6 +62,8 @@ class ContactSolver {
   void newton(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, Care, SolveReport&);
   bool newton_step(std::vector<Constraint>&, const std::vector<int>& members, bool again);
   bool factor_linearised(const std::vector<Constraint>&, const std::vector<int>& members);
+  void follow_smoothing(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, SolveReport&);
+  bool smoothed_step(std::vector<Constraint>&, const std::vector<int>& members, double eps);
   void keep(const std::vector<Constraint>&, const std::vector<int>& members);
   void go_back(std::vector<Constraint>&, const std::vector<int>& members);
   int linearise(const std::vector<Constraint>&, const std::vector<int>& members);
@@ -79,11 +82,9 @@ class ContactSolver {
     Eigen::Vector2d direction;
     Eigen::Matrix2d across;
   };
-  Slip slipping(const Constraint&, int member, double rho, const Eigen::Vector2d& x) const;
+  static Slip slipping(const Constraint&, double rho, const Eigen::Vector2d& x);
 
   double regular_ = 0;
-  bool bounded_ = false;          // friction bounds are held at bound_
-  std::vector<double> bound_;     // [N s] per member
   std::vector<double> softened_;  // [1/kg] per member: by which it answers more than its bodies do
   Response response_;
   int size_ = 0;
@@ -101,8 +102,8 @@ class ContactSolver {
   std::vector<Row> rule_;           // per unknown
   std::vector<Row> factored_rule_;  // of the matrix in newton_
   std::vector<Slip> slips_;         // per member, of those that slide
-  std::vector<double> L_, u_kept_, L_kept_, u_start_, u_sliding_;
-  std::vector<Vec3> L_start_, L_sliding_;
+  std::vector<double> L_, u_kept_, L_kept_;
+  std::vector<Vec3> L_start_, L_nothing_, L_best_;
 };
 
 }  // namespace engine

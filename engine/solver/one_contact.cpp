@@ -13,16 +13,18 @@ namespace {
 
 /// Tangential impulse of a contact that slips: (S + y) t = -q with y > 0 such that |t| = most(t), S positive definite. At y = 0
 /// (stick) the left side is larger, for large y the right, so a root lies between; 1/|t| - 1/most is nearly straight in y: Newton,
-/// kept inside the bracket. `most` returns the bound and its rate for a change of t.
+/// kept inside the bracket. `most` returns the bound and its rate for a change of t. Across itself a tyre yields by `soft` already
+/// where it grips, and by its slide where that is more: so a wheel goes from the one to the other without a jump.
 template <class Bound>
-Eigen::Vector2d slip_impulse(const Eigen::Matrix2d& S, const Eigen::Vector2d& q, double y, const Bound& most) {
+Eigen::Vector2d slip_impulse(const Eigen::Matrix2d& S, const Eigen::Vector2d& q, double y, double soft, const Bound& most) {
   math::Bracket bracket{0, std::numeric_limits<double>::infinity()};
   const double &low = bracket.low, &high = bracket.high;
   Eigen::Vector2d t = Eigen::Vector2d::Zero();
   for (int k = 0; k < 60; ++k) {
-    const double s11 = S(0, 0) + y, s22 = S(1, 1) + y, det = s11 * s22 - S(0, 1) * S(0, 1);
+    const double s11 = S(0, 0) + y, s22 = S(1, 1) + std::max(y, soft), det = s11 * s22 - S(0, 1) * S(0, 1);
     t = {-(s22 * q[0] - S(0, 1) * q[1]) / det, -(s11 * q[1] - S(0, 1) * q[0]) / det};
-    const Eigen::Vector2d slope(-(s22 * t[0] - S(0, 1) * t[1]) / det, -(s11 * t[1] - S(0, 1) * t[0]) / det);
+    const double across = y >= soft ? t[1] : 0.0;
+    const Eigen::Vector2d slope(-(s22 * t[0] - S(0, 1) * across) / det, -(s11 * across - S(0, 1) * t[0]) / det);
     const auto [bound, bound_rate] = most(t, slope);
     const double length = t.norm();
     if (std::abs(length - bound) <= 1e-12 * length) break;
@@ -43,22 +45,20 @@ Eigen::Vector2d slip_impulse(const Eigen::Matrix2d& S, const Eigen::Vector2d& q,
 }
 
 /// Tangential impulse no larger than `bound` that stops the slip, or opposes what is left of it; `u` is the slip with `old`.
-Eigen::Vector2d bounded_tangents(const Eigen::Matrix2d& S, const Eigen::Vector2d& u, const Eigen::Vector2d& old, double bound) {
+Eigen::Vector2d bounded_tangents(const Eigen::Matrix2d& S, const Eigen::Vector2d& u, const Eigen::Vector2d& old, double soft,
+                                 double bound) {
   const Eigen::Vector2d q = u - S * old;
-  const Eigen::Vector2d stop = -S.inverse() * q;
+  Eigen::Matrix2d gripping = S;
+  gripping(1, 1) += soft;
+  const Eigen::Vector2d stop = -gripping.inverse() * q;
   if (stop.norm() <= bound) return stop;
   if (!(bound > 0)) return Eigen::Vector2d::Zero();
   const double last = old.norm();
-  return slip_impulse(S, q, last > 0 ? u.norm() / last : S.trace(),
+  return slip_impulse(S, q, last > 0 ? u.norm() / last : S.trace(), soft,
                       [&](const auto&, const auto&) { return std::pair(bound, 0.0); });
 }
 
 }  // namespace
-
-Eigen::Vector2d shortened(const Eigen::Vector2d& t, double most) {
-  const double length = t.norm();
-  return length <= most ? t : Eigen::Vector2d(t * (most / length));
-}
 
 Vec3 solve_wheel(const Mat3& A, const Vec3& u, const Vec3& old, const Constraint& c) {
   // normal first, then the ground plane: rolling direction bounded by brake and engine, both by the friction circle
@@ -66,26 +66,22 @@ Vec3 solve_wheel(const Mat3& A, const Vec3& u, const Vec3& old, const Constraint
   const Vec3 u1 = u + A.col(0) * (normal - old[0]);
   const double most = c.surface.friction * normal;
   const double soft = c.wheel.grip_softness;
-  const auto brake_holds = [&](double x) { return std::abs(x - c.wheel.driving) <= c.wheel.braking; };
   // the tyre grips: the impulse that stops its contact, but for the slip angle
   const double a22 = A(2, 2) + soft, v = u1[2] + soft * old[2];
   const double det = A(1, 1) * a22 - A(1, 2) * A(2, 1);
-  const Eigen::Vector2d grip(old[1] - (a22 * u1[1] - A(1, 2) * v) / det, old[2] - (A(1, 1) * v - A(2, 1) * u1[1]) / det);
-  if (brake_holds(grip[0]) && grip.norm() <= most) return {normal, grip[0], grip[1]};
-  // a locked wheel slides like a block, against its slip; it has no slip angle. Locked it is as long as the brake bears what of
-  // that lies along the wheel: a car that slides sideways with its brakes on is slowed sideways
-  const Eigen::Vector2d block = bounded_tangents(A.bottomRightCorner<2, 2>(), u1.tail<2>(), old.tail<2>(), most);
-  if (brake_holds(block[0])) return {normal, block[0], block[1]};
+  Eigen::Vector2d held(old[1] - (a22 * u1[1] - A(1, 2) * v) / det, old[2] - (A(1, 1) * v - A(2, 1) * u1[1]) / det);
+  // locked it slides like a block, against its slip; it has no slip angle. Locked it is as long as the brake bears what of that
+  // lies along the wheel: a car that slides sideways with its brakes on is slowed sideways
+  if (held.norm() > most) held = bounded_tangents(A.bottomRightCorner<2, 2>(), u1.tail<2>(), old.tail<2>(), soft, most);
+  if (std::abs(held[0] - c.wheel.driving) <= c.wheel.braking) return {normal, held[0], held[1]};
   // it turns: brake and engine have their share first, what grip is left holds sideways
-  const double x = c.wheel.driving + std::copysign(c.wheel.braking, grip[0] - c.wheel.driving);
+  const double x = std::clamp(c.wheel.driving + std::copysign(c.wheel.braking, held[0] - c.wheel.driving), -most, most);
   const double y = old[2] - (u1[2] + soft * old[2] + A(2, 1) * (x - old[1])) / (A(2, 2) + soft);
   if (length_of(x, y) <= most) return {normal, x, y};
-  if (std::abs(x) < most) return {normal, x, std::copysign(std::sqrt(most * most - x * x), y)};
-  const double scale = most / length_of(x, y);
-  return {normal, scale * x, scale * y};
+  return {normal, x, std::copysign(std::sqrt(std::max(0.0, most * most - x * x)), y)};
 }
 
-double natural_residual(const Constraint& c, const Vec3& u, const Mat3& A, double bound) {
+double natural_residual(const Constraint& c, const Vec3& u, const Mat3& A) {
   const double a = A(0, 0) + c.softness;
   const double miss = u[0] + c.softness * c.impulse[0] - c.target;
   switch (c.kind) {
@@ -102,10 +98,6 @@ double natural_residual(const Constraint& c, const Vec3& u, const Mat3& A, doubl
       break;
   }
   const double rho = 1 / A.diagonal().maxCoeff();
-  if (bound >= 0) {
-    const double normal = a * std::abs(c.impulse[0] - std::max(0.0, c.impulse[0] - miss / a));
-    return std::max(normal, (c.impulse.tail<2>() - shortened(c.impulse.tail<2>() - rho * u.tail<2>(), bound)).norm() / rho);
-  }
   const double slip = length_of(u[1], u[2]);
   const Vec3 moved = c.impulse - rho * Vec3(miss + c.surface.friction * slip, u[1], u[2]);
   return (c.impulse - project_to_cone(moved, c.surface.friction)).norm() / rho;
@@ -133,18 +125,10 @@ Vec3 solve_one_contact(const Mat3& A, const Vec3& b, double target, double mu, c
   const Eigen::Matrix2d S = A.bottomRightCorner<2, 2>() - d * A_nt.transpose();
   const double last = guess.tail<2>().norm();
   const double y = last > 0 ? (b + A * guess).tail<2>().norm() / last : S.trace();
-  const Eigen::Vector2d t = slip_impulse(S, b.tail<2>() + A_nt * c, y, [&](const auto& L_t, const auto& slope) {
+  const Eigen::Vector2d t = slip_impulse(S, b.tail<2>() + A_nt * c, y, 0.0, [&](const auto& L_t, const auto& slope) {
     return std::pair(mu * (c - d.dot(L_t)), -mu * d.dot(slope));
   });
   return project_to_cone({c - d.dot(t), t[0], t[1]}, mu);
-}
-
-Vec3 solve_bounded_contact(const Mat3& A, const Vec3& u, double target, double softness, double bound, const Vec3& old) {
-  Vec3 next = old;
-  next[0] = std::max(0.0, old[0] + (target - u[0] - softness * old[0]) / (A(0, 0) + softness));
-  next.tail<2>() =
-      bounded_tangents(A.bottomRightCorner<2, 2>(), u.tail<2>() + A.block<2, 1>(1, 0) * (next[0] - old[0]), old.tail<2>(), bound);
-  return next;
 }
 
 }  // namespace engine

@@ -18,7 +18,9 @@ constexpr double kUnsolved = 2;       // [-] residual over the tolerance above w
 constexpr double kSmoothTurn = 0.1;   // [rad] of any body in one step of the smooth motion
 constexpr double kSmoothSwing = 2.0;  // [-] rate of a swing under joint forces times the step: RK4 bears 2.8
 constexpr double kLargestTurn = 0.3;  // [rad] in one step of all
-constexpr double kMostParts = 20;     // of the smooth motion in one step, and of a step by turning and halving
+constexpr double kMostParts = 20;     // of the smooth motion in one step, and of a step by turning
+// Of a step by halving: a foot under a wheel, at its stop and on the road at once, comes out where a step moves it less.
+constexpr double kMostHalvedParts = 200;
 // Of a step by swings, the tolerance of scheme adaptive, events. A taut chain wants 9 at a mass ratio of 2000 and 2 ms; a thousand
 // are a ratio of 1e8 at 1 ms, where the joint equations keep half of their digits. No part of an accident is like that.
 constexpr double kMostPartsOfAll = 1000;
@@ -138,7 +140,7 @@ double StepControl::cut_at_impact(const StepContext& s) {
     }
     cut_ = taken < s.length;
   }
-  may_halve_ = taken > settings_.step / kMostParts;
+  may_halve_ = taken > settings_.step / kMostHalvedParts;
   return taken;
 }
 

@@ -180,8 +180,45 @@ TEST(Cone, NothingPullsEvenWithoutFriction) {
     open.surface.friction = mu;
     open.rows = 3;
     open.target = -3;
-    EXPECT_EQ(natural_residual(open, {1, 0, 0}, Mat3::Identity(), -1), 0) << mu;
+    EXPECT_EQ(natural_residual(open, {1, 0, 0}, Mat3::Identity()), 0) << mu;
   }
+}
+
+/// From grip to slide, locked or turning, the impulse follows the velocity without a jump. A law that jumps has states that no
+/// impulse answers. It is steep where the wheel, about to slide sideways, goes over from its grip to the slide of a block.
+TEST(Wheel, GoesFromGripToSlideWithoutAJump) {
+  constexpr double kStep = 1e-5;  // [m/s]
+  Mat3 A = Vec3(1 / 380.0, 1 / 420.0, 1 / 300.0).asDiagonal();
+  A(1, 2) = A(2, 1) = 1 / 2000.0;
+  Constraint tread;
+  tread.kind = ConstraintKind::wheel;
+  tread.rows = 3;
+  tread.surface.friction = 0.8;
+  tread.wheel.grip_softness = 1 / 60.0;  // 60 kN/rad at 10 m/s and 10 ms
+  const Vec3 old(4, 0, 0);
+  const double most = tread.surface.friction * old[0];
+  int crossings = 0;
+  for (const double braking : {0.0, 1.5, 1e9})
+    for (const double driving : {0.0, 1.0}) {
+      tread.wheel.braking = braking, tread.wheel.driving = driving;
+      for (const double along : {-0.03, 0.0, 2e-3, 0.2}) {
+        bool grips = false, slides = false;
+        double largest = 0;
+        Vec3 before = solve_wheel(A, {0, along, 0}, old, tread);
+        for (double across = kStep; across < 0.3; across += kStep) {
+          const Vec3 L = solve_wheel(A, {0, along, across}, old, tread);
+          largest = std::max(largest, (L - before).norm() / most);
+          const double used = L.tail<2>().norm() / most;
+          EXPECT_LE(used, 1 + 1e-9);
+          (used < 1 - 1e-9 ? grips : slides) = true;
+          before = L;
+        }
+        // a slide that forgets the slip angle jumps by half of the circle
+        EXPECT_LT(largest, 0.05) << braking << ' ' << driving << ' ' << along;
+        crossings += grips && slides ? 1 : 0;
+      }
+    }
+  EXPECT_GE(crossings, 6) << "of 24 that could";
 }
 
 TEST(RestingBox, NeitherHumsNorCreepsNorSinks) {
