@@ -21,13 +21,29 @@ double work_of(const StepContext& s, std::size_t i) {
   const Vec3 mean = 0.5 * (c.u.smooth + c.u.after) - s.buffers.weight[i] * pull;
   double work = 0;
   for (int r = 0; r < c.rows; ++r) work += c.impulse[r] * mean[r];
-  return work;
+  // a wedge pushed out lifts the car that lies on it: that is slow, and of the smooth forces gravity alone counts
+  return work - c.push / s.length * s.buffers.pull[i][0];
 }
 
 /// Wheels and springs may give energy to what they act on.
 bool has_springs(const StepContext& s, const std::vector<int>& island) {
   return std::any_of(island.begin(), island.end(),
                      [&](int i) { return s.constraints[i].kind == ConstraintKind::wheel || is_compliant(s.constraints[i]); });
+}
+
+/// Change [J] of the mechanical energy of a link's body from `from` to the end of the step, less what its joint's resistance did.
+double change_since(StepContext& s, int l, const Motion& from) {
+  World& world = s.world;
+  const int b = world.topology.links[l].body, j = world.topology.links[l].joint;
+  const Body& body = world.model.bodies[b];
+  const Pose &X_from = from.X_WB[b], &X_to = s.end.X_WB[b];
+  const Twist &V_from = from.V_WB[b], &V_to = s.end.V_WB[b];
+  double change = 0.5 * body.mass * (V_to.v - V_from.v).dot(V_to.v + V_from.v);
+  change -= body.mass * world.model.settings.gravity.dot(X_to.p - X_from.p);
+  // `from` first: what is found for the end serves the next step's start
+  const double turning = V_from.w.dot(world.impulse.inertia_at(world.topology, l, X_from.q) * V_from.w);
+  change += 0.5 * (V_to.w.dot(world.impulse.inertia_at(world.topology, l, X_to.q) * V_to.w) - turning);
+  return s.any_damper && j >= 0 && s.buffers.dampers[j].present ? change - resistance_work(s, j) : change;
 }
 
 /// Rise [J] of the mechanical energy of each island without springs, by its root.
@@ -38,29 +54,26 @@ void note_rises(StepContext& s) {
     int root = tree;
     while (islands.of_tree[root] != root) root = islands.of_tree[root];
     if (islands.members[root].empty() || has_springs(s, islands.members[root])) continue;
-    double& rise = islands.rise[root];
-    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
-      const int b = world.topology.links[l].body, j = world.topology.links[l].joint;
-      const Body& body = world.model.bodies[b];
-      const Pose &X_from = s.state.X_WB[b], &X_to = s.end.X_WB[b];
-      const Twist &from = s.state.V_WB[b], &to = s.end.V_WB[b];
-      rise += 0.5 * body.mass * (to.v - from.v).dot(to.v + from.v);
-      rise -= body.mass * world.model.settings.gravity.dot(X_to.p - X_from.p);
-      // the start first: what is found for the end serves the next step's start
-      const double turning = from.w.dot(world.impulse.inertia_at(world.topology, l, X_from.q) * from.w);
-      rise += 0.5 * (to.w.dot(world.impulse.inertia_at(world.topology, l, X_to.q) * to.w) - turning);
-      if (s.any_damper && j >= 0 && s.buffers.dampers[j].present) rise -= resistance_work(s, j);
-    }
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l)
+      islands.rise[root] += change_since(s, l, s.state);
   }
 }
 
-/// How fast gravity alone would move each stop's rows over the step, through the joints.
+}  // namespace
+
 void note_pull(StepContext& s) {
   const World& world = s.world;
-  for_awake_bodies(world,
-                   [&](int b) { s.buffers.force[b] << world.model.bodies[b].mass * world.model.settings.gravity, Vec3::Zero(); });
-  for (const int tree : world.active_trees)
-    s.world.impulse.solve(world.topology, tree, s.buffers.force, s.buffers.result, Articulation::Bias::zero);
+  const Vec3& gravity = world.model.settings.gravity;
+  for (const int tree : world.active_trees) {
+    const Topology::Tree& range = world.topology.trees[tree];
+    const bool falls = world.topology.links[range.begin].joint < 0;  // all its bodies alike
+    for (int l = range.begin; l < range.end; ++l) {
+      const int b = world.topology.links[l].body;
+      s.buffers.force[b] << world.model.bodies[b].mass * gravity, Vec3::Zero();
+      s.buffers.result[b] << gravity, Vec3::Zero();
+    }
+    if (!falls) s.world.impulse.solve(world.topology, tree, s.buffers.force, s.buffers.result, Articulation::Bias::zero);
+  }
   s.buffers.pull.assign(s.constraints.size(), Vec3::Zero());
   for (std::size_t i = 0; i < s.constraints.size(); ++i) {
     const Constraint& c = s.constraints[i];
@@ -71,11 +84,8 @@ void note_pull(StepContext& s) {
   }
 }
 
-}  // namespace
-
 void book(StepContext& s) {
   World& world = s.world;
-  if (contacts_in_stages(world.model.settings)) note_pull(s);
   Diagnostics& diagnostics = world.log.diagnostics;
   std::vector<double>& dissipated = s.state.energy.dissipated;
   for (std::size_t i = 0; i < s.constraints.size(); ++i) {
@@ -107,6 +117,15 @@ void note_gains(StepContext& s) {
         log.gain.body_a = c.a.record, log.gain.body_b = c.b.record;
       }
   }
+}
+
+double unexplained(StepContext& s) {
+  double left = 0;
+  for (const int tree : s.world.active_trees)
+    for (int l = s.world.topology.trees[tree].begin; l < s.world.topology.trees[tree].end; ++l)
+      left += change_since(s, l, s.buffers.smooth);
+  for (std::size_t i = 0; i < s.constraints.size(); ++i) left -= work_of(s, i);
+  return left;
 }
 
 double largest_rise(StepContext& s) {

@@ -5,6 +5,9 @@
 
 namespace engine {
 
+/// How fast gravity alone would move each condition's rows over the step, through the joints: before work is asked for.
+void note_pull(StepContext&);
+
 /// Books the work of all conditions and of the joints' resistance.
 void book(StepContext&);
 
@@ -16,5 +19,9 @@ void note_gains(StepContext&);
 /// exchange impulses so large that the levers they turn meanwhile matter. Wheels and springs may give energy: of islands that have
 /// any it is the work of the rigid contacts and stops that counts.
 double largest_rise(StepContext&);
+
+/// What [J] the impulses of the step changed the mechanical energy by beyond the work of conditions and resistance: they act where
+/// the step begins, and a pinched limb is displaced by so much that they would act otherwise where it ends.
+double unexplained(StepContext&);
 
 }  // namespace engine

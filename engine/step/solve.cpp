@@ -122,7 +122,7 @@ void exchange_over_step(StepContext& s) {
   s.impulses = true;
   const Meter::Span span(s.world.meter, Phase::impulses);
   Motion& smooth = s.buffers.smooth;
-  if (s.any_damper) smooth = s.end;
+  smooth = s.end;
   for (int pass = 0;; ++pass) {
     if (s.any_damper) {
       factor_for_impulses(s, &s.buffers.dampers);

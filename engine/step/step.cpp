@@ -86,6 +86,7 @@ Verdict Stepper::attempt(State& state, StepControl& control, std::optional<StepC
   if (friction_varies_) take_mean_friction(*step);
   prepare_resistance(*step);
   exchange_over_step(*step);
+  note_pull(*step);
   close_joints(*step);
 
   // contacts at the end show what the step was blind to
