@@ -73,6 +73,7 @@ struct RunLog {
 
 class Effect;
 enum class Hook : unsigned;
+constexpr int kHooks = 10;
 
 /// Who waits or sleeps without moving costs nothing: no loop of the step goes over them. Follows from the state, as `awake` does.
 struct StillBodies {
@@ -114,7 +115,7 @@ struct World {
   RunLog log;
 
  private:
-  std::array<std::vector<std::size_t>, 9> of_hook_;  // by the hook's bit
+  std::array<std::vector<std::size_t>, kHooks> of_hook_;  // by the bit of the hook
 };
 
 /// Told of what stands inside something else before anything has moved: two bodies (-1: the ground) and their gap [m].

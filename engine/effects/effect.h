@@ -10,6 +10,7 @@
 
 #include "engine/effects/reach.h"
 #include "engine/step_context.h"
+#include "engine/world.h"
 
 namespace engine {
 
@@ -80,6 +81,8 @@ class Effect {
   virtual void resist(StepContext&) {}
   /// Sees the end of a step the resistance has acted over; true when it has revised a damper and the impulses must be found again.
   virtual bool gave_way(StepContext&) { return false; }
+  /// Energy [J] that springs of its own hold where the step would end: seen before it is accepted, and once for each step that is.
+  virtual double stored(StepContext&) { return 0; }
   /// End of every step.
   virtual void after_step(StepContext&) {}
 
@@ -108,8 +111,10 @@ enum class Hook : unsigned {
   add_forces = 32,
   resist = 64,
   gave_way = 128,
-  after_step = 256
+  stored = 256,
+  after_step = 512
 };
+static_assert(static_cast<unsigned>(Hook::after_step) == 1u << (kHooks - 1));
 
 /// What is known of an effect before a run.
 struct EffectKind {

@@ -22,6 +22,7 @@ constexpr unsigned hooks_of() {
   note(Hook::add_forces, &E::add_forces, &Effect::add_forces);
   note(Hook::resist, &E::resist, &Effect::resist);
   note(Hook::gave_way, &E::gave_way, &Effect::gave_way);
+  note(Hook::stored, &E::stored, &Effect::stored);
   note(Hook::after_step, &E::after_step, &Effect::after_step);
   return out;
 }

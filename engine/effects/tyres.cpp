@@ -207,13 +207,22 @@ class Tyres final : public EffectWith<TyresMemory> {
   void find(StepContext& step) override {
     World& world = step.world;
     State& state = step.state;
-    book_springs(state, stand(world, state, step.length, state.wheels, memory(state).struts));
+    begin_again(state);
+    const Outlook outlook{world, state, state, step.length};
+    book_springs(state, stand(outlook, state.wheels, memory(state).struts));
     for (std::size_t i = 0; i < footings_.size(); ++i) {
       WheelState& wheel = state.wheels[i];
       wheel.impulse.setZero();
       const bool acts = footings_[i].found && world.awake[world.model.vehicles[wheel.vehicle].body];
       if (acts) add_wheel(step, wheel, footings_[i], static_cast<int>(i), self_);
     }
+  }
+
+  double stored(StepContext& step) override {
+    at_end_ = step.state.wheels;
+    struts_at_end_ = memory(step.state).struts;
+    stored_ = stand({step.world, step.state, step.end, step.length}, at_end_, struts_at_end_);
+    return stored_;
   }
 
   void after_step(StepContext& step) override {
@@ -233,17 +242,26 @@ class Tyres final : public EffectWith<TyresMemory> {
       state.energy.added += work;
       state.energy.dissipated[c.effect] += work;
     }
-    // what the springs hold now, and not at the start of the next step: its length may be another
-    at_end_ = state.wheels;
-    struts_at_end_ = memory(state).struts;
-    book_springs(state, stand(step.world, state, step.length, at_end_, struts_at_end_));
+    book_springs(state, stored_);  // now, and not at the start of the next step: its length may be another
   }
 
  private:
-  /// Where the wheels stand in this state, to `wheels`, and what they stand on; returns what their springs hold [J].
-  double stand(World& world, State& state, double within, std::vector<WheelState>& wheels, std::vector<StrutMemory>& struts) {
+  /// A step that is taken again, shorter, finds its wheels where the one before it left them: what a longer look saw is forgotten.
+  void begin_again(State& state) {
+    if (state.time == begun_) {
+      state.wheels = at_start_;
+      memory(state).struts = struts_at_start_;
+    } else {
+      begun_ = state.time;
+      at_start_ = state.wheels;
+      struts_at_start_ = memory(state).struts;
+    }
+  }
+
+  /// Where the wheels stand, to `wheels`, and what they stand on; returns what their springs hold [J].
+  double stand(const Outlook& outlook, std::vector<WheelState>& wheels, std::vector<StrutMemory>& struts) {
+    World& world = outlook.world;
     footings_.clear();
-    const Outlook outlook{world, state, state, within};
     const std::vector<std::size_t>& in_reach = world.pairs.in_reach.tyres;
     auto pair = in_reach.begin();
     double energy = 0;
@@ -251,7 +269,7 @@ class Tyres final : public EffectWith<TyresMemory> {
       WheelState& wheel = wheels[i];
       const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
       const Wheel& spec = vehicle.wheels[wheel.wheel];
-      const Pose& X = state.X_WB[vehicle.body];
+      const Pose& X = outlook.at.X_WB[vehicle.body];
       const Vec3 up = X.q * Vec3::UnitZ();
       const double droop = droop_of(spec, wheel.static_load);
       Footing footing = footing_of(outlook, i, droop);
@@ -279,8 +297,10 @@ class Tyres final : public EffectWith<TyresMemory> {
     state.energy.springs = energy;
   }
 
-  std::vector<WheelState> at_end_;
-  std::vector<StrutMemory> struts_at_end_;
+  double begun_ = -1;  // [s] when the step began that is taken
+  double stored_ = 0;  // [J] at its end
+  std::vector<WheelState> at_start_, at_end_;
+  std::vector<StrutMemory> struts_at_start_, struts_at_end_;
   std::vector<Footing> footings_;  // of the step at hand; room is kept from step to step
 };
 template struct Registered<Tyres>;

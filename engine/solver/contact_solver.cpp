@@ -235,7 +235,7 @@ SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector
 }
 
 void ContactSolver::push_apart(std::vector<Constraint>& all, const std::vector<int>& members, const std::vector<double>& wanted) {
-  constexpr int kSweeps = 600;  // a foot between a car, the road and its own stop takes hundreds
+  constexpr int kSweeps = 600;      // a foot between a car, the road and its own stop takes hundreds
   constexpr double kTight = 1e-14;  // [m], [rad] a looser bound is met by chance in one run and missed in its neighbour
   constexpr double kMissed = 1e-6;  // [m], [rad] a last sweep that moves more has not come near the answer
   const int count = static_cast<int>(members.size());

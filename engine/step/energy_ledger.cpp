@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/effects/effect.h"
 #include "engine/step/bounds.h"
 #include "engine/step/joint_friction.h"
 
@@ -126,6 +127,17 @@ double unexplained(StepContext& s) {
       left += change_since(s, l, s.buffers.smooth);
   for (std::size_t i = 0; i < s.constraints.size(); ++i) left -= work_of(s, i);
   return left;
+}
+
+double stored_unearned(StepContext& s) {
+  double stored = -s.buffers.stored_before;
+  for (const std::size_t e : s.world.taking_part(Hook::stored)) {
+    const Meter::Span span(s.world.meter, e);
+    stored += s.world.effects[e]->stored(s);
+  }
+  for (const Constraint& c : s.constraints)
+    if (c.kind == ConstraintKind::wheel) stored += c.impulse[0] * 0.5 * (c.u.smooth[0] + c.u.after[0]);
+  return stored;
 }
 
 double largest_rise(StepContext& s) {

@@ -24,4 +24,8 @@ double largest_rise(StepContext&);
 /// the step begins, and a pinched limb is displaced by so much that they would act otherwise where it ends.
 double unexplained(StepContext&);
 
+/// What [J] the wheels' springs hold more at the end of the step than was done to press them. A tyre that finds itself on a limb
+/// that came from the side is pressed in by nothing.
+double stored_unearned(StepContext&);
+
 }  // namespace engine

@@ -38,8 +38,40 @@ struct Law {
   double depth;  // [m]
   std::vector<std::string> may_warn;
 };
-const Law kLaws[] = {{"default_auto", 2e-3, {}},
-                     {"persons_yield", 0.25, {"more than its thickness", "from the other side", "the neck of"}}};
+// Cars that touch by their mirrors and part have no impulse of Kudlich and Slibar's: that is told, and right.
+const Law kLaws[] = {
+    {"default_auto", 2e-3, {"parted before kudlich_slibar"}},
+    {"persons_yield", 0.25, {"parted before kudlich_slibar", "more than its thickness", "from the other side", "the neck of"}}};
+
+/// The most of all accidents seen.
+struct Seen {
+  double unexplained = 0, depth = 0, crush = 0, gap = 0, residual = 0, angle = 0;
+};
+
+void expect_right(unsigned seed, const Law& law, Seen& seen) {
+  const scenes::testing::SceneFolder folder;
+  const scenes::Scene scene = folder.load(accident(seed, law.name));
+  const engine::Recording it = engine::simulate(scene.model);
+  ASSERT_FALSE(it.failure) << seed << ": " << it.failure->message << "\n" << accident(seed, law.name);
+  const auto& d = it.diagnostics;
+  const double share = std::abs(it.snapshots.back().energies.residual) / (1e4 + energy(it.snapshots.front()));
+  const std::string which = fmt::format("accident {}:\n{}", seed, accident(seed, law.name));
+  for (const std::string& warning : d.warnings)
+    EXPECT_TRUE(std::any_of(law.may_warn.begin(), law.may_warn.end(),
+                            [&warning](const std::string& may) { return warning.find(may) != std::string::npos; }))
+        << which << warning;
+  EXPECT_LT(share, 1e-3) << which;  // as of the crushed child; at a walk 10 J of what the limbs themselves carry
+  EXPECT_LT(deepest(it, false), law.depth) << which;
+  EXPECT_LT(d.max_joint_gap, 1e-9) << which;                  // a thousand times what rounding leaves
+  EXPECT_LT(degrees(d.max_joint_angle_error), 0.5) << which;  // as asked of a struck person
+  EXPECT_LT(d.max_solver_residual, 2e-5) << which;            // twice the tolerance, above which a step is taken again
+  seen.unexplained = std::max(seen.unexplained, share);
+  seen.depth = std::max(seen.depth, deepest(it, false));
+  seen.crush = std::max(seen.crush, deepest(it, true));
+  seen.gap = std::max(seen.gap, d.max_joint_gap);
+  seen.angle = std::max(seen.angle, degrees(d.max_joint_angle_error));
+  seen.residual = std::max(seen.residual, d.max_solver_residual);
+}
 
 class RandomAccidents : public testing::TestWithParam<std::tuple<int, Law>> {};
 INSTANTIATE_TEST_SUITE_P(Group, RandomAccidents, testing::Combine(testing::Range(0, kGroups), testing::ValuesIn(kLaws)),
@@ -50,54 +82,34 @@ TEST_P(RandomAccidents, SayThatTheyAreRight) {
   const char* many = std::getenv("CRASHREEL_ACCIDENTS");
   const char* alone = std::getenv("CRASHREEL_ACCIDENT");
   const int in_group = many ? (std::atoi(many) + kGroups - 1) / kGroups : kInGroup;
-  double unexplained = 0, depth = 0, crush = 0, gap = 0, residual = 0, angle = 0;
+  Seen seen;
   for (int k = 0; k < in_group; ++k) {
     const auto seed = static_cast<unsigned>(k * kGroups + group);
-    if (alone && static_cast<int>(seed) != std::atoi(alone)) continue;
-    const scenes::testing::SceneFolder folder;
-    const scenes::Scene scene = folder.load(accident(seed, law.name));
-    const engine::Recording it = engine::simulate(scene.model);
-    ASSERT_FALSE(it.failure) << seed << ": " << it.failure->message << "\n" << accident(seed, law.name);
-    const auto& d = it.diagnostics;
-    const double share = std::abs(it.snapshots.back().energies.residual) / (1e4 + energy(it.snapshots.front()));
-    const std::string which = fmt::format("accident {}:\n{}", seed, accident(seed, law.name));
-    for (const std::string& warning : d.warnings)
-      EXPECT_TRUE(std::any_of(law.may_warn.begin(), law.may_warn.end(),
-                              [&warning](const std::string& may) { return warning.find(may) != std::string::npos; }))
-          << which << warning;
-    EXPECT_LT(share, 1e-3) << which;  // as of the crushed child; at a walk 10 J of what the limbs themselves carry
-    EXPECT_LT(deepest(it, false), law.depth) << which;
-    EXPECT_LT(d.max_joint_gap, 1e-9) << which;                  // a thousand times what rounding leaves
-    EXPECT_LT(degrees(d.max_joint_angle_error), 0.5) << which;  // as asked of a struck person
-    EXPECT_LT(d.max_solver_residual, 2e-5) << which;            // twice the tolerance, above which a step is taken again
-    unexplained = std::max(unexplained, share);
-    depth = std::max(depth, deepest(it, false));
-    crush = std::max(crush, deepest(it, true));
-    gap = std::max(gap, d.max_joint_gap);
-    angle = std::max(angle, degrees(d.max_joint_angle_error));
-    residual = std::max(residual, d.max_solver_residual);
+    if (!alone || static_cast<int>(seed) == std::atoi(alone)) expect_right(seed, law, seen);
   }
   row("random accidents", fmt::format("{} of group {}, {}", in_group, group, law.name),
       "%.4f %% of the energy unexplained, penetration %.2f mm (of vehicles %.0f), drift %.1e m, limits %.2f deg, residual %.1e m/s",
-      100 * unexplained, 1e3 * depth, 1e3 * crush, gap, angle, residual);
+      100 * seen.unexplained, 1e3 * seen.depth, 1e3 * seen.crush, seen.gap, seen.angle, seen.residual);
 }
 
-// One that goes beyond the bounds above: a limb comes under a tyre from the side, at a slope of five to one. Seen a step's way
-// inside, it charges the wheel's spring with what nothing has given.
+// Found among 10,000, each of a kind of its own: sweeps that did not push a wedged foot out, a car lifted by pushes that no book
+// had, a pinched leg displaced by so much that 1.7 kJ were lost, a tyre that found itself on a limb with 18 kJ in its spring.
+TEST(RandomAccident, HoldsWhereItOnceDidNot) {
+  Seen seen;
+  for (const unsigned seed : {955u, 3977u, 4120u, 5976u}) expect_right(seed, kLaws[0], seen);
+}
+
+// One that goes beyond the bounds above: a head between two cars, pressed in further than a trunk is deep.
 TEST(RandomAccident, SaysWhereItFallsShort) {
-  constexpr unsigned kSeed = 194;
-  constexpr const Law& kLaw = kLaws[1];
+  constexpr unsigned kSeed = 184;
+  const Law& law = kLaws[1];
   const scenes::testing::SceneFolder folder;
-  const engine::Recording it = engine::simulate(folder.load(accident(kSeed, kLaw.name)).model);
-  const auto& d = it.diagnostics;
-  const auto told = [&](const char* words) {
-    return std::any_of(d.warnings.begin(), d.warnings.end(),
-                       [&](const std::string& w) { return w.find(words) != std::string::npos; });
-  };
-  EXPECT_TRUE(told("has none to give")) << "it holds by now: take another that does not";
-  EXPECT_EQ(told("deg beyond its range"), degrees(d.max_joint_angle_error) > 0.5);
-  EXPECT_EQ(told("were solved to"), d.max_solver_residual > 1e-3);
-  EXPECT_TRUE(told("mm inside") || deepest(it, false) < kLaw.depth);  // snapshots do not see every step
+  const engine::Recording it = engine::simulate(folder.load(accident(kSeed, law.name)).model);
+  EXPECT_GT(deepest(it, false), law.depth) << "it holds by now: take another that does not";
+  const auto& warnings = it.diagnostics.warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& w) {
+    return w.find("one/head") != std::string::npos && w.find("from the other side") != std::string::npos;
+  }));
 }
 
 }  // namespace
