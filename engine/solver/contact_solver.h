@@ -49,6 +49,7 @@ class ContactSolver {
   double sweep(std::vector<Constraint>&, const std::vector<int>& members);
   void iterate(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, int sweeps, SolveReport&);
   void begin(std::vector<Constraint>&, const std::vector<int>& members, const std::vector<Vec3>& impulses);
+  bool push_who_must(std::vector<Constraint>&, const std::vector<int>& members, const std::vector<double>& wanted, double tight);
   void solve_smoothed(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, SolveReport&);
   void note_best(const std::vector<Constraint>&, const std::vector<int>& members);
   struct Miss {
@@ -62,7 +63,7 @@ class ContactSolver {
   void newton(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, Care, SolveReport&);
   bool newton_step(std::vector<Constraint>&, const std::vector<int>& members, bool again);
   bool factor_linearised(const std::vector<Constraint>&, const std::vector<int>& members);
-  void follow_smoothing(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, SolveReport&);
+  void follow_smoothing(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, double sharper, SolveReport&);
   bool smoothed_step(std::vector<Constraint>&, const std::vector<int>& members, double eps);
   void keep(const std::vector<Constraint>&, const std::vector<int>& members);
   void go_back(std::vector<Constraint>&, const std::vector<int>& members);

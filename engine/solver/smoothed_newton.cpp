@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kMostSmoothing = 10;     // [m/s]
 constexpr double kLeastSmoothing = 1e-9;  // [m/s]
-constexpr double kSharper = 0.8;          // [-] from step to step
 
 /// What is left [m/s] of a condition, and how it follows the velocity there and its own impulse.
 struct Smoothed {
@@ -166,14 +165,14 @@ bool ContactSolver::smoothed_step(std::vector<Constraint>& all, const std::vecto
   return true;
 }
 
-/// Full steps, each with sharper conditions than the last; the best of them is kept. A search along the steps, or waiting until one
-/// smoothing is solved, finds fewer solutions: it comes to rest where a wheel's law has a kink.
+/// Full steps, each with sharper conditions than the last, by the factor `sharper`; the best of them is kept. A search along the
+/// steps, or waiting until one smoothing is solved, finds fewer solutions: it comes to rest where a wheel's law has a kink.
 void ContactSolver::follow_smoothing(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance,
-                                     SolveReport& report) {
+                                     double sharper, SolveReport& report) {
   report.residual = residual(all, members);
   keep(all, members);
   double best = report.residual;
-  for (double eps = std::min(report.residual, kMostSmoothing); eps > kLeastSmoothing && best > tolerance; eps *= kSharper) {
+  for (double eps = std::min(report.residual, kMostSmoothing); eps > kLeastSmoothing && best > tolerance; eps *= sharper) {
     if (!smoothed_step(all, members, eps)) break;
     ++report.newton_steps;
     report.residual = residual(all, members);
