@@ -37,6 +37,28 @@ TEST_P(PressedHand, GainsNoEnergy) {
   }
 }
 
+// Rigid both, the box off the middle of the hand: it comes down on the road by its edge, and lies on four points of the hand and
+// two of the road. Patches have more points than the bodies have freedoms, at a mass ratio of 3000.
+TEST_P(PressedHand, HoldsABoxThatLeansOnIt) {
+  for (const char* exponent : {"8", "16", "30"})
+    for (const char* place : {"0.05 0.02 0.44 m", "0.3 0.02 0.44 m"}) {
+      const Outcome it = run("pressed_hand", {GetParam(), "stepping"},
+                             {"simulation.contact_law=default_auto", "simulation.duration=0.6 s",
+                              std::string("body.hand.exponent=") + exponent, std::string("body.box.position=") + place});
+      const auto& d = it.diagnostics();
+      double force = 0;
+      for (const engine::ContactRecord& c : it.recording.snapshots.back().contacts)
+        if (c.body_b < 0) force += c.normal.z() * c.normal_force;
+      const double carried = force / (1500.5 * engine::kGravity);
+      row("box leaning on a hand", it, "n = %s, at %s: penetration %.3f mm, N/mg %.4f, residual %.1e m/s, %.1e J unexplained",
+          exponent, place, 1e3 * d.max_penetration, carried, d.max_solver_residual, d.max_unexplained);
+      EXPECT_LT(d.max_penetration, 2e-3);
+      EXPECT_NEAR(carried, 1, 0.02);
+      EXPECT_LT(d.max_solver_residual, 2e-5);
+      EXPECT_LT(d.max_unexplained, 1e-4 * d.energy_turned_over);
+    }
+}
+
 class HeapOfPersons : public testing::TestWithParam<Setting> {};
 INSTANTIATE_TEST_SUITE_P(At, HeapOfPersons, testing::Values(Setting{"2 ms", "stepping"}, Setting{"1 ms", "stepping"}));
 
