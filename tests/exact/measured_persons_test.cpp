@@ -195,7 +195,8 @@ void Measured::goes_through_what_its_name_says() const {
     EXPECT_LT(mount->value, 2 * 8 / 3.6) << "what a car strikes leaves it no faster than at twice its speed";
   } else if (name == "run_over") {
     const Pose& bus = run_.snapshots.back().bodies[scene_.model.vehicles[0].body].X_WB;
-    EXPECT_LT((bus.q.conjugate() * (centre(run_.snapshots.back()) - bus.p)).x(), 2.0) << "a third of the bus has gone over the child";
+    EXPECT_LT((bus.q.conjugate() * (centre(run_.snapshots.back()) - bus.p)).x(), 2.0)
+        << "a third of the bus has gone over the child";
     ASSERT_TRUE(value("passed_over_s"));
     EXPECT_GE(*value("passed_over_s"), value("landing_s").value_or(*hit_));
   } else {
