@@ -204,11 +204,15 @@ class Tyres final : public EffectWith<TyresMemory> {
     memory(state).struts.resize(state.wheels.size());
   }
 
+  void before_step(World&, State& state, double) override { note_start(state); }
+
+  /// Every attempt at a step looks alike at its start, as far as the step before it took the wheels: what an attempt saw is
+  /// forgotten.
   void find(StepContext& step) override {
     World& world = step.world;
     State& state = step.state;
     begin_again(state);
-    const Outlook outlook{world, state, state, step.length};
+    const Outlook outlook{world, state, state, state.pace.last};
     book_springs(state, stand(outlook, state.wheels, memory(state).struts));
     for (std::size_t i = 0; i < footings_.size(); ++i) {
       WheelState& wheel = state.wheels[i];
@@ -246,16 +250,16 @@ class Tyres final : public EffectWith<TyresMemory> {
   }
 
  private:
-  /// A step that is taken again, shorter, finds its wheels where the one before it left them: what a longer look saw is forgotten.
+  void note_start(State& state) {
+    at_start_.clear();
+    for (const WheelState& wheel : state.wheels) at_start_.emplace_back(wheel.compression, wheel.lift);
+    struts_at_start_ = memory(state).struts;
+  }
+
   void begin_again(State& state) {
-    if (state.time == begun_) {
-      state.wheels = at_start_;
-      memory(state).struts = struts_at_start_;
-    } else {
-      begun_ = state.time;
-      at_start_ = state.wheels;
-      struts_at_start_ = memory(state).struts;
-    }
+    if (at_start_.size() != state.wheels.size()) note_start(state);  // the look of a run that begins
+    for (std::size_t i = 0; i < at_start_.size(); ++i) std::tie(state.wheels[i].compression, state.wheels[i].lift) = at_start_[i];
+    memory(state).struts = struts_at_start_;
   }
 
   /// Where the wheels stand, to `wheels`, and what they stand on; returns what their springs hold [J].
@@ -297,9 +301,9 @@ class Tyres final : public EffectWith<TyresMemory> {
     state.energy.springs = energy;
   }
 
-  double begun_ = -1;  // [s] when the step began that is taken
-  double stored_ = 0;  // [J] at its end
-  std::vector<WheelState> at_start_, at_end_;
+  double stored_ = 0;                                // [J] at its end
+  std::vector<std::pair<double, double>> at_start_;  // [m] compression and lift where the step begins
+  std::vector<WheelState> at_end_;
   std::vector<StrutMemory> struts_at_start_, struts_at_end_;
   std::vector<Footing> footings_;  // of the step at hand; room is kept from step to step
 };

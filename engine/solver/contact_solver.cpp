@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/solver/one_contact.h"
 
@@ -103,7 +102,8 @@ ContactSolver::Miss ContactSolver::largest_miss(const std::vector<Constraint>& a
   for (int i = 0; i < static_cast<int>(members.size()); ++i) {
     const Constraint& c = all[members[i]];
     const double r = natural_residual(c, velocity(i, c.rows), own_[i]);
-    if (!(r <= largest.residual)) largest = {r, members[i]};  // what is not a number stays visible
+    if (!(r <= largest.residual)) largest = {r, members[i]};
+    if (!std::isfinite(r)) break;  // what is not a number stays visible
   }
   return largest;
 }
@@ -196,19 +196,18 @@ void ContactSolver::note_best(const std::vector<Constraint>& all, const std::vec
   for (const int m : members) L_best_.push_back(all[m].impulse);
 }
 
-/// For an island that goes round in circles: from nothing, then from the impulses of the last step. Sweeps follow, which leave what
-/// is open without the rest of an impulse. The best of all is taken.
+/// For an island that goes round in circles: from nothing, then from the impulses it began with, if any. The best of all is taken.
 void ContactSolver::solve_smoothed(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance,
                                    SolveReport& report) {
-  double best = std::numeric_limits<double>::infinity();
+  double best = report.residual;
+  note_best(all, members);
   const auto note_if_best = [&] {
     if (report.residual < best) best = report.residual, note_best(all, members);
   };
-  note_if_best();
   L_nothing_.assign(members.size(), Vec3::Zero());
   for (const double sharper : kSharper)
     for (const std::vector<Vec3>* from : {&L_nothing_, &L_start_}) {
-      if (best <= tolerance) continue;
+      if (best <= tolerance || (from == &L_start_ && L_start_ == L_nothing_)) continue;
       begin(all, members, *from);
       follow_smoothing(all, members, tolerance, sharper, report);
       note_if_best();
@@ -236,16 +235,17 @@ SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector
   return report;
 }
 
-/// The same, begun where sweeps creep, as at a foot between a car, the road and its own stop: the pushes of those that must be
-/// pushed solved at once; who would be pulled leaves them, who is in too deep joins. False, and nothing changed, where that comes
-/// to no end.
+/// push_apart where sweeps creep, as at a foot between a car, the road and its own stop. From whom they push: those pushes are
+/// solved at once, who would be pulled leaves, who is in too deep joins. False, and nothing changed, where that comes to no end.
 bool ContactSolver::push_who_must(std::vector<Constraint>& all, const std::vector<int>& members, const std::vector<double>& wanted,
                                   double tight) {
   constexpr int kMost = 30;
   constexpr double kRegular = 1e-10;  // [-] of a row's own response, where several hold the same
-  constexpr double kLargest = 1e6;    // [-] times what its own row would need: what nothing can lift
+  constexpr double kJoins = 1e-9;     // [-] of the most wanted: more than that leaves
+  constexpr double kLargest = 1e5;    // [-] times what the most wanted would need by itself: what nothing can lift
   const int count = static_cast<int>(members.size());
-  const double most = kLargest * *std::max_element(wanted.begin(), wanted.end());
+  const double most_wanted = *std::max_element(wanted.begin(), wanted.end());
+  const double most = kLargest * most_wanted, joins = std::max(tight, kJoins * most_wanted);
   std::vector<int>& pushed = unknown_;
   pushed.clear();
   for (int i = 0; i < count; ++i)
@@ -277,7 +277,7 @@ bool ContactSolver::push_who_must(std::vector<Constraint>& all, const std::vecto
       if (!std::isfinite(wanted[i])) continue;
       double moved = 0;
       for (int j = 0; j < count; ++j) moved += G(offset_[i], offset_[j]) * L_[j];
-      if (wanted[i] - moved > tight) settled = false, pushed.push_back(i);
+      if (wanted[i] - moved > joins) settled = false, pushed.push_back(i);
     }
     if (!settled) continue;
     for (int i = 0; i < count; ++i) all[members[i]].push = L_[i];

@@ -14,7 +14,7 @@ namespace engine {
 namespace {
 
 constexpr double kMostSmoothing = 10;     // [m/s]
-constexpr double kLeastSmoothing = 1e-9;  // [m/s]
+constexpr double kLeastSmoothing = 1e-4;  // [-] of the tolerance
 
 /// What is left [m/s] of a condition, and how it follows the velocity there and its own impulse.
 struct Smoothed {
@@ -172,7 +172,8 @@ void ContactSolver::follow_smoothing(std::vector<Constraint>& all, const std::ve
   report.residual = residual(all, members);
   keep(all, members);
   double best = report.residual;
-  for (double eps = std::min(report.residual, kMostSmoothing); eps > kLeastSmoothing && best > tolerance; eps *= sharper) {
+  for (double eps = std::min(report.residual, kMostSmoothing); eps > kLeastSmoothing * tolerance && best > tolerance;
+       eps *= sharper) {
     if (!smoothed_step(all, members, eps)) break;
     ++report.newton_steps;
     report.residual = residual(all, members);
@@ -180,7 +181,16 @@ void ContactSolver::follow_smoothing(std::vector<Constraint>& all, const std::ve
     if (report.residual < best) best = report.residual, keep(all, members);
   }
   go_back(all, members);
-  report.residual = best;
+  // smoothed conditions are held a little beyond the cones: who is open has no impulse at all
+  for (int i = 0; i < static_cast<int>(members.size()); ++i) {
+    Constraint& c = all[members[i]];
+    Vec3 within = c.impulse;
+    if (c.kind == ConstraintKind::contact) within = project_to_cone(within, c.surface.friction);
+    if (c.kind != ConstraintKind::bilateral) within[0] = std::max(0.0, within[0]);
+    add_to_velocity(i, c.rows, within - c.impulse);
+    c.impulse = within;
+  }
+  report.residual = residual(all, members);
 }
 
 }  // namespace engine

@@ -60,14 +60,47 @@ void note_rises(StepContext& s) {
   }
 }
 
+/// What [J] no condition explains of the step's impulses.
+double unexplained(StepContext& s) {
+  double left = 0;
+  for (const int tree : s.world.active_trees)
+    for (int l = s.world.topology.trees[tree].begin; l < s.world.topology.trees[tree].end; ++l)
+      left += change_since(s, l, s.buffers.smooth);
+  for (std::size_t i = 0; i < s.constraints.size(); ++i) left -= work_of(s, i);
+  return left;
+}
+
+/// The most [J] that the hard contacts and stops of one effect gave which has none to give.
+double largest_gift(StepContext& s) {
+  std::vector<double>& given = s.buffers.given;
+  given.assign(s.world.effects.size(), 0);
+  for (std::size_t i = 0; i < s.constraints.size(); ++i)
+    if (const Constraint& c = s.constraints[i]; is_hard(c) && !s.world.gives[c.effect]) given[c.effect] += work_of(s, i);
+  return *std::max_element(given.begin(), given.end());
+}
+
+/// What [J] the wheels' springs hold more than was done to press them.
+double stored_unearned(StepContext& s) {
+  double stored = -s.buffers.stored_before;
+  for (const std::size_t e : s.world.taking_part(Hook::stored)) {
+    const Meter::Span span(s.world.meter, e);
+    stored += s.world.effects[e]->stored(s);
+  }
+  for (const Constraint& c : s.constraints)
+    if (c.kind == ConstraintKind::wheel) stored += c.impulse[0] * 0.5 * (c.u.smooth[0] + c.u.after[0]);
+  return stored;
+}
+
 }  // namespace
 
 void note_pull(StepContext& s) {
+  s.buffers.pull.assign(s.constraints.size(), Vec3::Zero());
+  if (s.constraints.empty()) return;
   const World& world = s.world;
   const Vec3& gravity = world.model.settings.gravity;
   for (const int tree : world.active_trees) {
     const Topology::Tree& range = world.topology.trees[tree];
-    const bool falls = world.topology.links[range.begin].joint < 0;  // all its bodies alike
+    const bool falls = world.topology.links[range.end - 1].joint < 0;  // its root is free: all its bodies alike
     for (int l = range.begin; l < range.end; ++l) {
       const int b = world.topology.links[l].body;
       s.buffers.force[b] << world.model.bodies[b].mass * gravity, Vec3::Zero();
@@ -75,7 +108,6 @@ void note_pull(StepContext& s) {
     }
     if (!falls) s.world.impulse.solve(world.topology, tree, s.buffers.force, s.buffers.result, Articulation::Bias::zero);
   }
-  s.buffers.pull.assign(s.constraints.size(), Vec3::Zero());
   for (std::size_t i = 0; i < s.constraints.size(); ++i) {
     const Constraint& c = s.constraints[i];
     for (int r = 0; r < c.rows; ++r) {
@@ -112,7 +144,7 @@ void note_gains(StepContext& s) {
     log.gain = {gain, s.state.time, -1, -1};
     log.gained_by = static_cast<int>(e);
     double most = 0;
-    for (std::size_t i = 0; s.impulses && i < s.constraints.size(); ++i)
+    for (std::size_t i = 0; s.impulses && i < s.buffers.pull.size(); ++i)
       if (const Constraint& c = s.constraints[i]; c.effect == static_cast<int>(e) && work_of(s, i) > most) {
         most = work_of(s, i);
         log.gain.body_a = c.a.record, log.gain.body_b = c.b.record;
@@ -120,24 +152,9 @@ void note_gains(StepContext& s) {
   }
 }
 
-double unexplained(StepContext& s) {
-  double left = 0;
-  for (const int tree : s.world.active_trees)
-    for (int l = s.world.topology.trees[tree].begin; l < s.world.topology.trees[tree].end; ++l)
-      left += change_since(s, l, s.buffers.smooth);
-  for (std::size_t i = 0; i < s.constraints.size(); ++i) left -= work_of(s, i);
-  return left;
-}
-
-double stored_unearned(StepContext& s) {
-  double stored = -s.buffers.stored_before;
-  for (const std::size_t e : s.world.taking_part(Hook::stored)) {
-    const Meter::Span span(s.world.meter, e);
-    stored += s.world.effects[e]->stored(s);
-  }
-  for (const Constraint& c : s.constraints)
-    if (c.kind == ConstraintKind::wheel) stored += c.impulse[0] * 0.5 * (c.u.smooth[0] + c.u.after[0]);
-  return stored;
+double mislaid(StepContext& s) {
+  const double unearned = stored_unearned(s);
+  return s.impulses ? std::max({std::abs(unexplained(s)), largest_gift(s), unearned}) : unearned;
 }
 
 double largest_rise(StepContext& s) {

@@ -20,12 +20,12 @@ void note_gains(StepContext&);
 /// any it is the work of the rigid contacts and stops that counts.
 double largest_rise(StepContext&);
 
-/// What [J] the impulses of the step changed the mechanical energy by beyond the work of conditions and resistance: they act where
-/// the step begins, and a pinched limb is displaced by so much that they would act otherwise where it ends.
-double unexplained(StepContext&);
-
-/// What [J] the wheels' springs hold more at the end of the step than was done to press them. A tyre that finds itself on a limb
-/// that came from the side is pressed in by nothing.
-double stored_unearned(StepContext&);
+/// The most [J] that the books of a step are off by:
+/// - what its impulses changed the mechanical energy by beyond the work of conditions and resistance. They act where the step
+///   begins, and a pinched limb is displaced by so much that they would act otherwise where it ends;
+/// - what the hard contacts and stops of one effect gave that has none to give, though others took it;
+/// - what the wheels' springs hold more at its end than was done to press them. A tyre that finds itself on a limb that came from
+///   the side is pressed in by nothing.
+double mislaid(StepContext&);
 
 }  // namespace engine

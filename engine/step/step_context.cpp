@@ -26,7 +26,7 @@ StepBuffers::StepBuffers(const World& world) {
   for (auto* list : {&weight, &allowed, &targets}) list->reserve(kRoom);
   pull.reserve(kRoom);
   members.reserve(kRoom);
-  dissipated_before.reserve(world.effects.size());
+  for (auto* list : {&dissipated_before, &given}) list->reserve(world.effects.size());
 }
 
 StepContext::StepContext(World& w, State& s, StepBuffers& b, double h)

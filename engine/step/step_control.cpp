@@ -227,10 +227,9 @@ bool StepControl::locates_events() const {
 Verdict StepControl::judge_end(StepContext& s) {
   const int lost = lost_body(world_, s.end);
   const bool gained = s.impulses && lost < 0 && may_halve_ && largest_rise(s) > kMayRise;
-  const bool mislaid = s.impulses && lost < 0 && may_halve_ && std::abs(unexplained(s)) > kMayMislay;
-  const bool unearned = lost < 0 && stored_unearned(s) > kMayMislay && may_halve_;
+  const bool off_the_books = lost < 0 && mislaid(s) > kMayMislay;  // asked of every end: effects book what they see there
   const bool unsolved = s.residual > kUnsolved * settings_.solver_tolerance;
-  if (may_halve_ && (lost >= 0 || gained || mislaid || unearned || unsolved ||
+  if (may_halve_ && (lost >= 0 || gained || off_the_books || unsolved ||
                      !acceptable(state_.contacts.list, s.buffers.end_contacts, depth_tolerance_)))
     return {Verdict::Kind::again, 0.5 * s.length};
   if (lost < 0) {

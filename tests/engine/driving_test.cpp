@@ -195,6 +195,17 @@ TEST(Braking, ByTheLoadsReachesTheLimitOfAllWheelsTogetherWhateverTheCar) {
   }
 }
 
+TEST(Braking, FromTheStartActsInTheFirstStep) {
+  Model model = on_ground(2e-3);
+  model.settings.step = model.settings.record_interval = 1e-3;
+  add_reference_car(model, 0, 25);
+  model.vehicles[0].brake_balance = BrakeBalance::loads;
+  model.vehicles[0].sequence = {braking(0, 0.3 * 1495.95 * kGravity)};
+  const Recording run = simulate(model);
+  const double start = run.snapshots[0].bodies[0].V_WB.v.x(), first = run.at(1e-3).bodies[0].V_WB.v.x();
+  EXPECT_NEAR(start - first, 0.3e-3 * kGravity, 1e-2 * 0.3e-3 * kGravity);
+}
+
 TEST(Braking, OfACarThatSlidesAskewIsWhatOpposesItsWay) {
   // A wheel is locked while the brake bears what lies along it of the friction that opposes the slip; a weaker brake gives what it
   // can, and the rest of the friction circle acts sideways. The two meet where the brake is just strong enough.

@@ -92,6 +92,7 @@ TEST(EnergyWatch, NamesTheEffectAndBodiesOfAGiftInAStep) {
   step.constraints = {c};
   step.impulses = true;
   buffers.weight = {0.5};
+  buffers.pull = {Vec3::Zero()};
   book(step);
   note_gains(step);
   EXPECT_NEAR(w.world.log.gain.amount, 4, 1e-12);  // L (u_before + u_after) / 2
