@@ -52,7 +52,6 @@ struct StepBuffers {
   std::vector<Vec3> pull;                 // [m/s] per condition: along its rows by gravity over the step
   std::vector<double> dissipated_before;  // [J] per effect, when the step began
   std::vector<double> given;              // [J] per effect, by its hard conditions
-  double stored_before = 0;               // [J] in springs of effects, when the step began
   std::vector<double> allowed;            // [m] per condition of an island: what its position may still need
   std::vector<int> members;               // that exchange impulses at an instant
   std::vector<double> targets;            // of those

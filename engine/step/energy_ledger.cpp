@@ -79,9 +79,10 @@ double largest_gift(StepContext& s) {
   return *std::max_element(given.begin(), given.end());
 }
 
-/// What [J] the wheels' springs hold more than was done to press them.
+/// What [J] the wheels' springs hold more than was done to press them. At the start they were looked at as at the end of the step
+/// before: what has moved since, a mount with its rider or a wheel that steers, is not of this step.
 double stored_unearned(StepContext& s) {
-  double stored = -s.buffers.stored_before;
+  double stored = -s.state.energy.springs;
   for (const std::size_t e : s.world.taking_part(Hook::stored)) {
     const Meter::Span span(s.world.meter, e);
     stored += s.world.effects[e]->stored(s);

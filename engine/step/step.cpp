@@ -26,7 +26,6 @@ Stepper::Stepper(World& world, OnImpulses on_impulses)
 
 double Stepper::advance(State& state, double most) {
   buffers_.dissipated_before = state.energy.dissipated;
-  buffers_.stored_before = state.energy.springs;
   choose_trees(world_, state);
   motion_.smooth.recall(state.pace.swing_rate, state.pace.swinging_body);
   StepControl control(world_, state, most, motion_.smooth.fastest_swing());
