@@ -54,10 +54,10 @@ double weight_of_wheel(const Constraint& c) {
   return followed ? 0.5 : 1;
 }
 
-/// A wheel that stands on somebody who yields. There all impulses of the island displace by their whole: a limb that the wheel
-/// displaces by its whole and the road by half sinks by half of what the wheel gives it in a step.
-bool stands_on_what_yields(const Constraint& c, const Model& model) {
-  return c.kind == ConstraintKind::wheel && c.b.body >= 0 && yields_between(model, c.b.record, -1);
+/// A wheel that stands on a body. There all impulses of the island displace by their whole: a limb that the wheel displaces by its
+/// whole and the road by half sinks by half of what the wheel gives it in a step.
+bool stands_on_body(const Constraint& c) {
+  return c.kind == ConstraintKind::wheel && c.b.body >= 0;
 }
 
 /// Pressed in, or beyond its stop.
@@ -185,8 +185,7 @@ void formulate(StepContext& s) {
   islands.by_whole.assign(islands.members.size(), 0);
   for (const int k : islands.roots) {
     const std::vector<int>& island = islands.members[k];
-    const bool stands =
-        std::any_of(island.begin(), island.end(), [&](int i) { return stands_on_what_yields(s.constraints[i], s.world.model); });
+    const bool stands = std::any_of(island.begin(), island.end(), [&](int i) { return stands_on_body(s.constraints[i]); });
     formulate_island(s, island, stands);
     islands.by_whole[k] = stands || squeezes_by_unequal_shares(s, island);
     if (islands.by_whole[k] && !stands) formulate_island(s, island, true);
