@@ -10,18 +10,24 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "engine/math/roots.h"
 
 namespace engine {
 namespace {
 
-/// Half the chord [m] of the part through `p`, inside it, along unit `direction`.
+/// Half the chord [m] of the part through `p`, inside it, along unit `direction`. The gauge is convex: from outside Newton closes
+/// in from one side.
 double half_chord(const HyperEllipsoid& part, const Vec3& p, const Vec3& direction) {
-  constexpr int kHalvings = 20;  // a millionth of the part's length
+  constexpr int kSteps = 30;
+  const double far = 2 * part.semi_axes.norm();
   const auto way = [&](double sense) {
-    const auto is_inside = [&](double s) { return gauge(part, p + sense * s * direction) < 1; };
-    return math::bisect({0, 2 * part.semi_axes.norm()}, kHalvings, 0, is_inside).high;
+    const auto beyond = [&](double s) {
+      const Vec3 x = p + sense * s * direction, gradient = gauge_gradient(part, x);
+      return std::pair(gradient.dot(x) - 1, sense * gradient.dot(direction));  // the gauge grows with the distance: Euler
+    };
+    return math::newton({0, far}, far, kSteps, 0, 1e-6 * far, beyond);
   };
   return (way(1) + way(-1)) / 2;
 }

@@ -149,12 +149,13 @@ void keep_reached_triangles(MeshTouch& s, double passed_by) {
     }
     return height - h > s.margin || height < -passed_by * h;
   });
-  if (scratch.seen.size() < s.mesh.triangles().size()) scratch.seen.resize(s.mesh.triangles().size(), 0);
+  if (scratch.seen.size() < s.mesh.triangles().size()) scratch.seen.resize(s.mesh.triangles().size());
   if (++scratch.call == 0) {  // after four thousand million calls
-    std::fill(scratch.seen.begin(), scratch.seen.end(), 0u);
+    std::fill(scratch.seen.begin(), scratch.seen.end(), MeshContactScratch::Seen{});
     scratch.call = 1;
   }
-  for (const int t : scratch.triangles) scratch.seen[static_cast<std::size_t>(t)] = scratch.call;
+  std::uint32_t place = 0;
+  for (const int t : scratch.triangles) scratch.seen[static_cast<std::size_t>(t)] = {scratch.call, place++};
 }
 
 void touch_edges(MeshTouch& s, int triangle) {
@@ -228,7 +229,8 @@ Sides sides_of(const HyperEllipsoid& shape, const Quat& q_WA, const ContactPoint
 void reserve(MeshContactScratch& scratch, const TriangleMesh& mesh) {
   const std::size_t count = mesh.triangles().size();
   scratch.triangles.reserve(count);
-  if (scratch.seen.size() < count) scratch.seen.resize(count, 0);
+  if (scratch.seen.size() < count) scratch.seen.resize(count);
+  scratch.points.reserve(count);
   scratch.vertices.reserve(6 * count);
   scratch.beyond.reserve(std::min<std::size_t>(3 * count, 4096));
   scratch.candidates.reserve(std::min<std::size_t>(4 * count, 4096));
@@ -248,10 +250,9 @@ void contacts_with_mesh(const HyperEllipsoid& shape, const Pose& X_WA, const Tri
   scratch.candidates.clear();
   scratch.vertices.clear();
   scratch.beyond.clear();
-  for (const int t : scratch.triangles) {
-    touch_face(s, t);
-    touch_edges(s, t);
-  }
+  scratch.points.clear();
+  for (const int t : scratch.triangles) touch_face(s, t);
+  for (const int t : scratch.triangles) touch_edges(s, t);
   touch_vertices(s);
   report(s, X_WA, X_WM.q, out);
 }

@@ -21,7 +21,12 @@ struct VertexTouch {
 /// Scratch of contacts_with_mesh, kept by the caller between steps (no allocation after warm-up).
 struct MeshContactScratch {
   std::vector<int> triangles;
-  std::vector<std::uint32_t> seen;  // per triangle: the call it was last near in
+  /// The call a triangle was last near in, and its place among `triangles` there.
+  struct Seen {
+    std::uint32_t call = 0, place = 0;
+  };
+  std::vector<Seen> seen;    // per triangle
+  std::vector<Vec3> points;  // [m] per near triangle of a round body: MeshTouch::points_against its face
   std::uint32_t call = 0;
   std::vector<SurfaceContact> candidates;
   std::vector<int> vertices;        // of a body with flat sides

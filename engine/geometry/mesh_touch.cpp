@@ -150,7 +150,9 @@ void touch_face(MeshTouch& s, int triangle) {
   const Vec3& n = s.mesh.face_normals()[triangle];
   const double offset = n.dot(s.vertex(s.mesh.triangles()[triangle][0]));
   std::uint32_t rank = kDeepest;  // first, then the corners
-  for (const Vec3& p : s.points_against(n)) {
+  const SmallVector<Vec3, 5>& points = s.points_against(n);
+  s.scratch.points.push_back(points[0]);
+  for (const Vec3& p : points) {
     const double gap = n.dot(p) - offset;
     if (gap < s.margin && gap >= s.least && inside(s, triangle, p - gap * n))
       s.scratch.candidates.push_back({p, p - gap * n, n, gap, rank});
@@ -166,25 +168,25 @@ void touch_edge_round(MeshTouch& s, int triangle, int edge) {
   const Vec3 along = s.mesh.vertices()[to] - s.mesh.vertices()[from];
   const Vec3& n = s.mesh.face_normals()[triangle];
   const Vec3 out = along.cross(n).normalized();  // in the face, across the edge
-  const double beyond_this = out.dot(s.points_against(n)[0] - start);
+  const Vec3 here = s.point_of_near(triangle);
+  const double beyond_this = out.dot(here - start);
   if (beyond_this <= 0) return;
-  // the cone: cos(angle) n + sin(angle) out, from this face to the other; of a border to the edge of the sheet
+  // the cone: cos(angle) n + sin(angle) out, from this face to the other; of a border to the edge of the sheet. Slope of the
+  // distance along it: where it is zero the point reached lies over the edge
   const int other = s.mesh.neighbour(triangle, edge);
-  const Vec3 n_far = other >= 0 ? s.mesh.face_normals()[other] : out;
-  const double widest = math::atan2(out.dot(n_far), n.dot(n_far));
-  // slope of the distance along the cone: where it is zero the point reached lies over the edge
-  Vec3 normal;
-  Vec3 point;
-  auto slope = [&](double angle) {
+  Vec3 normal = other >= 0 ? s.mesh.face_normals()[other] : out;
+  Vec3 point = other >= 0 && s.is_near(other) ? s.point_of_near(other) : reached(s, normal).point;
+  const double cosine = n.dot(normal), sine = out.dot(normal);
+  const double beyond_other = (cosine * out - sine * n).dot(point - start);
+  if (beyond_other >= 0) return;
+  const auto slope = [&](double angle) {
     const double c = math::cos(angle), sn = math::sin(angle);
     normal = c * n + sn * out;
     point = reached(s, normal).point;
     return (c * out - sn * n).dot(point - start);
   };
-  const double beyond_other = slope(widest);
-  if (beyond_other >= 0) return;
   math::illinois(
-      {0, widest}, -beyond_this, -beyond_other, 60, kTight, [&](double angle) { return -slope(angle); },
+      {0, math::atan2(sine, cosine)}, -beyond_this, -beyond_other, 60, kTight, [&](double angle) { return -slope(angle); },
       [](double f) { return std::abs(f) < kTight; });
   const double at = along.dot(point - start) / along.squaredNorm();
   const double gap = normal.dot(point - start);

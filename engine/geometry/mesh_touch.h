@@ -23,7 +23,8 @@ struct MeshTouch {
   Vec3 last_normal = Vec3::Zero();
 
   bool flat() const { return shape.exponent >= kFlatExponent; }
-  bool is_near(int triangle) const { return scratch.seen[static_cast<std::size_t>(triangle)] == scratch.call; }
+  bool is_near(int triangle) const { return scratch.seen[static_cast<std::size_t>(triangle)].call == scratch.call; }
+  const Vec3& point_of_near(int triangle) const { return scratch.points[scratch.seen[static_cast<std::size_t>(triangle)].place]; }
   Vec3 vertex(int v) const { return mesh.vertices()[static_cast<std::size_t>(v)] - X_MA.p; }
 
   /// The deepest point against a face of this normal and, of a body with flat sides, the corners of its side, of rank 1 to 4: those
@@ -37,7 +38,8 @@ inline Vec3 outward_of(int side) {
 }
 
 void touch_face(MeshTouch&, int triangle);
-/// Of a round body. Where the point reached projects beyond an end, that vertex is worth a look with the normal found.
+/// Of a round body, after the faces of all near triangles. Where the point reached projects beyond an end, that vertex is worth a
+/// look with the normal found.
 void touch_edge_round(MeshTouch&, int triangle, int edge);
 /// The normal whose support point lies over the vertex, from a guess: Newton on the distance, which is largest there.
 void touch_vertex_round(MeshTouch&, const VertexTouch& guess);

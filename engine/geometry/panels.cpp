@@ -59,22 +59,24 @@ bool is_glass(Panel panel) {
 }
 
 Panel panel_at(const TriangleMesh& mesh, const Panels& panels, const Vec3& point, const Vec3& normal) {
-  constexpr double kNear = 0.1;             // [m]
   constexpr double kFacing = 0.25;          // [-] a contact on an edge faces between its two sides
   constexpr std::size_t kTriangles = 4096;  // that near; no step allocates
   thread_local std::vector<int> near;
   near.reserve(kTriangles);
-  near.clear();
-  mesh.query({(point.array() - kNear).matrix(), (point.array() + kNear).matrix()}, near);
-  Panel best = Panel::unknown;
-  double least = kNear;
-  for (const int t : near) {
-    const auto i = static_cast<std::size_t>(t);
-    if (i >= panels.size() || mesh.face_normals()[i].dot(normal) < kFacing) continue;
-    const double d = distance_to(mesh, t, point);
-    if (d < least) least = d, best = panels[i];
+  for (const double reach : {1e-3, 0.1}) {  // [m] as a rule it lies on one of them
+    near.clear();
+    mesh.query({(point.array() - reach).matrix(), (point.array() + reach).matrix()}, near);
+    Panel best = Panel::unknown;
+    double least = reach;
+    for (const int t : near) {
+      const auto i = static_cast<std::size_t>(t);
+      if (i >= panels.size() || mesh.face_normals()[i].dot(normal) < kFacing) continue;
+      const double d = distance_to(mesh, t, point);
+      if (d < least) least = d, best = panels[i];
+    }
+    if (least < reach) return best;
   }
-  return best;
+  return Panel::unknown;
 }
 
 }  // namespace engine

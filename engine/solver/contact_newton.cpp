@@ -41,7 +41,7 @@ int ContactSolver::linearise(const std::vector<Constraint>& all, const std::vect
   unknown_.clear();
   rule_.clear();
   slips_.resize(members.size());
-  for (int i = 0; i < static_cast<int>(members.size()); ++i) {
+  for (const int i : *order_) {
     const Constraint& c = all[members[i]];
     const Mat3& A = own_[i];
     const Vec3 u = velocity(i, c.rows);

@@ -24,6 +24,7 @@ void ContactSolver::reserve(const Topology& topology, std::size_t constraints) {
   const std::size_t rows = whole_rows(3 * constraints);
   G_.reserve(rows * rows);
   newton_.reserve(rows);
+  elimination_.reserve(topology.trees.size(), constraints);
   for (std::vector<Row>* list : {&rule_, &factored_rule_}) list->reserve(rows);
   slips_.reserve(constraints);
   for (std::vector<Vec3>* list : {&L_start_, &L_nothing_, &L_best_}) list->reserve(constraints);
@@ -49,6 +50,7 @@ void ContactSolver::assemble(const Topology& topology, const Articulation& artic
   response_.compute(topology, articulation, all, members, offset_, stride_, G_);
   note_own_responses(all, members);
   soften_dead_centres(all, members);
+  order_ = &elimination_.find(topology, all, members);
 }
 
 void ContactSolver::note_own_responses(const std::vector<Constraint>& all, const std::vector<int>& members) {

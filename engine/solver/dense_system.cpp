@@ -16,6 +16,7 @@ void DenseSystem::resize(int n) {
   if (b_.size() < stride_) b_.resize(stride_);
   if (pivot_.size() < stride_) pivot_.resize(stride_);
   if (reach_.size() < stride_) reach_.resize(stride_);
+  if (runs_.size() < stride_) runs_.resize(stride_);
   for (std::size_t c = 0; c < n_; ++c) std::fill(A_.data() + c * stride_ + n_, A_.data() + (c + 1) * stride_, 0.0);
   std::fill(b_.data() + n_, b_.data() + stride_, 0.0);
   // unknowns nothing depends on, so that all panels are whole
@@ -41,6 +42,10 @@ constexpr Places kBelow[] = {{0, -1, -1, -1}, {0, 0, -1, -1}, {0, 0, 0, -1}};  /
 /// What is called from a function of two variants would be compiled for the plainest of them, unless it becomes a part of it.
 #define PART_OF_BOTH inline __attribute__((always_inline))
 
+struct Runs {
+  const RowRun *begin, *end;
+};
+
 struct Panel {
   double *p0, *p1, *p2, *p3;  // its columns
   std::size_t first, end;     // its rows, which are those of its columns
@@ -52,19 +57,34 @@ PART_OF_BOTH Panel panel_at(double* A, std::size_t n, std::size_t at) {
   return {p0, p0 + n, p0 + 2 * n, p0 + 3 * n, at, at + kPanel};
 }
 
-/// Of a band most is zero: rows beyond the panel's last are left alone, and so are columns its rows have no part in.
-PART_OF_BOTH std::size_t last_row(const Panel& panel, std::size_t n) {
-  std::size_t last = n;
-  for (; last > panel.end; last -= kPanel) {
+/// A large system is mostly zeros. Rows behind a panel in which its columns are zero are left alone, and so are columns its rows
+/// have no part in; a pivot that is nearly the largest stays where it is, for an exchange of rows fills what was zero.
+constexpr std::size_t kLarge = 96;
+constexpr double kNearlyLargest = 0.1;
+
+/// Where the rows behind a panel are that it has a part in. Of a system that is not large, all of them up to the last.
+PART_OF_BOTH Runs rows_behind(const Panel& panel, std::size_t n, RowRun* runs) {
+  const auto is_zero = [&](std::size_t at) __attribute__((always_inline)) {
     Places b0, b1, b2, b3;
-    std::memcpy(&b0, panel.p0 + last - kPanel, sizeof b0);
-    std::memcpy(&b1, panel.p1 + last - kPanel, sizeof b1);
-    std::memcpy(&b2, panel.p2 + last - kPanel, sizeof b2);
-    std::memcpy(&b3, panel.p3 + last - kPanel, sizeof b3);
+    std::memcpy(&b0, panel.p0 + at, sizeof b0);
+    std::memcpy(&b1, panel.p1 + at, sizeof b1);
+    std::memcpy(&b2, panel.p2 + at, sizeof b2);
+    std::memcpy(&b3, panel.p3 + at, sizeof b3);
     const Places any = (b0 | b1 | b2 | b3) & kNoSign;
-    if ((any[0] | any[1] | any[2] | any[3]) != 0) break;
+    return (any[0] | any[1] | any[2] | any[3]) == 0;
+  };
+  std::size_t last = n;
+  while (last > panel.end && is_zero(last - kPanel)) last -= kPanel;
+  RowRun* end = runs;
+  *end++ = {panel.end, last};
+  if (n < kLarge) return {runs, end};
+  for (std::size_t at = panel.end; at < last; at += kPanel) {
+    if (!is_zero(at)) continue;
+    end[-1].end = at;
+    while (is_zero(at + kPanel)) at += kPanel;
+    *end++ = {at + kPanel, last};
   }
-  return last;
+  return {runs, end};
 }
 
 struct Largest {
@@ -73,7 +93,7 @@ struct Largest {
 };
 
 /// Takes the multiples of the panel's columns before this one from it, and finds the first of its largest numbers below.
-PART_OF_BOTH Largest reduce(const Panel& panel, double* column, std::int64_t step, std::size_t last) {
+PART_OF_BOTH Largest reduce(const Panel& panel, double* column, std::int64_t step, const Runs& runs) {
   const auto [p0, p1, p2, p3, first, end] = panel;
   // of the columns from this one on nothing
   Places m0, m1, m2;
@@ -91,21 +111,22 @@ PART_OF_BOTH Largest reduce(const Panel& panel, double* column, std::int64_t ste
   std::memcpy(column + first, &h, sizeof h);
   // lane by lane
   Four largest = kLane < step ? Four{-1, -1, -1, -1} : reinterpret_cast<Four>(reinterpret_cast<Places>(h) & kNoSign);
-  Places here = kLane + static_cast<std::int64_t>(first), place = here;
-  for (std::size_t i = end; i < last; i += kPanel) {
-    Four x, q0, q1, q2;
-    std::memcpy(&x, column + i, sizeof x);
-    std::memcpy(&q0, p0 + i, sizeof q0);
-    std::memcpy(&q1, p1 + i, sizeof q1);
-    std::memcpy(&q2, p2 + i, sizeof q2);
-    x = x - q0 * f0 - q1 * f1 - q2 * f2;
-    std::memcpy(column + i, &x, sizeof x);
-    const Four size = reinterpret_cast<Four>(reinterpret_cast<Places>(x) & kNoSign);
-    here += static_cast<std::int64_t>(kPanel);
-    const auto larger = size > largest;
-    largest = larger ? size : largest;
-    place = larger ? here : place;
-  }
+  Places place = kLane + static_cast<std::int64_t>(first);
+  for (const RowRun* run = runs.begin; run != runs.end; ++run)
+    for (std::size_t i = run->begin; i < run->end; i += kPanel) {
+      Four x, q0, q1, q2;
+      std::memcpy(&x, column + i, sizeof x);
+      std::memcpy(&q0, p0 + i, sizeof q0);
+      std::memcpy(&q1, p1 + i, sizeof q1);
+      std::memcpy(&q2, p2 + i, sizeof q2);
+      x = x - q0 * f0 - q1 * f1 - q2 * f2;
+      std::memcpy(column + i, &x, sizeof x);
+      const Four size = reinterpret_cast<Four>(reinterpret_cast<Places>(x) & kNoSign);
+      const Places here = kLane + static_cast<std::int64_t>(i);
+      const auto larger = size > largest;
+      largest = larger ? size : largest;
+      place = larger ? here : place;
+    }
   Largest out{largest[0], place[0]};
   for (int lane = 1; lane < 4; ++lane)
     if (largest[lane] > out.size || (largest[lane] == out.size && place[lane] < out.row)) out = {largest[lane], place[lane]};
@@ -113,22 +134,23 @@ PART_OF_BOTH Largest reduce(const Panel& panel, double* column, std::int64_t ste
 }
 
 /// Makes the column below its pivot the multiples of the pivot's row.
-PART_OF_BOTH void divide(const Panel& panel, double* column, std::int64_t step, std::size_t last, double pivot) {
+PART_OF_BOTH void divide(const Panel& panel, double* column, std::int64_t step, const Runs& runs, double pivot) {
   const double inverse = 1 / pivot;
   Four h;
   std::memcpy(&h, column + panel.first, sizeof h);
   h = kLane > step ? h * inverse : h;
   std::memcpy(column + panel.first, &h, sizeof h);
-  for (std::size_t i = panel.end; i < last; i += kPanel) {
-    Four x;
-    std::memcpy(&x, column + i, sizeof x);
-    x *= inverse;
-    std::memcpy(column + i, &x, sizeof x);
-  }
+  for (const RowRun* run = runs.begin; run != runs.end; ++run)
+    for (std::size_t i = run->begin; i < run->end; i += kPanel) {
+      Four x;
+      std::memcpy(&x, column + i, sizeof x);
+      x *= inverse;
+      std::memcpy(column + i, &x, sizeof x);
+    }
 }
 
 /// Takes the panel's multiples from the columns behind it, two at a time.
-PART_OF_BOTH void take_from_columns_behind(const Panel& panel, double* A, std::size_t n, std::size_t last) {
+PART_OF_BOTH void take_from_columns_behind(const Panel& panel, double* A, std::size_t n, const Runs& runs) {
   const auto [p0, p1, p2, p3, first, end] = panel;
   Places m0, m1, m2;
   std::memcpy(&m0, p0 + first, sizeof m0);
@@ -153,43 +175,45 @@ PART_OF_BOTH void take_from_columns_behind(const Panel& panel, double* A, std::s
     const Four f3 = __builtin_shufflevector(u, u, 3, 3, 3, 3), g3 = __builtin_shufflevector(v, v, 3, 3, 3, 3);
     std::memcpy(x + first, &u, sizeof u);
     std::memcpy(y + first, &v, sizeof v);
-    for (std::size_t i = end; i < last; i += kPanel) {
-      Four q0, q1, q2, q3;
-      std::memcpy(&u, x + i, sizeof u);
-      std::memcpy(&v, y + i, sizeof v);
-      std::memcpy(&q0, p0 + i, sizeof q0);
-      std::memcpy(&q1, p1 + i, sizeof q1);
-      std::memcpy(&q2, p2 + i, sizeof q2);
-      std::memcpy(&q3, p3 + i, sizeof q3);
-      u = u - q0 * f0 - q1 * f1 - q2 * f2 - q3 * f3;
-      v = v - q0 * g0 - q1 * g1 - q2 * g2 - q3 * g3;
-      std::memcpy(x + i, &u, sizeof u);
-      std::memcpy(y + i, &v, sizeof v);
-    }
+    for (const RowRun* run = runs.begin; run != runs.end; ++run)
+      for (std::size_t i = run->begin; i < run->end; i += kPanel) {
+        Four q0, q1, q2, q3;
+        std::memcpy(&u, x + i, sizeof u);
+        std::memcpy(&v, y + i, sizeof v);
+        std::memcpy(&q0, p0 + i, sizeof q0);
+        std::memcpy(&q1, p1 + i, sizeof q1);
+        std::memcpy(&q2, p2 + i, sizeof q2);
+        std::memcpy(&q3, p3 + i, sizeof q3);
+        u = u - q0 * f0 - q1 * f1 - q2 * f2 - q3 * f3;
+        v = v - q0 * g0 - q1 * g1 - q2 * g2 - q3 * g3;
+        std::memcpy(x + i, &u, sizeof u);
+        std::memcpy(y + i, &v, sizeof v);
+      }
   }
 }
 
 /// Wide vectors where the processor has them; without fused multiply-add, so that all processors find the same bits.
 CRASHREEL_WIDE_CLONES
-bool factor_in_place(double* A, std::size_t n, std::size_t* pivots, std::size_t* reach) {
+bool factor_in_place(double* A, std::size_t n, std::size_t* pivots, std::size_t* reach, RowRun* rows) {
   const double* past = A + n * n;
   for (std::size_t first = 0; first < n; first += kPanel) {
     const Panel panel = panel_at(A, n, first);
-    const std::size_t last = last_row(panel, n);
-    reach[first / kPanel] = last;
+    const Runs runs = rows_behind(panel, n, rows);
+    reach[first / kPanel] = runs.end[-1].end;
     for (std::size_t k = first; k < panel.end; ++k) {
       double* column = A + k * n;
       const auto step = static_cast<std::int64_t>(k - first);
-      const Largest largest = reduce(panel, column, step, last);
+      const Largest largest = reduce(panel, column, step, runs);
       if (!(largest.size > 1e-100)) return false;
-      const auto pivot = static_cast<std::size_t>(largest.row);
+      const bool stays = n >= kLarge && std::abs(column[k]) >= kNearlyLargest * largest.size;
+      const std::size_t pivot = stays ? k : static_cast<std::size_t>(largest.row);
       pivots[k] = pivot;
       // here and not where they are read next: a vector read right after one of its numbers is written waits for it
       if (pivot != k)
         for (double* c = panel.p0; c < past; c += n) std::swap(c[k], c[pivot]);
-      divide(panel, column, step, last, column[k]);
+      divide(panel, column, step, runs, column[k]);
     }
-    take_from_columns_behind(panel, A, n, last);
+    take_from_columns_behind(panel, A, n, runs);
   }
   return true;
 }
@@ -235,7 +259,7 @@ void substitute(const double* A, std::size_t n, const std::size_t* pivots, const
 }  // namespace
 
 bool DenseSystem::factor() {
-  return factor_in_place(A_.data(), stride_, pivot_.data(), reach_.data());
+  return factor_in_place(A_.data(), stride_, pivot_.data(), reach_.data(), runs_.data());
 }
 
 void DenseSystem::solve() {

@@ -7,10 +7,16 @@
 
 namespace engine {
 
+/// Rows from `begin` to `end`, in whole fours.
+struct RowRun {
+  std::size_t begin, end;
+};
+
 class DenseSystem {
  public:
   void reserve(std::size_t n) {
-    A_.reserve(whole(n) * whole(n)), b_.reserve(whole(n)), pivot_.reserve(whole(n)), reach_.reserve(whole(n));
+    A_.reserve(whole(n) * whole(n)), b_.reserve(whole(n)), pivot_.reserve(whole(n)), reach_.reserve(whole(n)),
+        runs_.reserve(whole(n));
   }
   /// A and b are to be written whole.
   void resize(int n);
@@ -33,6 +39,7 @@ class DenseSystem {
   std::vector<double> b_;
   std::vector<std::size_t> pivot_;  // row that changed places with row k
   std::vector<std::size_t> reach_;  // per four columns: past the last row that is not zero in them
+  std::vector<RowRun> runs_;        // of the rows that the panel in hand has a part in
 };
 
 }  // namespace engine
