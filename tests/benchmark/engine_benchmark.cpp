@@ -1,7 +1,7 @@
 // What the engine does in a second, and how well: `build/tests/benchmark_engine [part...] [--peer name=program]...`
-// Parts: scenes, whole, throughput, ensemble, persons, triangles, plan, waiting, dense. Times are medians on one core; ratios
-// compare runs of the same call. A peer is a program that takes `scene=NAME dt=SECONDS reps=N pert=MICROMETRES damp=NMS` and prints
-// comma separated values with steps/s in column six and where the figure ends in column twenty.
+// Parts: scenes, whole, throughput, ensemble, persons, triangles, plan, waiting, dense, lockstep. Times are medians on one core;
+// ratios compare runs of the same call. A peer is a program that takes `scene=NAME dt=SECONDS reps=N pert=MICROMETRES damp=NMS` and
+// prints comma separated values with steps/s in column six and where the figure ends in column twenty.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -19,6 +19,7 @@
 #include "scenes/scene.h"
 #include "tests/benchmark/common_scenes.h"
 #include "tests/benchmark/dense_algebra.h"
+#include "tests/benchmark/lockstep.h"
 #include "tests/benchmark/whole_runs.h"
 
 namespace {
@@ -374,4 +375,5 @@ int main(int argc, char** argv) {
   if (wanted("plan")) plan();
   if (wanted("waiting")) waiting();
   if (wanted("dense")) dense_algebra_beside_eigen();
+  if (wanted("lockstep")) runs_in_lockstep();
 }
