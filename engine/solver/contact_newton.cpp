@@ -41,7 +41,7 @@ int ContactSolver::linearise(const std::vector<Constraint>& all, const std::vect
   unknown_.clear();
   rule_.clear();
   slips_.resize(members.size());
-  for (const int i : *order_) {
+  for (const int i : elimination_.order()) {
     const Constraint& c = all[members[i]];
     const Mat3& A = own_[i];
     const Vec3 u = velocity(i, c.rows);
@@ -92,28 +92,39 @@ bool ContactSolver::factor_linearised(const std::vector<Constraint>& all, const 
       runs_.push_back({row, 1});
     }
   }
+  // column by column, as they lie: of who opens nothing, of who slides L_t - mu L_n x/|x| = 0 with x = L_t - rho u_t, whose two
+  // rows stand together after that of the normal
+  const auto changes_rows = [this](int k) {
+    return rule_[k].kind == Row::let_go || (rule_[k].kind == Row::slip && rule_[k].r == 1);
+  };
+  changed_.clear();
+  for (int k = 0; k < n; ++k)
+    if (changes_rows(k)) changed_.push_back(k);
   for (int m = 0; m < n; ++m) {
     const double* response = G_.data() + static_cast<std::size_t>(unknown_[m]) * stride_;
+    double* end = newton_.column(m);
+    for (const Run& run : runs_) end = std::copy_n(response + run.first, run.length, end);
     double* column = newton_.column(m);
-    for (const Run& run : runs_) column = std::copy_n(response + run.first, run.length, column);
+    for (const int k : changed_) {
+      if (rule_[k].kind == Row::let_go) {
+        column[k] = 0;
+        continue;
+      }
+      const Slip& slip = slips_[static_cast<std::size_t>(rule_[k].member)];
+      const Eigen::Vector2d a = slip.rho * (slip.across * Eigen::Vector2d(column[k], column[k + 1]));
+      column[k] = a[0];
+      column[k + 1] = a[1];
+    }
   }
   for (int k = 0; k < n; ++k) {
     const auto [kind, member, r] = rule_[k];
     const Constraint& c = all[members[member]];
     if (kind == Row::let_go) {
-      for (int m = 0; m < n; ++m) newton_.A(k, m) = 0;
       newton_.A(k, k) = 1;
     } else if (kind != Row::slip) {
       newton_.A(k, k) += regular_ * G(unknown_[k], unknown_[k]) + (r == 0 ? c.softness : (r == 2 ? c.wheel.grip_softness : 0));
     } else if (r == 1) {
-      // L_t - mu L_n x/|x| = 0 with x = L_t - rho u_t: its two rows, which stand together after that of the normal
       const Slip& slip = slips_[static_cast<std::size_t>(member)];
-      for (int m = 0; m < n; ++m) {
-        const Eigen::Vector2d u{newton_.A(k, m), newton_.A(k + 1, m)};
-        const Eigen::Vector2d a = slip.rho * (slip.across * u);
-        newton_.A(k, m) = a[0];
-        newton_.A(k + 1, m) = a[1];
-      }
       for (int q = 0; q < 2; ++q) {
         newton_.A(k + q, k - 1) -= c.surface.friction * slip.direction[q];
         for (int p = 0; p < 2; ++p) newton_.A(k + q, k + p) += (p == q ? 1 : 0) - slip.across(q, p);

@@ -30,7 +30,7 @@ void ContactSolver::reserve(const Topology& topology, std::size_t constraints) {
   for (std::vector<Vec3>* list : {&L_start_, &L_nothing_, &L_best_}) list->reserve(constraints);
   own_.reserve(constraints);
   for (std::vector<double>* list : {&u_, &L_, &u_kept_, &L_kept_, &softened_}) list->reserve(rows);
-  for (std::vector<int>* list : {&offset_, &unknown_}) list->reserve(rows);
+  for (std::vector<int>* list : {&offset_, &unknown_, &changed_}) list->reserve(rows);
   runs_.reserve(rows);
 }
 
@@ -50,7 +50,7 @@ void ContactSolver::assemble(const Topology& topology, const Articulation& artic
   response_.compute(topology, articulation, all, members, offset_, stride_, G_);
   note_own_responses(all, members);
   soften_dead_centres(all, members);
-  order_ = &elimination_.find(topology, all, members);
+  elimination_.find(topology, all, members);
 }
 
 void ContactSolver::note_own_responses(const std::vector<Constraint>& all, const std::vector<int>& members) {

@@ -90,19 +90,19 @@ class ContactSolver {
   std::vector<double> softened_;  // [1/kg] per member: by which it answers more than its bodies do
   Response response_;
   int size_ = 0;
-  std::size_t stride_ = 0;   // whole_rows(size_)
-  std::vector<int> offset_;  // per member
-  std::vector<double> G_;    // column-major stride_ x size_
-  std::vector<Mat3> own_;    // per member: its block on the diagonal; of one row the rest is a unit matrix
-  std::vector<double> u_;    // stride_
-  EliminationOrder elimination_;
-  const std::vector<int>* order_ = nullptr;  // of the members in Newton's matrix
-  DenseSystem newton_;                       // of the rows that can change
-  std::vector<int> unknown_;                 // row of G per unknown
+  std::size_t stride_ = 0;        // whole_rows(size_)
+  std::vector<int> offset_;       // per member
+  std::vector<double> G_;         // column-major stride_ x size_
+  std::vector<Mat3> own_;         // per member: its block on the diagonal; of one row the rest is a unit matrix
+  std::vector<double> u_;         // stride_
+  EliminationOrder elimination_;  // of the members in Newton's matrix
+  DenseSystem newton_;            // of the rows that can change
+  std::vector<int> unknown_;      // row of G per unknown
   struct Run {
     int first, length;
   };
   std::vector<Run> runs_;           // of neighbours in unknown_
+  std::vector<int> changed_;        // of the unknowns whose rule changes its rows
   std::vector<Row> rule_;           // per unknown
   std::vector<Row> factored_rule_;  // of the matrix in newton_
   std::vector<Slip> slips_;         // per member, of those that slide

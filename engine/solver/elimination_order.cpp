@@ -85,12 +85,11 @@ void EliminationOrder::give_turns() {
   }
 }
 
-const std::vector<int>& EliminationOrder::find(const Topology& topology, const std::vector<Constraint>& all,
-                                               const std::vector<int>& members) {
+void EliminationOrder::find(const Topology& topology, const std::vector<Constraint>& all, const std::vector<int>& members) {
   order_.resize(members.size());
   std::iota(order_.begin(), order_.end(), 0);
   find_pairs(topology, all, members);
-  if (!joins_three_trees()) return order_;
+  if (!joins_three_trees()) return;
   one_.resize(topology.trees.size());
   std::iota(one_.begin(), one_.end(), 0);
   rows_.assign(one_.size(), 0);
@@ -100,7 +99,6 @@ const std::vector<int>& EliminationOrder::find(const Topology& topology, const s
   std::sort(order_.begin(), order_.end(), [this](int i, int j) {
     return std::pair(turn_[static_cast<std::size_t>(i)], i) < std::pair(turn_[static_cast<std::size_t>(j)], j);
   });
-  return order_;
 }
 
 }  // namespace engine

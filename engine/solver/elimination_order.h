@@ -13,8 +13,10 @@ class EliminationOrder {
  public:
   void reserve(std::size_t trees, std::size_t constraints);
 
-  /// Positions in `members`, first to last. Of one tree or two, whose matrix has no zeros, as they stand.
-  const std::vector<int>& find(const Topology& topology, const std::vector<Constraint>& all, const std::vector<int>& members);
+  /// Of one tree or two, whose matrix has no zeros, members keep their order.
+  void find(const Topology& topology, const std::vector<Constraint>& all, const std::vector<int>& members);
+  /// Positions in `members`, first to last.
+  const std::vector<int>& order() const { return order_; }
 
  private:
   /// Trees that there are conditions between, or twice the same where they hold one.

@@ -48,6 +48,11 @@ struct Island {
       }
     return count;
   }
+  std::vector<int> elimination_order() const {
+    EliminationOrder out;
+    out.find(topology, all, members);
+    return out.order();
+  }
   std::vector<int> as_they_stand() const {
     std::vector<int> order(members.size());
     std::iota(order.begin(), order.end(), 0);
@@ -59,8 +64,7 @@ TEST(EliminationOrder, LeavesOneTreeAndTwoAsTheyStand) {
   Island island(2);
   for (const auto& [a, b] : {std::pair(1, -1), std::pair(0, 1), std::pair(-1, 0), std::pair(0, 0), std::pair(1, 0)})
     island.add(a, b);
-  EliminationOrder order;
-  EXPECT_EQ(order.find(island.topology, island.all, island.members), island.as_they_stand());
+  EXPECT_EQ(island.elimination_order(), island.as_they_stand());
 }
 
 TEST(EliminationOrder, AddsNoNumberWhereNoneIsNeeded) {
@@ -77,8 +81,7 @@ TEST(EliminationOrder, AddsNoNumberWhereNoneIsNeeded) {
     int numbers = 0;
     for (std::size_t i = 0; i < island.all.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) numbers += island.answer(static_cast<int>(i), static_cast<int>(j));
-    EliminationOrder order;
-    const std::vector<int> found = order.find(island.topology, island.all, island.members);
+    const std::vector<int> found = island.elimination_order();
     EXPECT_EQ(island.filled(found), numbers) << (star ? "star" : "chain");
     EXPECT_GT(island.filled(island.as_they_stand()), star ? numbers - 1 : numbers);
     std::vector<int> sorted = found;
@@ -102,8 +105,7 @@ TEST(EliminationOrder, FillsHeapsLessThanTheOrderOfTheirPersons) {
       for (int other = 0; other < t; ++other)
         if ((at.col(t) - at.col(other)).norm() < 2 * kReach) island.add(other, t);
     }
-    EliminationOrder order;
-    filled += island.filled(order.find(island.topology, island.all, island.members));
+    filled += island.filled(island.elimination_order());
     as_they_stand += island.filled(island.as_they_stand());
   }
   EXPECT_LT(filled, 0.9 * as_they_stand);  // 0.84
