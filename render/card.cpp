@@ -8,7 +8,7 @@
 namespace render {
 namespace {
 
-constexpr float kTitle = 58, kLineGap = 26, kText = 30, kFoot = 17;  // pixels at 1080 lines
+constexpr float kTitle = 58, kLineGap = 26, kText = 30, kFooter = 17;  // pixels at 1080 lines
 constexpr double kTextLeft = 0.10, kTextRight = 0.95;                // [-] of the picture, between which is written
 constexpr double kPageTop = 0.03, kPageMiddle = 0.44;  // [-] a full page begins at the one, a short one has its middle at the other
 constexpr double kLeastText = 16;                      // [pixels at 1080 lines], and
@@ -51,7 +51,7 @@ LabelItem foot_of(const Stage& stage) {
   LabelItem foot = bare_label();
   foot.lines = {"Simulation, not footage"};
   if (!stage.provenance.empty()) foot.lines.push_back(stage.provenance);
-  foot.sizes.assign(foot.lines.size(), kFoot);
+  foot.sizes.assign(foot.lines.size(), kFooter);
   foot.colours.assign(foot.lines.size(), kPaleText);
   foot.anchor = {0.988f, 0.985f};
   foot.pivot = {1, 1};

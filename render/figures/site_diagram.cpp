@@ -10,26 +10,13 @@
 
 #include "render/figures/figures.h"
 #include "render/figures/outline.h"
-#include "render/figures/plan.h"
-#include "render/figures/sheet.h"
+#include "render/figures/site.h"
 
 namespace render {
 namespace {
 
-constexpr double kAround = 1.2;    // [m] kept free around what moves
-constexpr double kLeastLine = 32;  // [mm] of a dimension that holds its own number
-constexpr double kSkids = 0.3;     // [m/s] slip that leaves a mark
-
-struct Site {
-  const Stage& stage;
-  const engine::Recording& recording;
-  const FigureJob& job;
-  Plan plan;
-};
-
-const engine::Pose& pose(const engine::Snapshot& s, int body) {
-  return s.bodies[static_cast<std::size_t>(body)].X_WB;
-}
+constexpr double kAround = 1.2;  // [m] kept free around what moves
+constexpr double kSkids = 0.3;   // [m/s] slip that leaves a mark
 
 std::vector<double> times_of_interest(const PersonFacts& p, const engine::Recording& r) {
   std::vector<double> out;
@@ -82,123 +69,8 @@ void draw_path(cairo_t* c, const Site& site, const PersonFacts& facts) {
   set_dashes(c, 0);
 }
 
-/// The length [m] that was measured between two points, on a line beside them, `offset` [mm] below on the paper.
-struct LengthShown {
-  Vec3 from, to;
-  std::string text;
-  double offset;
-};
-
-struct DimensionLine {
-  Point2 a, b;         // [mm] the points
-  Point2 along, down;  // directions
-  Point2 p, q;         // [mm] the line's ends
-};
-
-DimensionLine line_of(const Plan& plan, const LengthShown& d) {
-  DimensionLine out;
-  out.a = plan.at(d.from), out.b = plan.at(d.to);
-  out.along = (out.b - out.a).normalized();
-  out.down = {-out.along.y(), out.along.x()};
-  if (out.down.y() < 0 || (out.down.y() == 0 && out.down.x() < 0)) out.down = -out.down;
-  out.p = out.a + d.offset * out.down, out.q = out.b + d.offset * out.down;
-  return out;
-}
-
-constexpr double kNumber = 3.2;  // [mm] letters of a dimension
-
-void draw_dimension(cairo_t* c, const Site& site, const LengthShown& d) {
-  const auto [a, b, along, down, p, q] = line_of(site.plan, d);
-  grey(c, 0.45);
-  cairo_set_line_width(c, 0.15);
-  draw_line(c, a.x(), a.y(), p.x() + 1.5 * down.x(), p.y() + 1.5 * down.y());
-  draw_line(c, b.x(), b.y(), q.x() + 1.5 * down.x(), q.y() + 1.5 * down.y());
-  grey(c, 0);
-  cairo_set_line_width(c, 0.25);
-  draw_line(c, p.x(), p.y(), q.x(), q.y());
-  for (const Point2& end : {p, q}) {  // the draughtsman's oblique strokes
-    const Point2 stroke = (along - down).normalized();
-    draw_line(c, end.x() - 1.4 * stroke.x(), end.y() - 1.4 * stroke.y(), end.x() + 1.4 * stroke.x(), end.y() + 1.4 * stroke.y());
-  }
-  const Point2 middle = 0.5 * (p + q);
-  cairo_save(c);
-  cairo_translate(c, middle.x(), middle.y());
-  const double angle = std::atan2(along.y(), along.x());
-  cairo_rotate(c, std::abs(angle) > M_PI / 2 ? angle + M_PI : angle);
-  // white behind the number: it may stand on a line of the plan
-  const double width = text_width(c, d.text, kNumber);
-  cairo_set_source_rgb(c, 1, 1, 1);
-  cairo_rectangle(c, -width / 2 - 0.8, -4.6, width + 1.6, 4.0);
-  cairo_fill(c);
-  grey(c, 0);
-  draw_text(c, 0, -1.4, d.text, kNumber, Align::centre);
-  cairo_restore(c);
-}
-
-/// No friction follows from a slide on which a vehicle pushed: the sheet says so where it gives its length.
-std::string name_of_phase(const PersonFacts& facts, const std::string& phase) {
-  if (phase == "flight") return "airborne";
-  return phase == "slide" && facts.dragged ? "pushed slide" : phase;
-}
-
-std::vector<LengthShown> dimensions_of(const Site& site, const PersonFacts& facts) {
-  std::vector<LengthShown> out;
-  if (!facts.hit) return out;
-  const auto com = [&](double t) { return centre_of_mass(facts, site.recording, t); };
-  const auto on_paper = [&](const Vec3& from, const Vec3& to) { return (site.plan.at(to) - site.plan.at(from)).norm(); };
-  const bool alone = site.job.persons.size() == 1;  // of several the key has the parts
-  const std::string whose = alone ? "" : facts.name + ": ";
-  const auto text = [&](const std::string& label, double length) { return fmt::format("{}{} {:.2f} m", whose, label, length); };
-  // the parts above, the whole below them; side by side where each number has room over its own line, else one below the other
-  double row = 16;  // [mm] below the path
-  bool crowded = false;
-  for (const PhaseFacts& phase : facts.phases) {
-    if (!alone) break;
-    if (phase.name != "flight" && phase.name != "fall" && phase.name != "landing" && phase.name != "slide") continue;
-    const Vec3 from = com(phase.from), to = com(phase.to);
-    const double line = on_paper(from, to);
-    if (line < 3) continue;
-    if (crowded || line < kLeastLine) row += 8;
-    crowded = line < kLeastLine;
-    out.push_back({from, to, text(name_of_phase(facts, phase.name), phase.distance), row});
-  }
-  const Vec3 from = com(*facts.hit), to = com(facts.rest.value_or(site.recording.end_time()));
-  for (const auto& [name, value] : facts.dimensions)
-    if (name == "throw distance" && on_paper(from, to) >= 0.5)
-      out.push_back({from, to, text(facts.rest ? name : "so far", value), row + 12});
-  return out;
-}
-
-/// Around a number on the paper [mm].
-std::array<Point2, 2> place_of(cairo_t* c, const Plan& plan, const LengthShown& d) {
-  const DimensionLine line = line_of(plan, d);
-  const double half = text_width(c, d.text, kNumber) / 2 + 0.8;
-  const Point2 reach = half * line.along.cwiseAbs() + 2.4 * line.down.cwiseAbs();
-  const Point2 middle = 0.5 * (line.p + line.q);
-  return {middle - reach, middle + reach};
-}
-
-/// Of all persons: a number that would cover one before it moves down.
-std::vector<LengthShown> all_dimensions(cairo_t* c, const Site& site) {
-  constexpr int kMostRows = 40;
-  constexpr double kRow = 2;  // [mm]
-  std::vector<LengthShown> out;
-  std::vector<std::array<Point2, 2>> taken;
-  for (const PersonFacts& facts : site.job.persons)
-    for (LengthShown& d : dimensions_of(site, facts)) {
-      const auto covers = [&](const std::array<Point2, 2>& other) {
-        const auto [from, to] = place_of(c, site.plan, d);
-        return (from.array() < other[1].array()).all() && (other[0].array() < to.array()).all();
-      };
-      for (int row = 0; row < kMostRows && std::any_of(taken.begin(), taken.end(), covers); ++row) d.offset += kRow;
-      taken.push_back(place_of(c, site.plan, d));
-      out.push_back(std::move(d));
-    }
-  return out;
-}
-
-constexpr double kKeyLine = 4.4, kKeyLetters = 2.9;  // [mm]
-constexpr double kDisc = 2.6;                        // [mm] radius of a number's circle
+constexpr double kKeyLine = 4.4;  // [mm]
+constexpr double kDisc = 2.6;     // [mm] radius of a number's circle
 
 /// A circle's number and its middle [mm], the place it means, and how far to the right of the circle the name reaches.
 struct Numbered {
@@ -260,11 +132,7 @@ std::vector<Point2> written_into(cairo_t* c, const Site& site) {
     out.push_back(n.at - Point2(kDisc + 0.5, kDisc + 0.5));
     out.push_back(n.at + Point2(kDisc + 0.5 + n.name, kDisc + 0.5));
   }
-  for (const LengthShown& d : all_dimensions(c, site)) {
-    const DimensionLine line = line_of(site.plan, d);
-    const double half = std::max(text_width(c, d.text, kNumber), (line.q - line.p).norm()) / 2 + 1.5;
-    for (const double side : {-1.0, 1.0}) out.push_back(0.5 * (line.p + line.q) + side * half * line.along + 2 * line.down);
-  }
+  for (const Point2& p : ThrowLengths(c, site).reach()) out.push_back(p);
   return out;
 }
 
@@ -326,127 +194,6 @@ void draw_key(cairo_t* c, const std::vector<std::string>& lines, double y) {
     draw_text(c, kSheetWidth - kMargin, y, line, kKeyLetters, Align::right);
     y += kKeyLine;
   }
-}
-
-bool is_vehicle(const Stage& stage, int body) {
-  return std::any_of(stage.wheels.begin(), stage.wheels.end(), [&](const WheelActor& w) { return w.body == body; });
-}
-
-/// On the sheet [mm].
-struct Box {
-  Point2 lower{1e9, 1e9}, upper{-1e9, -1e9};
-  void take(const Point2& p) { lower = lower.cwiseMin(p), upper = upper.cwiseMax(p); }
-  bool meets(const Box& other) const {
-    return (lower.array() < other.upper.array()).all() && (other.lower.array() < upper.array()).all();
-  }
-};
-
-/// A vehicle where it stands at one of the times shown. Its axes meet the sheet at the middle of its outline's ends and sides.
-struct Standing {
-  const MeshActor& vehicle;
-  Point2 front, rear, left, right, tip, centre;  // [mm]; the tip is that of the chevron
-  double half = 0;                               // [mm] of the chevron
-  double width = 0;                              // [mm]
-  Box box;
-};
-
-Standing standing(const Site& site, const MeshActor& vehicle, const engine::Pose& X_WB) {
-  Point2 lower(1e9, 1e9), upper(-1e9, -1e9);  // [m] of the outline, body axes
-  for (const Point2& p : seen_from_above(*vehicle.mesh, vehicle.X_BM)) lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
-  const auto at = [&](double x, double y) { return site.plan.at(X_WB * Vec3(x, y, 0)); };
-  const Point2 middle = 0.5 * (lower + upper);
-  Standing out{.vehicle = vehicle,
-               .front = at(upper.x(), middle.y()),
-               .rear = at(lower.x(), middle.y()),
-               .left = at(middle.x(), upper.y()),
-               .right = at(middle.x(), lower.y()),
-               .tip = at(upper.x() - 0.06 * (upper.x() - lower.x()), middle.y()),
-               .centre = at(middle.x(), middle.y()),
-               .box = {}};
-  out.width = 1000 / site.plan.denominator * (upper.y() - lower.y());
-  out.half = 0.16 * out.width;
-  for (const Point2& p : seen_from_above(*vehicle.mesh, X_WB * vehicle.X_BM)) out.box.take(site.plan.at({p.x(), p.y(), 0}));
-  return out;
-}
-
-/// Where the front of an outline is.
-void draw_chevron(cairo_t* c, const Standing& it) {
-  const Point2 ahead = (it.front - it.rear).normalized(), aside(-ahead.y(), ahead.x());
-  grey(c, 0.3);
-  cairo_set_line_width(c, 0.25);
-  for (const double side : {-1.0, 1.0}) {
-    const Point2 end = it.tip - it.half * (2 * ahead - side * aside);
-    draw_line(c, end.x(), end.y(), it.tip.x(), it.tip.y());
-  }
-}
-
-/// A name beside an outline: behind it if there is room, else before it or at a side, where it lies on no vehicle and no other
-/// name.
-void draw_name_beside(cairo_t* c, const Standing& it, const std::vector<Standing>& all, std::vector<Box>& names) {
-  constexpr double kBeside = 3;  // [mm] from the outline
-  struct Place {
-    Point2 at;
-    Align align;
-    Box box;
-    int covers = 0;
-  };
-  std::optional<Place> best;
-  const double length = text_width(c, it.vehicle.name, kKeyLetters);
-  for (const Point2& from : {it.rear, it.front, it.left, it.right}) {
-    const Point2 away = (from - it.centre).normalized();
-    Place place{from + kBeside * away + Point2(0, 1),
-                away.x() > 0.5    ? Align::left
-                : away.x() < -0.5 ? Align::right
-                                  : Align::centre,
-                {}};
-    const double share = place.align == Align::left ? 0 : place.align == Align::right ? 1 : 0.5;  // of the name, left of the place
-    place.box.take(place.at - Point2(share * length, kKeyLetters));
-    place.box.take(place.at + Point2((1 - share) * length, 0.3 * kKeyLetters));
-    for (const Standing& other : all) place.covers += other.box.meets(place.box);
-    for (const Box& name : names) place.covers += name.meets(place.box);
-    if (!best || place.covers < best->covers) best = place;
-  }
-  if (best->covers == 0) {  // on the lines of the road
-    grey(c, 1);
-    const Point2 size = best->box.upper - best->box.lower;
-    cairo_rectangle(c, best->box.lower.x(), best->box.lower.y(), size.x(), size.y());
-    cairo_fill(c);
-  }
-  grey(c, 0.3);
-  draw_text(c, best->at.x(), best->at.y(), it.vehicle.name, kKeyLetters, best->align);
-  names.push_back(best->box);
-}
-
-/// Which vehicle an outline is.
-void draw_name(cairo_t* c, const Standing& it, const std::vector<Standing>& all, std::vector<Box>& names) {
-  constexpr double kChevron = 4;  // [mm] beside a name within
-  const double length = text_width(c, it.vehicle.name, kKeyLetters);
-  if ((it.tip - it.rear).norm() <= length + 2 * kChevron) return draw_name_beside(c, it, all, names);
-  const Point2 ahead = it.tip - it.centre;
-  cairo_save(c);
-  cairo_translate(c, it.centre.x(), it.centre.y());
-  const double angle = std::atan2(ahead.y(), ahead.x());
-  cairo_rotate(c, std::abs(angle) > M_PI / 2 ? angle + M_PI : angle);
-  // beside its middle, where ways lead
-  draw_text(c, 0, 1 - 0.22 * it.width, it.vehicle.name, kKeyLetters, Align::centre);
-  cairo_restore(c);
-}
-
-/// At both times; once where it stands for both.
-void draw_names(cairo_t* c, const Site& site, double first) {
-  constexpr double kOwnName = 12;  // [mm] apart
-  const engine::Snapshot end = site.recording.at(site.recording.end_time()), then = site.recording.at(first);
-  std::vector<Standing> all;
-  for (const MeshActor& actor : site.stage.meshes) {
-    if (actor.body < 0 || !is_vehicle(site.stage, actor.body)) continue;
-    all.push_back(standing(site, actor, pose(end, actor.body)));
-    const double apart = (site.plan.at(pose(end, actor.body).p) - site.plan.at(pose(then, actor.body).p)).norm();
-    if (apart > kOwnName) all.push_back(standing(site, actor, pose(then, actor.body)));
-  }
-  std::vector<Box> names;
-  for (const Standing& it : all) draw_chevron(c, it);
-  grey(c, 0.3);
-  for (const Standing& it : all) draw_name(c, it, all, names);
 }
 
 /// The ways of free bodies.
@@ -522,7 +269,7 @@ std::vector<std::string> site_diagram(const Stage& stage, const engine::Recordin
     draw_skids(c, site);
     draw_vehicles(c, stage, site.plan, recording.at(hit), {0.97, 1});
     draw_vehicles(c, stage, site.plan, recording.at(recording.end_time()), {0.90, 0});
-    draw_names(c, site, hit);
+    draw_vehicle_names(c, site, hit);
     draw_bodies(c, stage, site.plan, recording.at(hit), {0.97, 1});
     draw_bodies(c, stage, site.plan, recording.at(recording.end_time()), {0.90, 0});
     draw_body_paths(c, site);
@@ -533,7 +280,7 @@ std::vector<std::string> site_diagram(const Stage& stage, const engine::Recordin
                     {0.92 - 0.42 * static_cast<double>(i + 1) / static_cast<double>(times.size()), 0});
       draw_path(c, site, p);
     }
-    for (const LengthShown& d : all_dimensions(c, site)) draw_dimension(c, site, d);
+    ThrowLengths(c, site).draw();
     draw_numbers(c, site);
     cairo_restore(c);
     draw_key(c, key, key_top);
