@@ -9,7 +9,7 @@ namespace render {
 namespace {
 
 constexpr float kTitle = 58, kLineGap = 26, kText = 30, kFooter = 17;  // pixels at 1080 lines
-constexpr double kTextLeft = 0.10, kTextRight = 0.95;                // [-] of the picture, between which is written
+constexpr double kTextLeft = 0.10, kTextRight = 0.95;                  // [-] of the picture, between which is written
 constexpr double kPageTop = 0.03, kPageMiddle = 0.44;  // [-] a full page begins at the one, a short one has its middle at the other
 constexpr double kLeastText = 16;                      // [pixels at 1080 lines], and
 constexpr double kLeastPixels = 8;                     // [pixels] of the writing: smaller letters cannot be told apart
