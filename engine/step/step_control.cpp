@@ -140,7 +140,7 @@ double StepControl::cut_at_impact(const StepContext& s) {
     }
     cut_ = taken < s.length;
   }
-  may_halve_ = taken > settings_.step / kMostHalvedParts;
+  may_halve_ = taken > settings_.step / kMostHalvedParts && !settled_;
   return taken;
 }
 
@@ -227,11 +227,18 @@ bool StepControl::locates_events() const {
 Verdict StepControl::judge_end(StepContext& s) {
   const int lost = lost_body(world_, s.end);
   const bool gained = s.impulses && lost < 0 && may_halve_ && largest_rise(s) > kMayRise;
-  const bool off_the_books = lost < 0 && mislaid(s) > kMayMislay;  // asked of every end: effects book what they see there
+  const double off_the_books = lost < 0 ? mislaid(s) : 0;  // asked of every end: effects book what they see there
   const bool unsolved = s.residual > kUnsolved * settings_.solver_tolerance;
-  if (may_halve_ && (lost >= 0 || gained || off_the_books || unsolved ||
-                     !acceptable(state_.contacts.list, s.buffers.end_contacts, depth_tolerance_)))
+  const bool wrong = lost >= 0 || gained || unsolved || !acceptable(state_.contacts.list, s.buffers.end_contacts, depth_tolerance_);
+  if (may_halve_ && (wrong || off_the_books > kMayMislay)) {
+    if (!wrong && off_the_books < least_mislaid_) least_mislaid_ = off_the_books, least_mislaid_length_ = s.length;
     return {Verdict::Kind::again, 0.5 * s.length};
+  }
+  // what no halving brought into the books is better than what is not solved
+  if (unsolved && least_mislaid_length_ > 0 && !settled_) {
+    settled_ = true;
+    return {Verdict::Kind::again, least_mislaid_length_};
+  }
   if (lost < 0) {
     const Verdict slips = place_slip_end(s);
     return slips.kind == Verdict::Kind::place || stopping_ ? slips : place_impact(s);

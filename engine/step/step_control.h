@@ -70,7 +70,10 @@ class StepControl {
   int placings_ = 0;                       // such attempts
   std::optional<std::uint64_t> stopping_;  // the contact whose slip ends there
   bool may_halve_ = false;
-  bool crossed_ = false;  // it ends at an event of a compliant contact
+  double least_mislaid_ = std::numeric_limits<double>::infinity();  // [J] of attempts with nothing wrong but their books
+  double least_mislaid_length_ = 0;                                 // [s] of that attempt
+  bool settled_ = false;                                            // taken again as it is
+  bool crossed_ = false;                                            // it ends at an event of a compliant contact
 };
 
 }  // namespace engine
