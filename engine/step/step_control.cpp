@@ -15,6 +15,7 @@ namespace engine {
 namespace {
 
 constexpr double kUnsolved = 2;       // [-] residual over the tolerance above which the step is halved and taken again
+constexpr double kBearable = 100;     // [J] mislaid in a step of which each half has something else wrong
 constexpr double kSmoothTurn = 0.1;   // [rad] of any body in one step of the smooth motion
 constexpr double kSmoothSwing = 2.0;  // [-] rate of a swing under joint forces times the step: RK4 bears 2.8
 constexpr double kLargestTurn = 0.3;  // [rad] in one step of all
@@ -234,8 +235,8 @@ Verdict StepControl::judge_end(StepContext& s) {
     if (!wrong && off_the_books < least_mislaid_) least_mislaid_ = off_the_books, least_mislaid_length_ = s.length;
     return {Verdict::Kind::again, 0.5 * s.length};
   }
-  // what no halving brought into the books is better than what is not solved
-  if (unsolved && least_mislaid_length_ > 0 && !settled_) {
+  // books a little off, which no halving mended, are better than what the last of them is
+  if (wrong && least_mislaid_ < kBearable && !settled_) {
     settled_ = true;
     return {Verdict::Kind::again, least_mislaid_length_};
   }
