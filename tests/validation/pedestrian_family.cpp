@@ -242,7 +242,7 @@ void trends() {
 /// and offset, and its whole interval has to lie within what is asked.
 void walking() {
   constexpr double kSlow = 0.7, kFast = 2.1;  // [m/s]
-  const auto slow = family({.walks = kSlow}, 161), fast = family({.walks = kFast}, 161);
+  const auto slow = family({.walks = kSlow}, 321), fast = family({.walks = kFast}, 321);
   const double per_slope = 40 / 3.6 / (kFast - kSlow);
   const validation::Mean change = validation::mean_of(changes(slow, fast, [](const Outcome& o) { return o.ratio; }));
   const double slope = per_slope * change.value, half = per_slope * change.half;
