@@ -56,8 +56,7 @@ void expect_solved_as_by_eigen(int blocks, Meet meet) {
   system.solve();
   const auto lu = A.fullPivLu();
   const Eigen::VectorXd x = lu.solve(b);
-  // pivots of a tenth of the largest let rounding grow more than the largest would
-  for (int r = 0; r < n; ++r) EXPECT_NEAR(system.b(r), x[r], 1e-14 * n * (1 + x.norm()) / lu.rcond());
+  for (int r = 0; r < n; ++r) EXPECT_NEAR(system.b(r), x[r], 1e-15 * n * (1 + x.norm()) / lu.rcond());
 }
 
 TEST(DenseSystem, SolvesBandsAsEigen) {
