@@ -26,7 +26,7 @@ struct MeshContactScratch {
     std::uint32_t call = 0, place = 0;
   };
   std::vector<Seen> seen;    // per triangle
-  std::vector<Vec3> points;  // [m] per near triangle of a round body: MeshTouch::points_against its face
+  std::vector<Vec3> points;  // [m] per near triangle: where the body reaches farthest against its face
   std::uint32_t call = 0;
   std::vector<SurfaceContact> candidates;
   std::vector<int> vertices;        // of a body with flat sides

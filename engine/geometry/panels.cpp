@@ -27,7 +27,8 @@ constexpr std::array<Entry, 12> kPanels{{{"unknown", 150e3},
                                          {"rear_window", 55e3},
                                          {"underside", 400e3}}};
 
-/// Distance [m] of p from a triangle's plane, or from its nearest corner's side of it where p is beside it.
+/// Distance [m] of p from a triangle's plane, and from the line of the edge it is farthest beyond: too little beyond a sharp
+/// corner.
 double distance_to(const TriangleMesh& mesh, int t, const Vec3& p) {
   const Triangle& corner = mesh.triangles()[static_cast<std::size_t>(t)];
   const Vec3& a = mesh.vertices()[static_cast<std::size_t>(corner[0])];

@@ -14,12 +14,12 @@
 namespace engine {
 namespace {
 
-constexpr double kUnsolved = 2;       // [-] residual over the tolerance above which the step is halved and taken again
-constexpr double kBearable = 100;     // [J] mislaid in a step of which each half has something else wrong
-constexpr double kSmoothTurn = 0.1;   // [rad] of any body in one step of the smooth motion
-constexpr double kSmoothSwing = 2.0;  // [-] rate of a swing under joint forces times the step: RK4 bears 2.8
-constexpr double kLargestTurn = 0.3;  // [rad] in one step of all
-constexpr double kMostParts = 20;     // of the smooth motion in one step, and of a step by turning
+constexpr double kUnsolved = 2;                // [-] residual over the tolerance above which the step is halved and taken again
+constexpr double kBearable = 10 * kMayMislay;  // [J] mislaid where each half of the step has something else wrong
+constexpr double kSmoothTurn = 0.1;            // [rad] of any body in one step of the smooth motion
+constexpr double kSmoothSwing = 2.0;           // [-] rate of a swing under joint forces times the step: RK4 bears 2.8
+constexpr double kLargestTurn = 0.3;           // [rad] in one step of all
+constexpr double kMostParts = 20;              // of the smooth motion in one step, and of a step by turning
 // Of a step by halving: a foot under a wheel, at its stop and on the road at once, comes out where a step moves it less.
 constexpr double kMostHalvedParts = 200;
 // Of a step by swings, the tolerance of scheme adaptive, events. A taut chain wants 9 at a mass ratio of 2000 and 2 ms; a thousand

@@ -217,7 +217,6 @@ void runs_in_lockstep() {
       joint.lockstep, joint.one_run, gain, joint.apart);
   std::printf(
       "%.0f %% of the flagship's time are smooth motion and closing of joints, which all runs do alike: at that gain %.2f times "
-      "the runs "
-      "of one a core, if nothing waited for another run\n\n",
+      "the runs of one a core, if nothing waited for another run\n\n",
       100 * share, 1 / (1 - share + share / gain));
 }

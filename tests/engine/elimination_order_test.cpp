@@ -74,16 +74,16 @@ TEST(EliminationOrder, AddsNoNumberWhereNoneIsNeeded) {
     Island island(kTrees);
     for (int k = 0; k < kTrees / 2; ++k)
       for (const int t : {kTrees / 2 - 1 - k, kTrees / 2 + k}) {
+        if (t > 0) island.add(star ? 0 : t - 1, t);
         island.add(t, -1);
         island.add(t, t);
-        if (t > 0) island.add(star ? 0 : t - 1, t);
       }
     int numbers = 0;
     for (std::size_t i = 0; i < island.all.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) numbers += island.answer(static_cast<int>(i), static_cast<int>(j));
     const std::vector<int> found = island.elimination_order();
     EXPECT_EQ(island.filled(found), numbers) << (star ? "star" : "chain");
-    EXPECT_GT(island.filled(island.as_they_stand()), star ? numbers - 1 : numbers);
+    EXPECT_GT(island.filled(island.as_they_stand()), numbers) << "or there is nothing to gain";
     std::vector<int> sorted = found;
     std::sort(sorted.begin(), sorted.end());
     EXPECT_EQ(sorted, island.as_they_stand());
