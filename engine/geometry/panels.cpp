@@ -1,5 +1,5 @@
 #include "engine/geometry/panels.h"
-#include "engine/math/functions.h"
+#include "engine/geometry/point_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -26,20 +26,6 @@ constexpr std::array<Entry, 12> kPanels{{{"unknown", 150e3},
                                          {"rear", 150e3},
                                          {"rear_window", 55e3},
                                          {"underside", 400e3}}};
-
-/// Distance [m] of p from a triangle's plane, and from the line of the edge it is farthest beyond: too little beyond a sharp
-/// corner.
-double distance_to(const TriangleMesh& mesh, int t, const Vec3& p) {
-  const Triangle& corner = mesh.triangles()[static_cast<std::size_t>(t)];
-  const Vec3& a = mesh.vertices()[static_cast<std::size_t>(corner[0])];
-  const Vec3& b = mesh.vertices()[static_cast<std::size_t>(corner[1])];
-  const Vec3& c = mesh.vertices()[static_cast<std::size_t>(corner[2])];
-  const Vec3& n = mesh.face_normals()[static_cast<std::size_t>(t)];
-  double beside = 0;
-  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
-    beside = std::max(beside, (p - from).dot((to - from).normalized().cross(n)));
-  return math::hypot((p - a).dot(n), beside);
-}
 
 }  // namespace
 
@@ -72,7 +58,10 @@ Panel panel_at(const TriangleMesh& mesh, const Panels& panels, const Vec3& point
     for (const int t : near) {
       const auto i = static_cast<std::size_t>(t);
       if (i >= panels.size() || mesh.face_normals()[i].dot(normal) < kFacing) continue;
-      const double d = distance_to(mesh, t, point);
+      const auto corner = [&](int k) -> const Vec3& {
+        return mesh.vertices()[static_cast<std::size_t>(mesh.triangles()[i][static_cast<std::size_t>(k)])];
+      };
+      const double d = (point - nearest_in_triangle(point, corner(0), corner(1), corner(2))).norm();
       if (d < least) least = d, best = panels[i];
     }
     if (least < reach) return best;

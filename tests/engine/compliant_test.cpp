@@ -101,6 +101,21 @@ Dent head_into(Panel panel, double speed) {
   return out;
 }
 
+/// A roof, and beside it a sliver whose sharp corner points at it: the lines of its edges come within a hair of what lies far ahead
+/// of the corner.
+TEST(PanelAt, ASharpCornerIsAsFarAsItsPoint) {
+  const TriangleMesh mesh(
+      {{-0.02, -0.02, -9e-4}, {0.02, -0.02, -9e-4}, {0, 0.02, -9e-4}, {0.05, 0, 0}, {0.5, -1e-3, 0}, {0.5, 1e-3, 0}},
+      {{0, 1, 2}, {3, 4, 5}});
+  const Panels panels{Panel::roof, Panel::side};
+  const Vec3 up = Vec3::UnitZ();
+  EXPECT_EQ(panel_at(mesh, panels, {0, 0, 0}, up), Panel::roof);
+  EXPECT_EQ(panel_at(mesh, panels, {0.3, 0, 0}, up), Panel::side);
+  EXPECT_EQ(panel_at(mesh, panels, {0.3, 0, 0.05}, up), Panel::side);
+  EXPECT_EQ(panel_at(mesh, panels, {0, 0, 0.2}, up), Panel::unknown);
+  EXPECT_EQ(panel_at(mesh, panels, {0.3, 0, 0}, -up), Panel::unknown);
+}
+
 /// How much [-] of its room a pane gives that a head of 4.5 kg closing at v [m/s] does not leave to its film. The energy E beyond
 /// what the film bears goes evenly over the way left until a twentieth of the room w is, then by E / w: E = E_0 exp(-y / w). The
 /// head stops where its own is gone, E_0 exp(-y / w) = F (y - w).
