@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cassert>
 
 #include "engine/math/same_bits.h"
 #include "engine/solver/wide_links.h"
@@ -19,27 +20,6 @@ Mat6 inverse_spd(const Mat6& A) {
   out.topRightCorner<3, 3>() = -PiQ * Si;
   out.bottomLeftCorner<3, 3>() = out.topRightCorner<3, 3>().transpose();
   out.topLeftCorner<3, 3>() = Pi - out.topRightCorner<3, 3>() * PiQ.transpose();
-  return out;
-}
-
-using Rows3 = Eigen::Matrix<double, 3, 6>;
-
-/// M skew(r), without the products with its zeros. In line: results stay in registers, a fiftieth of a step.
-[[gnu::always_inline]] inline Mat3 times_skew(const Mat3& M, const Vec3& r) {
-  Mat3 out;
-  out.col(0) = r.z() * M.col(1) - r.y() * M.col(2);
-  out.col(1) = r.x() * M.col(2) - r.z() * M.col(0);
-  out.col(2) = r.y() * M.col(0) - r.x() * M.col(1);
-  return out;
-}
-
-/// skew(r) M.
-template <int N>
-[[gnu::always_inline]] inline Eigen::Matrix<double, 3, N> skew_times(const Vec3& r, const Eigen::Matrix<double, 3, N>& M) {
-  Eigen::Matrix<double, 3, N> out;
-  out.row(0) = r.y() * M.row(2) - r.z() * M.row(1);
-  out.row(1) = r.z() * M.row(0) - r.x() * M.row(2);
-  out.row(2) = r.x() * M.row(1) - r.y() * M.row(0);
   return out;
 }
 
@@ -98,69 +78,79 @@ void Articulation::reset(const Topology& topology) {
   places_.assign(links, {});
 }
 
-/// Of the motion subspace S, at the joint's point, the body's centre makes [S_v + skew(r) S_w; S_w]. The columns that the joint
-/// does not have are zeros, with ones in K: one product of fixed size for every joint that has none of its own.
-void Articulation::eliminate(Factor& f, const Hinge& hinge, const Mat6& H, Mat6* H_parent) {
-  Mat6 S = motion_subspace(f.rows);
-  const Rows3 S_v = S.topRows<3>(), S_w = S.bottomRows<3>();
-  S.topRows<3>() += skew_times(hinge.r, S_w);
-  const Mat6 HS = H * S;
-  Mat6 K = S.transpose() * HS;
-  if (hinge.damper && hinge.damper->present) {
-    const Rows3 turning = hinge.damper->turning * S_w, sliding = hinge.damper->sliding * S_v;
-    K.noalias() += S_w.transpose() * turning;
-    if (f.rows.slides() > 0) K.noalias() += S_v.transpose() * sliding;
-  }
-  for (int k = f.rows.slides() + f.rows.turns(); k < 6; ++k) K(k, k) = 1;
-  const Mat6 Ki = inverse_spd(K), SKi = S * Ki;
+/// X0 = [1, -skew(d); 0, 1]: the parent's motion carried to the body as if the joint were locked.
+Mat6 Articulation::locked(const Hinge& hinge) {
+  Mat6 X0 = Mat6::Identity();
+  X0.topRightCorner<3, 3>() = -skew(hinge.r_parent - hinge.r);
+  return X0;
+}
+
+/// Two axes of turning, S_w: the body's centre makes S = [skew(r) S_w; S_w].
+void Articulation::eliminate_cross(Factor& f, const Hinge& hinge, const Mat6& H, Mat6* H_parent) {
+  using Two = Eigen::Matrix<double, 6, 2>;
+  const Eigen::Matrix<double, 3, 2> S_w = motion_subspace(f.rows).block<3, 2>(3, f.rows.slides());
+  Two S;
+  for (int k = 0; k < 2; ++k) S.col(k) << hinge.r.cross(S_w.col(k)), S_w.col(k);
+  const Two HS = H * S;
+  Eigen::Matrix2d K = S.transpose() * HS;
+  if (hinge.damper && hinge.damper->present) K += S_w.transpose() * hinge.damper->turning * S_w;
+  const Two SKi = S * K.inverse();
   f.D.noalias() = SKi * S.transpose();
   if (!H_parent) {
     f.X.setZero();
     return;
   }
-  // X0 = [1, -skew(d); 0, 1]
-  const Vec3 d = hinge.r_parent - hinge.r;
-  const Mat6 U = HS * Ki;
-  Mat6 UX;
-  UX.leftCols<3>() = U.topRows<3>().transpose();
-  UX.rightCols<3>() = U.bottomRows<3>().transpose() + skew_times<6>(d, U.topRows<3>()).transpose();
-  f.X.noalias() = -(S * UX);
-  f.X.diagonal().array() += 1;
-  f.X.topRightCorner<3, 3>() -= skew(d);
-  Mat6 rest = H;
-  rest.noalias() -= U * HS.transpose();
-  // X0^T rest X0
-  const Mat3 P = rest.topLeftCorner<3, 3>();
-  const Mat3 PT = -times_skew(P, d);
-  const Mat3 Q = rest.topRightCorner<3, 3>();
-  const Mat3 TQ = skew_times<3>(d, Q);
-  const Mat3 upper = Q + PT;
-  H_parent->topLeftCorner<3, 3>() += P;
-  H_parent->topRightCorner<3, 3>() += upper;
-  H_parent->bottomLeftCorner<3, 3>() += upper.transpose();
-  H_parent->bottomRightCorner<3, 3>() += rest.bottomRightCorner<3, 3>() + TQ + TQ.transpose() + skew_times<3>(d, PT);
+  const Mat6 X0 = locked(hinge);
+  f.X = X0;
+  f.X.noalias() -= SKi * (HS.transpose() * X0);
+  H_parent->noalias() += X0.transpose() * (H * f.X);
 }
 
-/// A free ball and a hinge, the joints of persons, have products of their own.
+/// A free ball and a hinge, the joints of persons, have products of their own, and a slide comes after the turns.
 [[gnu::always_inline]] inline void Articulation::eliminate_any(Factor& f, const Hinge& hinge, const Mat6& H, Mat6* H_parent) {
-  const int slides = f.rows.slides(), turns = f.rows.turns();
   const bool damped = hinge.damper && hinge.damper->present;
   double* parent = H_parent ? H_parent->data() : nullptr;
-  if (slides == 0 && turns == 3) {
-    if (damped)
-      eliminate_damped_point(H.data(), hinge.r.data(), hinge.r_parent.data(), hinge.damper->turning.data(), f.D.data(), f.X.data(),
-                             parent);
-    else
-      eliminate_point(H.data(), hinge.r.data(), hinge.r_parent.data(), f.D.data(), f.X.data(), parent);
-    return;
+  switch (f.rows.turns()) {
+    case 3:
+      if (damped)
+        eliminate_damped_point(H.data(), hinge.r.data(), hinge.r_parent.data(), hinge.damper->turning.data(), f.D.data(),
+                               f.X.data(), parent);
+      else
+        eliminate_point(H.data(), hinge.r.data(), hinge.r_parent.data(), f.D.data(), f.X.data(), parent);
+      break;
+    case 1: {
+      const Vec3& axis = f.rows.u[0];
+      const double damping = damped ? (axis.transpose() * hinge.damper->turning * axis)(0) : 0;
+      eliminate_hinge(H.data(), hinge.r.data(), hinge.r_parent.data(), axis.data(), damping, f.D.data(), f.X.data(), parent);
+      break;
+    }
+    case 0:
+      eliminate_fixed(f, hinge, H, H_parent);
+      break;
+    default:
+      eliminate_cross(f, hinge, H, H_parent);
   }
-  if (slides == 0 && turns == 1) {
-    const Vec3& axis = f.rows.u[0];
-    const double damping = damped ? (axis.transpose() * hinge.damper->turning * axis)(0) : 0;
-    eliminate_hinge(H.data(), hinge.r.data(), hinge.r_parent.data(), axis.data(), damping, f.D.data(), f.X.data(), parent);
-    return;
-  }
-  slides + turns == 0 ? eliminate_fixed(f, hinge, H, H_parent) : eliminate(f, hinge, H, H_parent);
+  if (f.rows.slides() > 0) eliminate_slide(f, hinge, H, H_parent);
+}
+
+/// One freedom s more beside those that D and X know: p = (1 - D H) s answers, D gains p p^T / (s^T H p), and X and what the parent
+/// carries lose by the same.
+void Articulation::eliminate_slide(Factor& f, const Hinge& hinge, const Mat6& H, Mat6* H_parent) {
+  assert(f.rows.slides() == 1);
+  const Vec3 along = f.rows.d.col(f.rows.held_along);
+  const double damping = hinge.damper && hinge.damper->present ? along.dot(hinge.damper->sliding * along) : 0;
+  Vec6 p = -(f.D * (H.leftCols<3>() * along));
+  p.head<3>() += along;
+  const Vec6 Hp = H * p;
+  const double inverse = 1 / (along.dot(Hp.head<3>()) + damping);
+  const Vec6 share = inverse * p;
+  f.D.noalias() += share * p.transpose();
+  if (!H_parent) return;
+  // X0^T H p
+  Vec6 carried = Hp;
+  carried.tail<3>() += (hinge.r_parent - hinge.r).cross(Hp.head<3>());
+  f.X.noalias() -= share * carried.transpose();
+  H_parent->noalias() -= carried * (inverse * carried).transpose();
 }
 
 /// No freedom at all: the parent carries the body as its own.
@@ -168,9 +158,7 @@ void Articulation::eliminate_fixed(Factor& f, const Hinge& hinge, const Mat6& H,
   f.D.setZero();
   f.X.setZero();
   if (!H_parent) return;
-  const Vec3 d = hinge.r_parent - hinge.r;
-  f.X.setIdentity();
-  f.X.topRightCorner<3, 3>() = -skew(d);
+  f.X = locked(hinge);
   H_parent->noalias() += f.X.transpose() * H * f.X;
 }
 

@@ -65,7 +65,9 @@ class Articulation {
     const Vec3& r_parent;  // [m] from its parent's
     const JointDamper* damper;
   };
-  void eliminate(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);
+  static Mat6 locked(const Hinge&);
+  void eliminate_cross(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);
+  void eliminate_slide(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);
   void eliminate_any(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);
   void eliminate_fixed(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);
 
