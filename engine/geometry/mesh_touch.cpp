@@ -20,7 +20,6 @@
 #include <limits>
 #include <optional>
 
-#include "engine/math/functions.h"
 #include "engine/math/roots.h"
 
 namespace engine {
@@ -161,7 +160,8 @@ void touch_face(MeshTouch& s, int triangle) {
 }
 
 void touch_edge_round(MeshTouch& s, int triangle, int edge) {
-  constexpr double kTight = 1e-12;  // [-], [m]
+  constexpr double kTight = 1e-12, kClose = 1e-9;       // [-]
+  constexpr double kFin = -1 + 1e-8, kHairShort = 1e4;  // [-]
   const Triangle& t = s.mesh.triangles()[triangle];
   const int from = t[static_cast<std::size_t>(edge)], to = t[static_cast<std::size_t>((edge + 1) % 3)];
   const Vec3 start = s.vertex(from);
@@ -179,15 +179,20 @@ void touch_edge_round(MeshTouch& s, int triangle, int edge) {
   const double cosine = n.dot(normal), sine = out.dot(normal);
   const double beyond_other = (cosine * out - sine * n).dot(point - start);
   if (beyond_other >= 0) return;
-  const auto slope = [&](double angle) {
-    const double c = math::cos(angle), sn = math::sin(angle);
+  // by x, the tangent of half the angle: no sines. A thin fin's other face stands a hair short of half a turn
+  const double half_turn = cosine > kFin ? sine / (1 + cosine) : kHairShort;
+  const double first = half_turn * beyond_this / (beyond_this - beyond_other);
+  math::newton({0, half_turn}, first, 60, kTight, kClose, [&](double x) {
+    const double scale = 1 / (1 + x * x), c = (1 - x * x) * scale, sn = 2 * x * scale;
     normal = c * n + sn * out;
-    point = reached(s, normal).point;
-    return (c * out - sn * n).dot(point - start);
-  };
-  math::illinois(
-      {0, math::atan2(sine, cosine)}, -beyond_this, -beyond_other, 60, kTight, [&](double angle) { return -slope(angle); },
-      [](double f) { return std::abs(f) < kTight; });
+    const Vec3 across = c * out - sn * n;
+    const Reached here_too = reached(s, normal);
+    point = here_too.point;
+    const Vec3 across_A = s.X_MA.q.conjugate() * across;
+    const Mat3 H = support_hessian(s.shape, s.X_MA.q.conjugate() * -normal, here_too.support);
+    const double turning = normal.dot(point - start) + across_A.dot(H * across_A);
+    return std::pair(-across.dot(point - start), 2 * scale * turning);
+  });
   const double at = along.dot(point - start) / along.squaredNorm();
   const double gap = normal.dot(point - start);
   if (gap >= s.margin) return;  // a vertex is no nearer
