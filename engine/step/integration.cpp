@@ -33,7 +33,28 @@ double Integration::difference() const {
   return most;
 }
 
-double Integration::advance(const State& state, const StepControl& control, double length) {
+Stages Integration::stages(const StepContext& s, const StepControl& control) {
+  if (world_.model.settings.scheme != Scheme::stepping || !control.bears_two_stages(s.length, smooth.fastest_swing()))
+    return Stages::four;
+  const Topology& topology = world_.topology;
+  touched_.assign(topology.trees.size(), 0);
+  for (const Constraint& c : s.constraints) {
+    if (!is_contact(c) || c.gap + s.length * std::min(0.0, c.u.before[0]) > 0) continue;
+    for (const int b : {c.a.body, c.b.body})
+      if (b >= 0) touched_[static_cast<std::size_t>(topology.tree_of_body[b])] = 1;
+  }
+  // a body by itself takes little time
+  const auto has_joints = [&topology](int tree) { return topology.links[topology.trees[tree].begin].joint >= 0; };
+  bool any = false;
+  for (const int tree : world_.active_trees) {
+    if (!has_joints(tree)) continue;
+    if (!touched_[static_cast<std::size_t>(tree)]) return Stages::four;
+    any = true;
+  }
+  return any ? Stages::two : Stages::four;
+}
+
+double Integration::advance(const State& state, const StepControl& control, double length, Stages stages) {
   const Meter::Span span(world_.meter, Phase::integration);
   Motion& end = buffers_.end;
   CompliantContacts* contacts = compliant ? &*compliant : nullptr;
@@ -51,7 +72,7 @@ double Integration::advance(const State& state, const StepControl& control, doub
   auto advance_over = [&](double way) {
     if (contacts) contacts->next_part(way / parts);
     for (int k = 0; k < parts; ++k)
-      smooth.advance(world_, end, way / parts, end.X_WB, end.V_WB, contacts, std::exchange(first, {}));
+      smooth.advance(world_, end, way / parts, end.X_WB, end.V_WB, stages, contacts, std::exchange(first, {}));
   };
   begin(false);
   advance_over(length);
@@ -69,12 +90,12 @@ bool Integration::locate_contact_event(const State& state, const StepControl& co
   for (int event = 0; event < 8 && compliant->first_crossing(buffers_.end, crossing); ++event) {
     any = true;
     const auto crossed = [&](double part) {
-      advance(state, control, part);
+      advance(state, control, part, Stages::four);
       return compliant->crossing_at(buffers_.end, crossing);
     };
     const auto met = [](double f) { return f > -1e-15 && f <= 0; };
     length = math::illinois({0, length}, crossing.start, crossing.end, 50, kTight * length, crossed, met).high;
-    advance(state, control, length);
+    advance(state, control, length, Stages::four);
     CompliantContacts::Crossing earlier;
     if (!compliant->first_crossing(buffers_.end, earlier) || (earlier.key == crossing.key && earlier.kind == crossing.kind)) break;
   }

@@ -17,7 +17,11 @@ class Integration {
 
   /// The motion over `length` [s] to StepBuffers::end; with scheme `adaptive` in two halves, and returns the estimated error [m] of
   /// the one taken whole (Richardson: the halves are closer by 2^4).
-  double advance(const State&, const StepControl&, double length);
+  double advance(const State&, const StepControl&, double length, Stages);
+
+  /// How many stages a step of this length asks for: two where all that has joints is touched within it, as long as the control
+  /// bears that.
+  Stages stages(const StepContext&, const StepControl&);
 
   /// Shortens a step taken to the first touch, turn or separation of a compliant contact; regula falsi (Illinois) on its length.
   /// False if there is none.
@@ -32,7 +36,8 @@ class Integration {
 
   World& world_;
   StepBuffers& buffers_;
-  long copied_ = 0;  // StillBodies::changes when all bodies were taken over
+  std::vector<char> touched_;  // per tree
+  long copied_ = 0;            // StillBodies::changes when all bodies were taken over
 };
 
 }  // namespace engine

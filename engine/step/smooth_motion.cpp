@@ -79,20 +79,61 @@ void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const
   world.loops.solve(world.topology, articulation, a, &a == &stages_[0].a ? &applied_ : nullptr);
 }
 
-void SmoothMotion::advance(World& world, const Motion& state, double h, std::vector<Pose>& X, std::vector<Twist>& V,
+void SmoothMotion::advance(World& world, const Motion& state, double h, std::vector<Pose>& X, std::vector<Twist>& V, Stages stages,
                            CompliantContacts* compliant, FirstStage first) {
-  constexpr double kNode[4] = {0, 0.5, 0.5, 1};
-  constexpr double kWeight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+  take_over(world, state, stages);
+  stages == Stages::two ? advance_by_two(world, state, h, X, V, first) : advance_by_four(world, state, h, X, V, compliant, first);
+}
+
+/// What moves by a schedule, and all bodies where others do than before.
+void SmoothMotion::take_over(const World& world, const Motion& state, Stages stages) {
   const bool all = std::exchange(copied_, world.still.changes) != world.still.changes;
   copy_moving(world, state.X_WB, X_, all);
+  for (int s = 0; s < static_cast<int>(all ? Stages::four : stages); ++s) copy_moving(world, state.V_WB, stages_[s].V, all);
+}
+
+void SmoothMotion::advance_by_two(World& world, const Motion& state, double h, std::vector<Pose>& X, std::vector<Twist>& V,
+                                  FirstStage first) {
+  Stage &start = stages_[0], &end = stages_[1];
+  for_awake_bodies(world, [&](int b) {
+    X_[b] = state.X_WB[b];
+    start.V[b] = state.V_WB[b];
+  });
+  accelerations(world, X_, start.V, start.a, nullptr, 0.5, first);
+  if (world.loops.any()) world.loops.sum_up(0.5 * h);
+  measure_swing(world);
+  for_awake_bodies(world, [&](int b) {
+    const Twist& at_start = start.V[b];
+    const auto a = start.a[b].head<3>(), turning = start.a[b].tail<3>();
+    const Vec3 turn = h * (at_start.w + 0.5 * h * turning);
+    displace(X_[b], h * (at_start.v + 0.5 * h * a), (1 + turn.squaredNorm() / 12) * turn);  // the tangent of half the angle
+    end.V[b].v = at_start.v + h * a;
+    end.V[b].w = at_start.w + h * turning;
+  });
+  accelerations(world, X_, end.V, end.a, nullptr, 0.5, {});
+  if (world.loops.any()) world.loops.sum_up(0.5 * h);
+  for_awake_bodies(world, [&](int b) {
+    X[b] = X_[b];
+    const Vec6 dV = 0.5 * h * (start.a[b] + end.a[b]);
+    V[b].v = start.V[b].v + dV.head<3>();
+    V[b].w = start.V[b].w + dV.tail<3>();
+  });
+}
+
+void SmoothMotion::advance_by_four(World& world, const Motion& state, double h, std::vector<Pose>& X, std::vector<Twist>& V,
+                                   CompliantContacts* compliant, FirstStage first) {
+  constexpr double kNode[4] = {0, 0.5, 0.5, 1};
+  constexpr double kWeight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
   for (int s = 0; s < 4; ++s) {
     Stage& stage = stages_[s];
-    copy_moving(world, state.V_WB, stage.V, all);
     for (const int tree : world.active_trees) {
       for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
         const int b = world.topology.links[l].body;
         Eigen::Vector4d q = state.X_WB[b].q.coeffs();
-        if (s > 0) {
+        if (s == 0) {
+          X_[b] = state.X_WB[b];
+          stage.V[b] = state.V_WB[b];
+        } else {
           const Stage& before = stages_[s - 1];
           const double c = kNode[s] * h;
           X_[b].p = state.X_WB[b].p + c * before.V[b].v;

@@ -2,6 +2,9 @@
 //
 // The quaternion is integrated as a vector of four, dq/dt = 1/2 (0, w) q, and normalised once at the end: that keeps order four
 // (an exponential map per stage with a summed w does not). Joint multipliers are solved anew in each stage with g = -Jdot V.
+//
+// What is touched follows its impulses to order one. There velocity Verlet, with what depends on velocity at that foretold for the
+// end, takes half of the time and gives order two. A swing under joint forces neither gains nor loses by it.
 #pragma once
 
 #include <vector>
@@ -17,15 +20,18 @@ struct FirstStage {
   bool factored = false;                 // already
 };
 
-/// Buffers of one Runge-Kutta step, sized once.
+/// Of a step: velocity Verlet has two, Runge-Kutta four.
+enum class Stages { two = 2, four = 4 };
+
+/// Buffers of one step, sized once.
 class SmoothMotion {
  public:
   explicit SmoothMotion(const Model&);
 
   /// Advances the awake bodies by h from `state` under the plan's forces; results for awake bodies only.
-  /// `compliant` (may be null) adds the forces of contacts in every stage.
-  void advance(World&, const Motion&, double h, std::vector<Pose>& X, std::vector<Twist>& V, CompliantContacts* compliant = nullptr,
-               FirstStage first = {});
+  /// `compliant` (may be null) adds the forces of contacts in every stage, of which there must be four.
+  void advance(World&, const Motion&, double h, std::vector<Pose>& X, std::vector<Twist>& V, Stages,
+               CompliantContacts* compliant = nullptr, FirstStage first = {});
 
   /// Rate [rad/s] of the fastest swing that the joint forces of the last step make a body capable of: T r / I, as in a chain of
   /// light links pulled taut by heavy ends. Runge-Kutta 4 blows up above 2.8 over the step.
@@ -43,6 +49,10 @@ class SmoothMotion {
   };
   void accelerations(World&, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& a, CompliantContacts*,
                      double weight, FirstStage);
+  void take_over(const World&, const Motion&, Stages);
+  void advance_by_four(World&, const Motion&, double h, std::vector<Pose>& X, std::vector<Twist>& V, CompliantContacts*,
+                       FirstStage);
+  void advance_by_two(World&, const Motion&, double h, std::vector<Pose>& X, std::vector<Twist>& V, FirstStage);
   void measure_swing(const World&);
 
   Stage stages_[4];

@@ -76,7 +76,7 @@ Verdict Stepper::attempt(State& state, StepControl& control, std::optional<StepC
   }
 
   // the smooth motion: RK4 through the joints, to the next event of a compliant contact
-  const double error = motion_.advance(state, control, length);
+  const double error = motion_.advance(state, control, length, motion_.stages(*step, control));
   if (const Verdict v = control.judge_motion(motion_.smooth, error, length); v.kind != Verdict::Kind::go_on) return v;
   if (motion_.compliant && control.locates_events() && motion_.locate_contact_event(state, control, length)) control.note_event();
   if (length != step->length) step.emplace(world_, state, buffers_, length);

@@ -199,6 +199,12 @@ int StepControl::parts(double length, double fastest_swing) const {
   return static_cast<int>(std::clamp(std::ceil(wanted), 1.0, kMostParts));
 }
 
+bool StepControl::bears_two_stages(double length, double fastest_swing) const {
+  // Verlet bears a swing of 2, and is off by a twelfth of the square of either
+  constexpr double kTurn = 0.05, kSwing = 0.5;  // [rad], [-] as above
+  return turning_ * length < kTurn && fastest_swing * length < kSwing;
+}
+
 /// Ends the run for what a step of any length worth taking could not follow; the state stays the last that was followed.
 Verdict StepControl::end_run(int body, const char* effect, const char* message) {
   world_.log.failure = Failure{state_.time, world_.model.bodies[body].name, effect, message};

@@ -30,6 +30,8 @@ class StepControl {
 
   /// Steps of the smooth motion in one of this length.
   int parts(double length, double fastest_swing) const;
+  /// Does all turn and swing so slowly that two stages follow it?
+  bool bears_two_stages(double length, double fastest_swing) const;
 
   /// What the spring of a compliant contact bears.
   Verdict bear_springs(const CompliantContacts&, double& length);
