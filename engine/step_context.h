@@ -35,6 +35,13 @@ struct Islands {
   std::vector<std::pair<int, int>> ends;  // per condition: the trees it joins; twice the same where it holds one
 };
 
+/// What impulses found in this attempt have shown of a compliant contact's spring. It stands for those found after them, in other
+/// passes too.
+struct SpringShown {
+  enum class As : char { foretold, rests, struck, spent } as = As::foretold;
+  double speed = 0;  // [m/s] struck: at which its law is taken; spent: that it gives back
+};
+
 /// Buffers of a step, sized once.
 struct StepBuffers {
   explicit StepBuffers(const World&);
@@ -49,6 +56,7 @@ struct StepBuffers {
   std::vector<Vec6> force, displacing, result;  // per body
   Islands islands;
   std::vector<double> weight;             // [-] per condition: share of the step that its displacement acts
+  std::vector<SpringShown> shown;         // per condition
   std::vector<Vec3> pull;                 // [m/s] per condition: along its rows by gravity over the step
   std::vector<double> dissipated_before;  // [J] per effect, when the step began
   std::vector<double> given;              // [J] per effect, by its hard conditions

@@ -8,11 +8,14 @@
 #include "engine/math/functions.h"
 #include "engine/step/bounds.h"
 #include "engine/step/impact.h"
+#include "engine/step/position_correction.h"
 
 namespace engine {
 namespace {
 
-constexpr double kLimitImpact = 0.5;  // [rad/s] a stop closed upon faster than this is an impact
+constexpr double kShortestArm = 0.01;  // [m] on which a push turns a joint: a child's foot
+constexpr double kFartherOut = 20;     // [-] by how much more a push moves what is far out: a bicycle's wheel by its pedal
+constexpr double kLimitImpact = 0.5;   // [rad/s] a stop closed upon faster than this is an impact
 
 /// Wheels and closed loops: their effect has formulated them.
 bool is_formulated(const Constraint& c) {
@@ -126,6 +129,14 @@ double formulate_compliant_contact(Constraint& c, double h, double gravity, doub
   return followed ? 0.5 : 1;
 }
 
+/// [m] by which surfaces in each other are pushed apart, however short the step.
+double most_pushed(const StepContext& s) {
+  double most = 0;
+  for (const Constraint& c : s.constraints)
+    if (is_contact(c) && !is_compliant(c)) most = std::max(most, recovery(c, s.length));
+  return most;
+}
+
 /// `whole`: all impulses displace by their whole.
 void formulate_island(StepContext& s, const std::vector<int>& island, bool whole) {
   const double v_impact = impact_speed(s), h = s.length, gravity = s.world.model.settings.gravity.norm();
@@ -148,6 +159,7 @@ void formulate_island(StepContext& s, const std::vector<int>& island, bool whole
 
 void drop_open_conditions(StepContext& s) {
   const double v_impact = impact_speed(s), h = s.length;
+  const double pushed = most_pushed(s);
   std::erase_if(s.constraints, [&](Constraint& c) {
     c.impulse.setZero();
     c.push = 0;
@@ -155,7 +167,8 @@ void drop_open_conditions(StepContext& s) {
     if (is_formulated(c)) return false;
     // an impact that the cut step ends at: a row would brake the approach
     if (s.placing && c.gap > 0 && c.u.before[0] < -v_impact && is_instant(s.world, c)) return true;
-    const double spare = is_angular_limit(c) ? 0.02 + 5 * h : 1e-3 + h;  // [rad], [m]: what other impulses may add
+    // [rad], [m]: what other impulses may add, and pushes
+    const double spare = is_angular_limit(c) ? 0.02 + 5 * h + pushed / kShortestArm : 1e-3 + h + kFartherOut * pushed;
     return c.gap + h * std::min(c.u.before[0], c.u.smooth[0]) > spare;
   });
   // the smooth motion keeps closed loops; their rows are there for what other impulses ask of them
@@ -179,6 +192,31 @@ void take_mean_friction(StepContext& s) {
   }
 }
 
+namespace {
+
+/// As the impulses found so far have shown it.
+void take_spring(StepContext& s, int i, bool whole) {
+  const SpringShown& shown = s.buffers.shown[i];
+  Constraint& c = s.constraints[i];
+  const double gravity = s.world.model.settings.gravity.norm();
+  switch (shown.as) {
+    case SpringShown::As::foretold:
+      break;
+    case SpringShown::As::rests:
+      formulate_compliant_contact(c, s.length, gravity, 0, true, whole);
+      break;
+    case SpringShown::As::struck:
+      formulate_compliant_contact(c, s.length, gravity, shown.speed, false, whole);
+      break;
+    case SpringShown::As::spent:
+      c.softness = 0;
+      c.target = shown.speed;
+      break;
+  }
+}
+
+}  // namespace
+
 void formulate(StepContext& s) {
   Islands& islands = s.buffers.islands;
   s.buffers.weight.assign(s.constraints.size(), 0.5);
@@ -189,6 +227,7 @@ void formulate(StepContext& s) {
     formulate_island(s, island, stands);
     islands.by_whole[k] = stands || squeezes_by_unequal_shares(s, island);
     if (islands.by_whole[k] && !stands) formulate_island(s, island, true);
+    for (const int i : island) take_spring(s, i, islands.by_whole[k]);
   }
 }
 
@@ -212,34 +251,35 @@ bool is_pressed_again(const Constraint& c, double slow) {
 
 }  // namespace
 
-bool wake_struck_springs(StepContext& s) {
+bool wake_struck_springs(StepContext& s, int root) {
   const double slow = 2 * impact_speed(s);
-  const double gravity = s.world.model.settings.gravity.norm();
-  const Islands& islands = s.buffers.islands;
+  const bool whole = s.buffers.islands.by_whole[root];
   bool any = false;
-  for (const int k : islands.roots)
-    for (const int i : islands.members[k]) {
-      Constraint& c = s.constraints[i];
-      if (is_pressed_again(c, slow)) {  // it rests
-        formulate_compliant_contact(c, s.length, gravity, 0, true, islands.by_whole[k]);
-        any = true;
-        continue;
-      }
-      if (!may_turn(c, slow) || c.gap >= 0 || c.u.before[0] <= -slow || std::abs(c.u.after[0]) <= slow) continue;
-      const bool whole = islands.by_whole[k];
-      formulate_compliant_contact(c, s.length, gravity, whole ? c.u.after[0] : c.u.before[0], false, whole);
-      any = true;
-    }
+  for (const int i : s.buffers.islands.members[root]) {
+    const Constraint& c = s.constraints[i];
+    SpringShown& shown = s.buffers.shown[i];
+    if (shown.as != SpringShown::As::foretold) continue;
+    if (is_pressed_again(c, slow))
+      shown = {SpringShown::As::rests, 0};
+    else if (may_turn(c, slow) && c.gap < 0 && c.u.before[0] > -slow && std::abs(c.u.after[0]) > slow)
+      shown = {SpringShown::As::struck, whole ? c.u.after[0] : c.u.before[0]};
+    else
+      continue;
+    take_spring(s, i, whole);
+    any = true;
+  }
   return any;
 }
 
-bool hold_spent_springs(StepContext& s) {
+bool hold_spent_springs(StepContext& s, int root) {
   const double slow = 2 * impact_speed(s);
   bool any = false;
-  for (Constraint& c : s.constraints) {
-    if (!may_turn(c, slow) || c.u.after[0] <= slow) continue;
-    c.softness = 0;
-    c.target = c.spring.hysteresis * c.u.after[0];
+  for (const int i : s.buffers.islands.members[root]) {
+    const Constraint& c = s.constraints[i];
+    SpringShown& shown = s.buffers.shown[i];
+    if (shown.as == SpringShown::As::spent || !may_turn(c, slow) || c.u.after[0] <= slow) continue;
+    shown = {SpringShown::As::spent, c.spring.hysteresis * c.u.after[0]};
+    take_spring(s, i, s.buffers.islands.by_whole[root]);
     any = true;
   }
   return any;

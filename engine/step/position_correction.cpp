@@ -13,22 +13,29 @@ constexpr double kRecovery = 0.5;          // [-] share of a penetration that a 
 constexpr double kRecoverySpeed = 0.2;     // [m/s] at which a deeper one, there from the start, is taken out
 constexpr double kLimitRecoverySpeed = 2;  // [rad/s]
 
+double slop_of(const Constraint& c) {
+  return is_angular_limit(c) ? kLimitSlop : kSlop;
+}
+
 /// What the position of a rigid contact or stop still needs beyond its impulse.
 double wanted(const Constraint& c, double h, double weight) {
-  const bool limit = is_angular_limit(c);
-  const double slop = limit ? kLimitSlop : kSlop;
+  const double slop = slop_of(c);
   const double travel = h * (0.5 * (c.u.before[0] + c.u.smooth[0]) + weight * (c.u.after[0] - c.u.smooth[0]));
   const double end = c.gap + travel;
   double floor = -slop;
-  if (c.gap < -slop) {
-    const double fresh = limit ? kMayExceed : kMayPenetrate;  // what a step leaves; deeper was there before: apart gently
-    const double most = c.gap > -fresh ? kRecovery * (-c.gap - slop) : h * (limit ? kLimitRecoverySpeed : kRecoverySpeed);
-    floor = std::min(c.gap + std::min(most, -c.gap - slop), -slop);
-  }
+  if (c.gap < -slop) floor = std::min(c.gap + recovery(c, h), -slop);
   return std::min(floor, 0.0) - end;
 }
 
 }  // namespace
+
+double recovery(const Constraint& c, double h) {
+  const bool limit = is_angular_limit(c);
+  const double beyond = -c.gap - slop_of(c);
+  if (beyond <= 0) return 0;
+  const double fresh = limit ? kMayExceed : kMayPenetrate;  // what a step leaves; deeper was there before: apart gently
+  return std::min(c.gap > -fresh ? kRecovery * beyond : h * (limit ? kLimitRecoverySpeed : kRecoverySpeed), beyond);
+}
 
 void correct_positions(StepContext& s, const std::vector<int>& island) {
   bool any = false;

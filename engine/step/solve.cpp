@@ -29,24 +29,27 @@ void warm_start(Constraint& c, const std::vector<WarmStart>& warm) {
   }
 }
 
-/// From the impulses of the last step; again from those that the conditions have, with other resistance in the joints; or only
-/// with other springs, so that bodies answer as they did.
-enum class Solve { first, other_joints, other_springs };
+/// From the impulses of the last step, or from those the conditions have by an earlier pass.
+enum class From { last_step, last_pass };
 
-void solve_islands(StepContext& s, Solve which) {
+void solve_islands(StepContext& s, From from) {
   World& world = s.world;
   s.residual = 0;
   s.unsettled = -1;
-  const Islands& islands = s.buffers.islands;
-  const bool assembled = which == Solve::other_springs && islands.roots.size() == 1;  // the solver knows one island at a time
-  for (const int root : islands.roots) {
-    const std::vector<int>& island = islands.members[root];
-    if (which == Solve::first)
+  for (const int root : s.buffers.islands.roots) {
+    const std::vector<int>& island = s.buffers.islands.members[root];
+    if (from == From::last_step)
       for (const int i : island) warm_start(s.constraints[i], s.state.warm);
-    if (!assembled) world.solver.assemble(world.topology, world.impulse, s.constraints, island);
-    const SolveReport report = world.solver.solve(s.constraints, island, world.model.settings.solver_tolerance);
-    world.log.diagnostics.contact_sweeps += report.sweeps;
-    world.log.diagnostics.newton_steps += report.newton_steps;
+    world.solver.assemble(world.topology, world.impulse, s.constraints, island);
+    SolveReport report;
+    const auto solve = [&] {
+      report = world.solver.solve(s.constraints, island, world.model.settings.solver_tolerance);
+      world.log.diagnostics.contact_sweeps += report.sweeps;
+      world.log.diagnostics.newton_steps += report.newton_steps;
+    };
+    solve();
+    if (wake_struck_springs(s, root)) solve();
+    if (hold_spent_springs(s, root)) solve();
     if (report.residual > s.residual) s.residual = report.residual, s.unsettled = report.worst;
     correct_positions(s, island);
   }
@@ -129,11 +132,12 @@ void exchange_over_step(StepContext& s) {
       apply_resistance(s);
     }
     for (Constraint& c : s.constraints) c.u.free = row_velocity(c, s.end.V_WB);
-    if (pass == 0) build_islands(s);
+    if (pass == 0) {
+      build_islands(s);
+      s.buffers.shown.assign(s.constraints.size(), {});
+    }
     formulate(s);
-    solve_islands(s, pass > 0 ? Solve::other_joints : Solve::first);
-    if (wake_struck_springs(s)) solve_islands(s, Solve::other_springs);
-    if (hold_spent_springs(s)) solve_islands(s, Solve::other_springs);
+    solve_islands(s, pass == 0 ? From::last_step : From::last_pass);
     apply(s);
     if (!s.any_damper) return;
     note_motion_after(s);
