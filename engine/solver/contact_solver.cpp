@@ -10,12 +10,12 @@
 namespace engine {
 namespace {
 
-constexpr double kLeastResponse = 0.01;     // [-] of the free response of a contact's bodies
-constexpr int kFirstSweeps = 1;             // before Newton is tried; twice as many before it is tried again, and so on
-constexpr double kFirstGoal = 1e-3;         // [-] of the tolerance
-constexpr int kPlainSweeps = 50;            // before the conditions are smoothed
-constexpr double kSharper[] = {0.8, 0.95};  // [-] from step to step there: slowly where it fails quickly
-constexpr int kLastSweeps = 100;            // of what is left then
+constexpr double kLeastResponse = 0.01;           // [-] of the free response of a contact's bodies
+constexpr int kFirstSweeps = 1;                   // before Newton is tried; twice as many before it is tried again, and so on
+constexpr double kFirstGoal = 1e-3;               // [-] of the tolerance
+constexpr int kPlainSweeps = 50;                  // before the conditions are smoothed
+constexpr double kSharper[] = {0.8, 0.95, 0.99};  // [-] from step to step there: slowly where it fails quickly
+constexpr int kLastSweeps = 100;                  // of what is left then
 
 }  // namespace
 
