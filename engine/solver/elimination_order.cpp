@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/math/disjoint_sets.h"
+
 namespace engine {
 
 void EliminationOrder::reserve(std::size_t trees, std::size_t constraints) {
@@ -13,13 +15,6 @@ void EliminationOrder::reserve(std::size_t trees, std::size_t constraints) {
   for (auto* list : {&one_, &rows_}) list->reserve(trees);
   trees_.reserve(constraints);
   pairs_.reserve(constraints);
-}
-
-/// The tree that stands for all that are one with this.
-int EliminationOrder::one(int tree) {
-  const auto next = [this](int t) -> int& { return one_[static_cast<std::size_t>(t)]; };
-  while (next(tree) != tree) tree = next(tree) = next(next(tree));
-  return tree;
 }
 
 /// The first that does not stand before it.
@@ -56,8 +51,13 @@ bool EliminationOrder::joins_three_trees() const {
   return false;
 }
 
+/// What stands for its trees, the smaller first.
+std::pair<int, int> EliminationOrder::ones(const Pair& pair) {
+  return std::minmax({math::representative(one_, pair.trees.first), math::representative(one_, pair.trees.second)});
+}
+
 void EliminationOrder::count(const Pair& pair, int sign) {
-  const int a = one(pair.trees.first), b = one(pair.trees.second);
+  const auto [a, b] = ones(pair);
   rows_[static_cast<std::size_t>(a)] += sign * pair.rows;
   if (b != a) rows_[static_cast<std::size_t>(b)] += sign * pair.rows;
 }
@@ -70,16 +70,16 @@ void EliminationOrder::give_turns() {
     int fewest = std::numeric_limits<int>::max();
     for (Pair& pair : pairs_) {
       if (pair.turn >= 0) continue;
-      const int a = one(pair.trees.first), b = one(pair.trees.second);
+      const auto [a, b] = ones(pair);
       const int acting = a == b ? rows(a) : rows(a) + rows(b) - pair.rows;
       if (acting < fewest) fewest = acting, next = &pair;
     }
     next->turn = turn;
     count(*next, -1);
-    const int a = one(next->trees.first), b = one(next->trees.second);
+    const auto [a, b] = ones(*next);
     if (a == b) continue;
     for (const Pair& pair : pairs_)  // those between the two were counted for both
-      if (pair.turn < 0 && std::minmax(one(pair.trees.first), one(pair.trees.second)) == std::minmax(a, b)) rows(b) -= pair.rows;
+      if (pair.turn < 0 && ones(pair) == std::pair(a, b)) rows(b) -= pair.rows;
     rows(a) += rows(b);
     one_[static_cast<std::size_t>(b)] = a;
   }

@@ -26,11 +26,11 @@ class EliminationOrder {
     int turn;  // -1: not yet
   };
 
-  int one(int tree);
   std::vector<Pair>::iterator pair_of(const std::pair<int, int>& trees);
   void find_pairs(const Topology& topology, const std::vector<Constraint>& all, const std::vector<int>& members);
   bool joins_three_trees() const;
   void give_turns();
+  std::pair<int, int> ones(const Pair& pair);
   void count(const Pair& pair, int sign);
 
   std::vector<int> order_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/effects/effect.h"
+#include "engine/math/disjoint_sets.h"
 #include "engine/step/bounds.h"
 #include "engine/step/joint_friction.h"
 
@@ -52,8 +53,7 @@ void note_rises(StepContext& s) {
   World& world = s.world;
   Islands& islands = s.buffers.islands;
   for (const int tree : world.active_trees) {
-    int root = tree;
-    while (islands.of_tree[root] != root) root = islands.of_tree[root];
+    const int root = math::representative(islands.of_tree, tree);
     if (islands.members[root].empty() || has_springs(s, islands.members[root])) continue;
     for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l)
       islands.rise[root] += change_since(s, l, s.state);

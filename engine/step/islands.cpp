@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/math/disjoint_sets.h"
+
 namespace engine {
 namespace {
 
@@ -43,10 +45,6 @@ void build_islands(StepContext& s) {
   const int trees = static_cast<int>(s.world.topology.trees.size());
   islands.of_tree.resize(trees);
   for (int t = 0; t < trees; ++t) islands.of_tree[t] = t;
-  auto find = [&](int t) {
-    while (islands.of_tree[t] != t) t = islands.of_tree[t] = islands.of_tree[islands.of_tree[t]];
-    return t;
-  };
   const auto tree_of = [&](int body) { return body < 0 ? -1 : s.world.topology.tree_of_body[body]; };
   islands.ends.clear();
   for (const Constraint& c : s.constraints) {
@@ -54,13 +52,13 @@ void build_islands(StepContext& s) {
     islands.ends.emplace_back(a < 0 ? b : a, b < 0 ? a : b);
   }
   for (const auto& [a, b] : islands.ends) {
-    const int ra = find(a), rb = find(b);
+    const int ra = math::representative(islands.of_tree, a), rb = math::representative(islands.of_tree, b);
     if (ra != rb) islands.of_tree[std::max(ra, rb)] = std::min(ra, rb);
   }
   for (const int root : islands.roots) islands.members[root].clear();
   islands.roots.clear();
   for (std::size_t i = 0; i < islands.ends.size(); ++i) {
-    const int root = find(islands.ends[i].first);
+    const int root = math::representative(islands.of_tree, islands.ends[i].first);
     if (islands.members[root].empty()) islands.roots.push_back(root);
     islands.members[root].push_back(static_cast<int>(i));
   }
