@@ -93,10 +93,11 @@ struct StepPace {
   double swing_rate = 0;     // [rad/s] of the fastest swing that the joint forces of the last step make a body capable of
   int swinging_body = -1;    // that one
   double next_instant = -1;  // [s] at which a step must end, negative: none
+  double blow = 0;           // [s] the longest step that a blow on a head allowed last, 0: any
 
   template <class S>
   static auto fields(S& s) {
-    return std::tie(s.last, s.next, s.cuts, s.events, s.swing_rate, s.swinging_body, s.next_instant);
+    return std::tie(s.last, s.next, s.cuts, s.events, s.swing_rate, s.swinging_body, s.next_instant, s.blow);
   }
 };
 

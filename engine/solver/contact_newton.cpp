@@ -1,6 +1,7 @@
 // Newton on all contacts, limits and wheels of an island at once (semi-smooth, after Alart and Curnier 1991).
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "engine/solver/contact_solver.h"
 #include "engine/solver/one_contact.h"
@@ -23,16 +24,24 @@ constexpr double kRegularFalls = 0.3;
 constexpr double kRegularLast = 1e-10;
 constexpr double kRegularJammed = 1e-8;  // where impulses are large and well determined
 
+/// [1/kg] by which a row that does not slide gives way.
+double softness_of(const Constraint& c, int row) {
+  return row == 0 ? c.softness : row == 2 ? c.wheel.grip_softness : 0;
+}
+
 }  // namespace
 
-/// How a sliding contact's tangential impulse follows its slip, x = L_t - rho u_t.
+/// L_t = mu L_n x/|x| with x = L_t - rho u_t, made linear about the present x. Along x: L_t is mu L_n. Across it:
+/// (1 - t) L_t + t rho u_t = 0 with t = mu L_n/|x|, at most 1. So two unknowns are left, L_n with the friction it drags along and
+/// L_t across.
 ContactSolver::Slip ContactSolver::slipping(const Constraint& c, double rho, const Eigen::Vector2d& x) {
   const double length = x.norm();
   Slip slip;
-  slip.rho = rho;
-  slip.direction = x / length;
+  slip.along = x / length;
+  slip.across = {-slip.along[1], slip.along[0]};
   slip.most = c.surface.friction * std::max(0.0, c.impulse[0]);
-  slip.across = std::min(1.0, slip.most / length) * (Eigen::Matrix2d::Identity() - slip.direction * slip.direction.transpose());
+  slip.by_velocity = std::min(1.0, slip.most / length);
+  slip.by_impulse = (1 - slip.by_velocity) / rho;
   return slip;
 }
 
@@ -40,6 +49,7 @@ ContactSolver::Slip ContactSolver::slipping(const Constraint& c, double rho, con
 int ContactSolver::linearise(const std::vector<Constraint>& all, const std::vector<int>& members) {
   unknown_.clear();
   rule_.clear();
+  opens_.clear();
   slips_.resize(members.size());
   for (const int i : elimination_.order()) {
     const Constraint& c = all[members[i]];
@@ -48,15 +58,12 @@ int ContactSolver::linearise(const std::vector<Constraint>& all, const std::vect
     const double miss = u[0] + c.softness * c.impulse[0] - c.target;
     const double active = c.impulse[0] - miss / (A(0, 0) + c.softness);
     if (c.kind != ConstraintKind::bilateral && active <= 0) {
-      // opens: its impulse goes to zero with the others' knowledge
-      for (int r = 0; r < c.rows; ++r)
-        if (c.impulse[r] != 0) unknown_.push_back(offset_[i] + r), rule_.push_back({Row::let_go, i, r});
+      if (c.impulse != Vec3::Zero()) opens_.push_back(i);
       continue;
     }
     unknown_.push_back(offset_[i]);
     rule_.push_back({Row::normal, i, 0});
     if (c.rows < 3) continue;
-    Row::Kind kind = Row::stick;
     if (c.kind == ConstraintKind::wheel) {
       // brake or grip at its bound stays there for this step; the sweeps move it
       const double held = length_of(c.impulse[1], c.impulse[2]);
@@ -70,12 +77,54 @@ int ContactSolver::linearise(const std::vector<Constraint>& all, const std::vect
     const Eigen::Vector2d wanted = c.impulse.tail<2>() - rho * u.tail<2>();
     const double most = c.surface.friction * active;
     if (wanted.norm() > std::max(most, kTinyImpulse)) {
-      kind = Row::slip;
+      rule_.back().kind = Row::sliding;
+      unknown_.push_back(offset_[i] + 1), rule_.push_back({Row::across, i, 1});
       slips_[static_cast<std::size_t>(i)] = slipping(c, rho, wanted);
+    } else {
+      for (int r = 1; r < 3; ++r) unknown_.push_back(offset_[i] + r), rule_.push_back({Row::stick, i, r});
     }
-    for (int r = 1; r < 3; ++r) unknown_.push_back(offset_[i] + r), rule_.push_back({kind, i, r});
   }
   return static_cast<int>(unknown_.size());
+}
+
+/// Which rows of a column of G the unknowns ask for: neighbours are copied together, and who slides asks across its slip.
+void ContactSolver::choose_rows() {
+  picks_.clear();
+  for (std::size_t k = 0; k < unknown_.size(); ++k) {
+    const int row = unknown_[k];
+    if (rule_[k].kind == Row::across) {
+      const Slip& slip = slips_[static_cast<std::size_t>(rule_[k].member)];
+      picks_.push_back({row, 0, slip.by_velocity * slip.across});
+    } else if (!picks_.empty() && picks_.back().length > 0 && row == picks_.back().first + picks_.back().length) {
+      ++picks_.back().length;
+    } else {
+      picks_.push_back({row, 1, {}});
+    }
+  }
+}
+
+void ContactSolver::pick(const double* from, double* to) const {
+  for (const Pick& pick : picks_) {
+    const double* at = from + pick.first;
+    if (pick.length == 0) *to++ = pick.weights[0] * at[0] + pick.weights[1] * at[1];
+    // by fours: a library's call to copy takes longer
+    int left = pick.length;
+    for (; left >= 4; left -= 4, at += 4, to += 4) std::memcpy(to, at, 4 * sizeof(double));
+    if (left & 2) std::memcpy(to, at, 2 * sizeof(double)), at += 2, to += 2;
+    if (left & 1) *to++ = *at;
+  }
+}
+
+/// How all velocities answer an unknown of a contact that slides.
+const double* ContactSolver::answer_of_slip(const Constraint& c, const Row& row) {
+  const Slip& slip = slips_[static_cast<std::size_t>(row.member)];
+  Vec3 unit(0, slip.across[0], slip.across[1]);
+  if (row.kind == Row::sliding) unit << 1, c.surface.friction * slip.along;
+  const Rows reach = response_.reach(static_cast<std::size_t>(row.member));
+  const double* g = G_.data() + static_cast<std::size_t>(offset_[row.member]) * stride_;
+  answer_.assign(stride_, 0.0);
+  add_three_columns(g + reach.begin, stride_, unit.data(), answer_.data() + reach.begin, reach.end - reach.begin);
+  return answer_.data();
 }
 
 /// The matrix of the conditions linearised; false if it has no inverse.
@@ -83,52 +132,16 @@ bool ContactSolver::factor_linearised(const std::vector<Constraint>& all, const 
   const int n = static_cast<int>(unknown_.size());
   factored_rule_.clear();
   newton_.resize(n);
-  // neighbours among the rows are copied together
-  runs_.clear();
-  for (const int row : unknown_) {
-    if (!runs_.empty() && row == runs_.back().first + runs_.back().length) {
-      ++runs_.back().length;
-    } else {
-      runs_.push_back({row, 1});
-    }
-  }
-  // column by column, as they lie: of who opens nothing, of who slides L_t - mu L_n x/|x| = 0 with x = L_t - rho u_t, whose two
-  // rows stand together after that of the normal
-  const auto changes_rows = [this](int k) {
-    return rule_[k].kind == Row::let_go || (rule_[k].kind == Row::slip && rule_[k].r == 1);
-  };
-  changed_.clear();
-  for (int k = 0; k < n; ++k)
-    if (changes_rows(k)) changed_.push_back(k);
-  for (int m = 0; m < n; ++m) {
-    const double* response = G_.data() + static_cast<std::size_t>(unknown_[m]) * stride_;
-    double* end = newton_.column(m);
-    for (const Run& run : runs_) end = std::copy_n(response + run.first, run.length, end);
-    double* column = newton_.column(m);
-    for (const int k : changed_) {
-      if (rule_[k].kind == Row::let_go) {
-        column[k] = 0;
-        continue;
-      }
-      const Slip& slip = slips_[static_cast<std::size_t>(rule_[k].member)];
-      const Eigen::Vector2d a = slip.rho * (slip.across * Eigen::Vector2d(column[k], column[k + 1]));
-      column[k] = a[0];
-      column[k + 1] = a[1];
-    }
-  }
+  choose_rows();
   for (int k = 0; k < n; ++k) {
-    const auto [kind, member, r] = rule_[k];
-    const Constraint& c = all[members[member]];
-    if (kind == Row::let_go) {
-      newton_.A(k, k) = 1;
-    } else if (kind != Row::slip) {
-      newton_.A(k, k) += regular_ * G(unknown_[k], unknown_[k]) + (r == 0 ? c.softness : (r == 2 ? c.wheel.grip_softness : 0));
-    } else if (r == 1) {
-      const Slip& slip = slips_[static_cast<std::size_t>(member)];
-      for (int q = 0; q < 2; ++q) {
-        newton_.A(k + q, k - 1) -= c.surface.friction * slip.direction[q];
-        for (int p = 0; p < 2; ++p) newton_.A(k + q, k + p) += (p == q ? 1 : 0) - slip.across(q, p);
-      }
+    const Row& row = rule_[k];
+    const Constraint& c = all[members[row.member]];
+    const bool slides = row.kind == Row::sliding || row.kind == Row::across;
+    pick(slides ? answer_of_slip(c, row) : G_.data() + static_cast<std::size_t>(unknown_[k]) * stride_, newton_.column(k));
+    if (row.kind == Row::across) {
+      newton_.A(k, k) += slips_[static_cast<std::size_t>(row.member)].by_impulse;
+    } else {
+      newton_.A(k, k) += regular_ * G(unknown_[k], unknown_[k]) + softness_of(c, row.r);
     }
   }
   if (!newton_.factor()) return false;
@@ -136,40 +149,62 @@ bool ContactSolver::factor_linearised(const std::vector<Constraint>& all, const 
   return true;
 }
 
+/// What is known before the system is solved: who opens lets go, who slides has all that its normal impulse bears along x.
+void ContactSolver::take_known(std::vector<Constraint>& all, const std::vector<int>& members) {
+  const auto change = [&](int i, const Vec3& by) {
+    Constraint& c = all[members[i]];
+    c.impulse += by;
+    if (by != Vec3::Zero()) add_to_velocity(i, c.rows, by);
+  };
+  for (const int i : opens_) change(i, -all[members[i]].impulse);
+  for (const Row& row : rule_) {
+    if (row.kind != Row::sliding) continue;
+    const Slip& slip = slips_[static_cast<std::size_t>(row.member)];
+    const double missing = slip.most - slip.along.dot(all[members[row.member]].impulse.tail<2>());
+    change(row.member, {0, missing * slip.along[0], missing * slip.along[1]});
+  }
+}
+
 /// Moves the impulses to the solution of the linearised conditions, with the last matrix while they are of the same kind and
 /// `again` allows it; false if there is none.
 bool ContactSolver::newton_step(std::vector<Constraint>& all, const std::vector<int>& members, bool again) {
   const int n = linearise(all, members);
-  if (n == 0) return false;
+  if (n == 0 && opens_.empty()) return false;
   if (!(again && rule_ == factored_rule_) && !factor_linearised(all, members)) return false;
+  take_known(all, members);
   for (int k = 0; k < n; ++k) {
     const auto [kind, member, r] = rule_[k];
     const Constraint& c = all[members[member]];
-    const double u = u_[static_cast<std::size_t>(unknown_[k])];
-    if (kind == Row::let_go) {
-      newton_.b(k) = -c.impulse[r];
-    } else if (kind != Row::slip) {
-      newton_.b(k) = r == 0 ? c.target - u - c.softness * c.impulse[0] : -u - (r == 2 ? c.wheel.grip_softness * c.impulse[2] : 0);
-    } else if (r == 1) {
+    const double* u = u_.data() + unknown_[k];
+    if (kind == Row::across) {
       const Slip& slip = slips_[static_cast<std::size_t>(member)];
-      for (int q = 0; q < 2; ++q) newton_.b(k + q) = slip.most * slip.direction[q] - c.impulse[1 + q];
+      const double u_across = slip.across[0] * u[0] + slip.across[1] * u[1];
+      newton_.b(k) = -slip.by_impulse * slip.across.dot(c.impulse.tail<2>()) - slip.by_velocity * u_across;
+    } else {
+      newton_.b(k) = (r == 0 ? c.target : 0) - u[0] - softness_of(c, r) * c.impulse[r];
     }
   }
   newton_.solve();
 
-  L_.resize(static_cast<std::size_t>(size_));
-  for (int i = 0; i < static_cast<int>(members.size()); ++i)
-    for (int r = 0; r < all[members[i]].rows; ++r) L_[static_cast<std::size_t>(offset_[i] + r)] = all[members[i]].impulse[r];
-  for (int k = 0; k < n; ++k) L_[static_cast<std::size_t>(unknown_[k])] += newton_.b(k);
-  for (int i = 0; i < static_cast<int>(members.size()); ++i) {
-    Constraint& c = all[members[i]];
-    Vec3 next = Vec3::Zero();
-    for (int r = 0; r < c.rows; ++r) next[r] = L_[static_cast<std::size_t>(offset_[i] + r)];
+  for (int k = 0; k < n;) {
+    const int member = rule_[k].member;
+    Constraint& c = all[members[member]];
+    Vec3 next = c.impulse;
+    for (; k < n && rule_[k].member == member; ++k) {
+      const Slip& slip = slips_[static_cast<std::size_t>(member)];
+      const double by = newton_.b(k);
+      if (rule_[k].kind == Row::across) {
+        next.tail<2>() += by * slip.across;
+      } else {
+        next[rule_[k].r] += by;
+        if (rule_[k].kind == Row::sliding) next.tail<2>() += c.surface.friction * by * slip.along;
+      }
+    }
     if (c.kind == ConstraintKind::contact) next = project_to_cone(next, c.surface.friction);
     if (c.kind != ConstraintKind::bilateral) next[0] = std::max(0.0, next[0]);
     const Vec3 change = next - c.impulse;
     c.impulse = next;
-    if (change != Vec3::Zero()) add_to_velocity(i, c.rows, change);
+    if (change != Vec3::Zero()) add_to_velocity(member, c.rows, change);
   }
   return true;
 }

@@ -72,40 +72,49 @@ class ContactSolver {
   Vec3 velocity(int member, int rows) const;
   double G(int row, int column) const { return G_[static_cast<std::size_t>(column) * stride_ + static_cast<std::size_t>(row)]; }
 
-  /// What Newton asks of one row.
+  /// An unknown of Newton's and the condition that goes with it: an impulse along a row of G, or of a contact that slides its
+  /// normal impulse with the friction it drags along, and its friction across.
   struct Row {
-    enum Kind { normal, stick, slip, let_go } kind;
+    enum Kind { normal, stick, sliding, across } kind;
     int member, r;
     bool operator==(const Row&) const = default;
   };
-  /// A sliding contact's tangential impulse: `most` along `direction`, and how that turns with the slip.
+  /// Of a contact that slides; across its slip by_impulse L + by_velocity u = 0.
   struct Slip {
-    double rho, most;
-    Eigen::Vector2d direction;
-    Eigen::Matrix2d across;
+    Eigen::Vector2d along, across;
+    double most;         // [N s] friction along
+    double by_velocity;  // [-]
+    double by_impulse;   // [1/kg]
   };
   static Slip slipping(const Constraint&, double rho, const Eigen::Vector2d& x);
+  /// Rows of a column of G: `length` neighbours, or none and the weighed sum of two.
+  struct Pick {
+    int first, length;
+    Eigen::Vector2d weights;
+  };
+  void choose_rows();
+  void pick(const double* from, double* to) const;
+  const double* answer_of_slip(const Constraint&, const Row&);
+  void take_known(std::vector<Constraint>&, const std::vector<int>& members);
 
   double regular_ = 0;
   std::vector<double> softened_;  // [1/kg] per member: by which it answers more than its bodies do
   Response response_;
   int size_ = 0;
-  std::size_t stride_ = 0;        // whole_rows(size_)
-  std::vector<int> offset_;       // per member
-  std::vector<double> G_;         // column-major stride_ x size_
-  std::vector<Mat3> own_;         // per member: its block on the diagonal; of one row the rest is a unit matrix
-  std::vector<double> u_;         // stride_
-  EliminationOrder elimination_;  // of the members in Newton's matrix
-  DenseSystem newton_;            // of the rows that can change
-  std::vector<int> unknown_;      // row of G per unknown
-  struct Run {
-    int first, length;
-  };
-  std::vector<Run> runs_;           // of neighbours in unknown_
-  std::vector<int> changed_;        // of the unknowns whose rule changes its rows
+  std::size_t stride_ = 0;          // whole_rows(size_)
+  std::vector<int> offset_;         // per member
+  std::vector<double> G_;           // column-major stride_ x size_
+  std::vector<Mat3> own_;           // per member: its block on the diagonal; of one row the rest is a unit matrix
+  std::vector<double> u_;           // stride_
+  EliminationOrder elimination_;    // of the members in Newton's matrix
+  DenseSystem newton_;              // of the rows that can change
+  std::vector<int> unknown_;        // row of G per unknown
   std::vector<Row> rule_;           // per unknown
   std::vector<Row> factored_rule_;  // of the matrix in newton_
   std::vector<Slip> slips_;         // per member, of those that slide
+  std::vector<int> opens_;          // members whose impulse goes to zero
+  std::vector<Pick> picks_;         // of a column of G
+  std::vector<double> answer_;      // stride_: of one unknown that slides
   std::vector<double> L_, u_kept_, L_kept_;
   std::vector<Vec3> L_start_, L_nothing_, L_best_;
 };

@@ -45,24 +45,29 @@ double fastest_turning(const World& world, const Motion& at) {
 }
 
 /// Longest step [s] that follows the blow on a head that yields: a pulse of a few milliseconds, whose peak the criteria raise to
-/// the power of 2.5. Where the pulse turns it has no speed: steps go on short, and grow from there under what only presses. Without
-/// a blow the step as it is.
+/// the power of 2.5. The way to a touch is one step. Where the pulse turns it has no speed: steps go on short, and grow from there
+/// under what only presses, or comes out far more slowly than the spring would throw it. A press that never was a blow divides none.
 double longest_for_heads(const World& world, const State& state, double length) {
   constexpr double kTurn = 0.05;                   // [rad] of the spring: a criterion of it is then within 3 % of its limit
   constexpr double kClosing = 2, kPressed = 1000;  // [m/s], [N] of a blow: below it a criterion is less than 100
-  constexpr double kMoves = 0.3;                   // [m/s] in or out: a blow goes on
+  constexpr double kGoesIn = 0.1;                  // [m/s] and so a blow goes on: at its deepest a pulse may end at once
+  constexpr double kComesOut = 0.3;                // [m/s], [-] and of the speed that goes with the depth in a free swing
   constexpr double kGrowth = 2;                    // [-] from step to step
   const Model& model = world.model;
   const auto is_head = [&model](int b) { return is_part(model, b) && model.persons[model.bodies[b].person].head == b; };
-  double longest = length;
+  double longest = std::numeric_limits<double>::infinity();
   for (const Constraint& c : state.contacts.list) {
     if (!is_contact(c) || !is_compliant(c) || !(is_head(c.a.record) || is_head(c.b.record))) continue;
     const double closing = -row_velocity(c, state.V_WB)[0];
-    const bool pressed = -c.gap * c.spring.stiffness > kPressed;
-    if ((closing > kClosing && c.gap < closing * length) || (pressed && std::abs(closing) > kMoves))
-      longest = std::min(longest, kTurn / std::sqrt(c.spring.stiffness * c.response.free));
-    else if (pressed && state.pace.last > 0)
-      longest = std::min(longest, kGrowth * state.pace.last);
+    const double force = std::min(-c.gap * c.spring.stiffness, c.spring.yield);
+    const bool strikes = closing > kClosing && c.gap < closing * length, pressed = force > kPressed;
+    if (!strikes && !pressed) continue;
+    const double rate = std::sqrt(c.spring.stiffness * c.response.free);
+    const double thrown = kComesOut * std::max(1.0, force / c.spring.stiffness * rate);
+    if (strikes || (state.pace.blow > 0 && (closing > kGoesIn || -closing > thrown)))
+      longest = std::min(longest, std::max(kTurn / rate, c.gap > 0 ? c.gap / closing : 0));
+    else if (state.pace.blow > 0)
+      longest = std::min(longest, kGrowth * state.pace.blow);
   }
   return longest;
 }
@@ -120,7 +125,8 @@ StepControl::StepControl(World& world, State& state, double most, double fastest
 
 void StepControl::follow_blows_on_heads() {
   const double longest = longest_for_heads(world_, state_, length_);
-  if (longest >= length_) return;
+  state_.pace.blow = longest < settings_.step ? longest : 0;
+  if (longest >= length_ - kSliver * settings_.step) return;
   ++world_.log.diagnostics.substeps;
   length_ = std::max(longest, settings_.step / kMostParts);
 }
