@@ -1,0 +1,109 @@
+// The impulses of contacts by themselves, without a step around them.
+#include "engine/solver/contact_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <vector>
+
+#include "tests/engine/experiment.h"
+
+namespace engine {
+namespace {
+
+/// A box on three feet that comes down at 1 m/s, slides at `sliding` [m/s] and turns at `spin` [rad/s] about the vertical.
+class BoxOnThreeFeet {
+ public:
+  BoxOnThreeFeet(double sliding, double spin, double friction) : articulation_(model(), Articulation::Keeps::all_trees) {
+    const std::vector<Pose> X_WB(1);
+    articulation_.reset(topology_);
+    articulation_.factor(topology_, 0, X_WB, nullptr);
+    for (const Vec3& foot : {Vec3(0.5, 0.3, -0.4), Vec3(-0.6, 0.2, -0.4), Vec3(0.1, -0.4, -0.4)}) {
+      Constraint c;
+      set_bodies(c, model(), 0, -1);
+      c.frame << 0, 1, 0, 0, 0, 1, 1, 0, 0;  // normal, t1, t2: z, x, y
+      for (int r = 0; r < 3; ++r) {
+        const Vec3 along = c.frame.col(r);
+        c.a.J.row(r) << along.transpose(), foot.cross(along).transpose();
+      }
+      c.surface.friction = friction;
+      c.response.free = c.response.whole = 1 / model().bodies[0].mass;
+      c.u.free = c.a.J * (Vec6() << sliding, 0, -1, 0, 0, spin).finished();
+      contacts.push_back(c);
+    }
+  }
+
+  SolveReport solve(double tolerance) {
+    std::vector<int> members(contacts.size());
+    std::iota(members.begin(), members.end(), 0);
+    ContactSolver solver;
+    solver.reserve(topology_, contacts.size());
+    solver.assemble(topology_, articulation_, contacts, members);
+    return solver.solve(contacts, members, tolerance);
+  }
+
+  /// What the impulses leave of the feet's velocities, by the inertia of the box itself.
+  std::vector<Vec3> velocities_after() const {
+    const Body& box = model().bodies[0];
+    Vec6 momentum = Vec6::Zero();
+    for (const Constraint& c : contacts) momentum += c.a.J.transpose() * c.impulse;
+    Vec6 V;
+    V << momentum.head<3>() / box.mass, box.inertia_B.inverse() * momentum.tail<3>();
+    std::vector<Vec3> out;
+    for (const Constraint& c : contacts) out.push_back(c.u.free + c.a.J * V);
+    return out;
+  }
+
+  std::vector<Constraint> contacts;
+
+ private:
+  static const Model& model() {
+    static const Model made = [] {
+      Model model;
+      model.bodies = {test::inert(20, {1.2, 2.1, 2.5}, Vec3::Zero())};
+      return model;
+    }();
+    return made;
+  }
+
+  Topology topology_ = build_topology(model(), {});
+  Articulation articulation_;
+};
+
+/// Each foot slides another way, and turns as the others hold it. With a wrong slope along or across the slip Newton takes 13 to 27
+/// steps.
+TEST(ContactSolver, FrictionOpposesTheSlipThatItLeaves) {
+  for (const double spin : {0.0, 3.0, -8.0})
+    for (const double friction : {0.2, 0.5}) {
+      BoxOnThreeFeet box(4, spin, friction);
+      const SolveReport report = box.solve(1e-9);
+      EXPECT_LE(report.residual, 1e-9) << spin << " " << friction;
+      EXPECT_LE(report.newton_steps, 10) << spin << " " << friction;
+      EXPECT_LE(report.sweeps, 4) << spin << " " << friction;
+      const std::vector<Vec3> after = box.velocities_after();
+      for (std::size_t i = 0; i < after.size(); ++i) {
+        const Constraint& c = box.contacts[i];
+        const Eigen::Vector2d slip = after[i].tail<2>(), held = c.impulse.tail<2>();
+        ASSERT_GT(slip.norm(), 0.1) << "it slides";
+        EXPECT_GE(c.impulse[0], 0);
+        EXPECT_GE(after[i][0], -1e-9);
+        EXPECT_NEAR(c.impulse[0] * after[i][0], 0, 1e-8);
+        EXPECT_NEAR((held + friction * c.impulse[0] * slip.normalized()).norm(), 0, 1e-8)
+            << spin << " " << friction << " foot " << i;
+      }
+    }
+}
+
+/// What sticks has no slip, and less friction than it might have.
+TEST(ContactSolver, WhatSticksStaysWithinItsCone) {
+  BoxOnThreeFeet box(0.1, 0.1, 0.9);
+  EXPECT_LE(box.solve(1e-9).residual, 1e-11);
+  const std::vector<Vec3> after = box.velocities_after();
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    EXPECT_NEAR(after[i].norm(), 0, 1e-9);
+    EXPECT_LE(box.contacts[i].impulse.tail<2>().norm(), 0.9 * box.contacts[i].impulse[0] + 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace engine
