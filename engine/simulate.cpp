@@ -62,7 +62,7 @@ Recording run(const Model& model, const Plan& plan, const RunOptions& options) {
     while (left > 1e-9 * h && !recording.failure) {
       left -= stepper.advance(state, left);
       recording.failure = look_for_divergence(world, state, stepper.conditions());
-      if (left > 1e-9 * h) recorder.follow(world, state, recording);
+      if (left > 1e-9 * h) recorder.follow(world, state, left, recording);
     }
     watch.note(world, state, stepper.conditions());
     if (recording.failure) break;

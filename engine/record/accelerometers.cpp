@@ -21,12 +21,13 @@ void Accelerometers::begin(const World& world, Recording& recording) {
   for (const Body& body : world.model.bodies) velocity_.push_back(body.fixed ? Vec3(Vec3::Zero()) : body.V_WB.v);
 }
 
-void Accelerometers::follow(const World& world, const State& state, Recording& recording) {
+void Accelerometers::follow(const World& world, const State& state, double left, Recording& recording) {
   constexpr double kSampling = 1e-4;  // [s] 10 kHz, as SAE J211 asks of heads: an instant has no acceleration
   if (!yields(world.model.settings.contact_law, true) || world.model.persons.empty()) return;
   if (recording.heads.empty()) begin(world, recording);
   const double step = state.time - times_.back();
-  if (step < std::min(kSampling, world.model.settings.step) * (1 - 1e-9)) return;
+  const double spacing = std::min(kSampling, world.model.settings.step) * (1 - 1e-9);
+  if (step < spacing || (left > 0 && left < spacing)) return;  // the end of the step has a sample
   for (std::size_t p = 0; p < world.model.persons.size(); ++p) {
     const int head = world.model.persons[p].head;
     if (head < 0 || state.V_WB[head].v == head_velocity_[p]) continue;  // of who waits noughts are put in once it matters
@@ -39,7 +40,7 @@ void Accelerometers::follow(const World& world, const State& state, Recording& r
 }
 
 void Accelerometers::sample(const World& world, const State& state, Recording& recording) {
-  follow(world, state, recording);
+  follow(world, state, 0, recording);
   if (recording.heads.empty()) return;
   const double step = state.time - stepped_;
   stepped_ = state.time;

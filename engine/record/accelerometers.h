@@ -10,8 +10,8 @@ namespace engine {
 /// Only where persons yield: a rigid blow has no acceleration.
 class Accelerometers {
  public:
-  /// Heads, at the end of every part of a divided step but the last.
-  void follow(const World&, const State&, Recording&);
+  /// Heads, at the end of every part of a divided step but the last; `left` [s] of it.
+  void follow(const World&, const State&, double left, Recording&);
 
   /// Heads and peaks, at the end of every step.
   void sample(const World&, const State&, Recording&);

@@ -95,9 +95,9 @@ void Recorder::tally_contact(const World& world, const Constraint& c, double tim
   at->duration += duration;
 }
 
-void Recorder::follow(const World& world, const State& state, Recording& recording) {
+void Recorder::follow(const World& world, const State& state, double left, Recording& recording) {
   necks_.follow(world, state);
-  accelerometers_.follow(world, state, recording);
+  accelerometers_.follow(world, state, left, recording);
 }
 
 void Recorder::sample(const World& world, const State& state, Recording& recording) {

@@ -24,8 +24,8 @@ class Recorder {
 
   /// End of every step: what snapshots are too seldom for.
   void sample(const World&, const State&, Recording&);
-  /// At the end of every part of a divided step but the last.
-  void follow(const World&, const State&, Recording&);
+  /// At the end of every part of a divided step but the last; `left` [s] of it.
+  void follow(const World&, const State&, double left, Recording&);
 
   /// Writes a snapshot with everything tallied since the one before.
   void snapshot(const World&, const State&, Recording&);

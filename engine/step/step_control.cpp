@@ -46,9 +46,10 @@ double fastest_turning(const World& world, const Motion& at) {
 
 /// Longest step [s] that follows the blow on a head that yields: a pulse of a few milliseconds, whose peak the criteria raise to
 /// the power of 2.5. The way to a touch is one step. Where the pulse turns it has no speed: steps go on short, and grow from there
-/// under what only presses, or comes out far more slowly than the spring would throw it. A press that never was a blow divides none.
+/// under what only presses, or comes out far more slowly than the spring would throw it. A press that never was a blow divides
+/// none.
 double longest_for_heads(const World& world, const State& state, double length) {
-  constexpr double kTurn = 0.05;                   // [rad] of the spring: a criterion of it is then within 3 % of its limit
+  constexpr double kTurn = 0.035;                  // [rad] of the spring: a criterion of it is then within 2 % of its limit
   constexpr double kClosing = 2, kPressed = 1000;  // [m/s], [N] of a blow: below it a criterion is less than 100
   constexpr double kGoesIn = 0.1;                  // [m/s] and so a blow goes on: at its deepest a pulse may end at once
   constexpr double kComesOut = 0.3;                // [m/s], [-] and of the speed that goes with the depth in a free swing
@@ -60,7 +61,7 @@ double longest_for_heads(const World& world, const State& state, double length) 
     if (!is_contact(c) || !is_compliant(c) || !(is_head(c.a.record) || is_head(c.b.record))) continue;
     const double closing = -row_velocity(c, state.V_WB)[0];
     const double force = std::min(-c.gap * c.spring.stiffness, c.spring.yield);
-    const bool strikes = closing > kClosing && c.gap < closing * length, pressed = force > kPressed;
+    const bool strikes = closing > kClosing && c.gap<closing * length, pressed = force> kPressed;
     if (!strikes && !pressed) continue;
     const double rate = std::sqrt(c.spring.stiffness * c.response.free);
     const double thrown = kComesOut * std::max(1.0, force / c.spring.stiffness * rate);

@@ -56,7 +56,8 @@ TEST(HeadInjury, OfAFallDoesNotHangOnTheStep) {
   EXPECT_NEAR(coarse / fine, 1, 0.05) << "first order in a step of 0.06 rad of the spring, to the power of 2.5";
 }
 
-/// As on a windscreen. The pulse ends at its deepest point, slow and with its largest force: a step that grew before would blur that.
+/// As on a windscreen. The pulse ends at its deepest point, slow and with its largest force: a step that grew before would blur
+/// that.
 TEST(HeadInjury, OfASlowPulseDoesNotHangOnTheStep) {
   const double coarse = hic15_of_fall(5.2e4, 1e-3), fine = hic15_of_fall(5.2e4, 1e-4);
   EXPECT_GT(fine, 50);
