@@ -61,8 +61,8 @@ double longest_for_heads(const World& world, const State& state, double length) 
     if (!is_contact(c) || !is_compliant(c) || !(is_head(c.a.record) || is_head(c.b.record))) continue;
     const double closing = -row_velocity(c, state.V_WB)[0];
     const double force = std::min(-c.gap * c.spring.stiffness, c.spring.yield);
-    const bool strikes = closing > kClosing && c.gap<closing * length, pressed = force> kPressed;
-    if (!strikes && !pressed) continue;
+    const bool strikes = closing > kClosing && c.gap < closing * length;
+    if (!strikes && force <= kPressed) continue;
     const double rate = std::sqrt(c.spring.stiffness * c.response.free);
     const double thrown = kComesOut * std::max(1.0, force / c.spring.stiffness * rate);
     if (strikes || (state.pace.blow > 0 && (closing > kGoesIn || -closing > thrown)))
