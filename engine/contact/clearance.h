@@ -50,13 +50,13 @@ struct Clearance {
 
 /// What a pair of hyper-ellipsoids keeps from step to step.
 struct PairMemory {
-  Vec3 normal_W = Vec3::Zero();  // of the last narrow phase, from which the next one starts; zero: none yet
+  Vec3 normal_A = Vec3::Zero();  // of the last narrow phase, in a's axes; from it the next one starts; zero: none yet
   Clearance clearance;           // of b in the frame of a
   OtherNormals others;           // of the two deep in each other
 
   template <class S>
   static auto fields(S& s) {
-    return std::tie(s.normal_W, s.clearance, s.others);
+    return std::tie(s.normal_A, s.clearance, s.others);
   }
 };
 

@@ -93,8 +93,9 @@ struct ContactPairs {
   MeshContactScratch mesh_scratch;
 };
 
-/// A search for contacts, which are appended to `found`.
+/// A search for contacts, which are appended to `found`; `before`: those of the last step's end.
 struct ContactSearch : Outlook {
+  const std::vector<Constraint>& before;
   std::vector<Constraint>& found;
 };
 

@@ -4,8 +4,8 @@
 //   N = p (pi / 2) L B,   T = p (4 / 3) d B,   T / N = (8 / 3 pi) d / L,
 //
 // for a sphere of radius R and small d the 4 a / (3 pi R) of Bowden and Tabor, with a = L and d = a^2 / 2R. L is measured on the
-// part: from the deepest point d up, then half the chord along the slip. One way alone would be nothing where the part leans, its
-// deepest point near the edge of the dent, and the friction without bound.
+// part: from the deepest point towards the centre until d up, where an ellipsoid's section has its centre, then half the chord
+// along the slip. Straight up, along the normal, the way would leave a thin part that leans.
 #include "engine/contact/ploughing.h"
 
 #include <algorithm>
@@ -17,17 +17,20 @@
 namespace engine {
 namespace {
 
-/// Half the chord [m] of the part through `p`, inside it, along unit `direction`. The gauge is convex: from outside Newton closes
-/// in from one side.
+/// Half the chord [m] of the part through `p`, inside it, along unit `direction`. The gauge is convex: from its box, outside,
+/// Newton closes in from one side.
 double half_chord(const HyperEllipsoid& part, const Vec3& p, const Vec3& direction) {
   constexpr int kSteps = 30;
-  const double far = 2 * part.semi_axes.norm();
+  const double largest = 2 * part.semi_axes.norm();
   const auto way = [&](double sense) {
+    double far = largest;
+    for (int i = 0; i < 3; ++i)
+      if (direction[i] != 0) far = std::min(far, part.semi_axes[i] / std::abs(direction[i]) - sense * p[i] / direction[i]);
     const auto beyond = [&](double s) {
       const Vec3 x = p + sense * s * direction, gradient = gauge_gradient(part, x);
       return std::pair(gradient.dot(x) - 1, sense * gradient.dot(direction));  // the gauge grows with the distance: Euler
     };
-    return math::newton({0, far}, far, kSteps, 0, 1e-6 * far, beyond);
+    return math::newton({0, far}, far, kSteps, 0, 1e-6 * largest, beyond);
   };
   return (way(1) + way(-1)) / 2;
 }
@@ -39,7 +42,7 @@ double ploughing(const HyperEllipsoid& part, const Vec3& inward, const Vec3& sli
   if (!(depth > 0)) return 0;
   const Support deepest = support(part, -inward);
   const double d = std::min(depth, kHalf * deepest.value);
-  return 8 / (3 * std::numbers::pi) * d / half_chord(part, deepest.point + d * inward, slip);
+  return 8 / (3 * std::numbers::pi) * d / half_chord(part, (1 - d / deepest.value) * deepest.point, slip);
 }
 
 }  // namespace engine

@@ -11,10 +11,7 @@ Touches touches_between<ShapeKind::round, ShapeKind::plane>(const Outlook& outlo
   const double height = world.model.ground.height, margin = contact_margin(outlook, pair.a);
   if (X.p.z() - height > world.reach[pair.a] + margin) return {};
   const auto& shape = std::get<HyperEllipsoid>(world.model.bodies[pair.a].shape);
-  // its box, which asks for no powers, may stand clear
-  constexpr double kToSpare = 1e-9;  // [m]
-  const Vec3 up_A = X.q.conjugate() * Vec3::UnitZ();
-  if (X.p.z() - height > up_A.cwiseAbs().dot(shape.semi_axes) + margin + kToSpare) return {};
+  if (X.p.z() - height > support_bound(shape, X.q.conjugate() * Vec3::UnitZ()) + margin) return {};
   ContactPoints& touches = world.pairs.touches;
   contacts_with_plane(shape, X, Vec3::UnitZ(), height, margin, touches);
   return {touches.begin(), touches.end()};

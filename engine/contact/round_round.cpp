@@ -23,8 +23,10 @@ void contacts_of_rounds(const HyperEllipsoid& A, const Pose& X_WA, const HyperEl
   const FacesMeet faces = contacts_of_faces(A, X_WA, B, X_WB, margin, out, apart);
   if (faces == FacesMeet::apart) memory.clearance.least = apart;
   if (faces != FacesMeet::other) return;
-  if (const auto touch = contact_of_pair(A, X_WA, B, X_WB, margin, memory.normal_W, &memory.clearance.least, &memory.others))
+  Vec3 normal = X_WA.q * memory.normal_A;
+  if (const auto touch = contact_of_pair(A, X_WA, B, X_WB, margin, normal, &memory.clearance.least, &memory.others))
     out.push_back(*touch);
+  memory.normal_A = X_WA.q.conjugate() * normal;
 }
 
 }  // namespace

@@ -82,6 +82,15 @@ double support_value(const HyperEllipsoid& shape, const Vec3& direction) {
   return direction.squaredNorm() > 0 ? support(shape, direction).value : 0;
 }
 
+/// The dual norm lies between those of exponent 1 and 2. Its logarithm is convex in 1/q (Lyapunov), and a weighted geometric mean
+/// is no more than the arithmetic one.
+double support_bound(const HyperEllipsoid& shape, const Vec3& direction) {
+  constexpr double kRounding = 1e-14;  // [-]
+  const Vec3 w = shape.semi_axes.cwiseProduct(direction).cwiseAbs();
+  const double of_box = 1 - 2 / shape.exponent;
+  return (1 + kRounding) * (of_box * w.sum() + (1 - of_box) * w.norm());
+}
+
 Vec3 support_point(const HyperEllipsoid& shape, const Vec3& direction) {
   return support(shape, direction).point;
 }

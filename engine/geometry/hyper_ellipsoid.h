@@ -30,6 +30,9 @@ Support support(const HyperEllipsoid&, const Vec3& direction);
 /// Value alone; zero for no direction.
 double support_value(const HyperEllipsoid&, const Vec3& direction);
 
+/// No less than the value and at most 5 % more, exact for n = 2; it asks for no powers.
+double support_bound(const HyperEllipsoid&, const Vec3& direction);
+
 /// Point alone: of the surface the farthest along `direction` [m] (3).
 Vec3 support_point(const HyperEllipsoid&, const Vec3& direction);
 

@@ -135,10 +135,10 @@ void keep_reached_triangles(MeshTouch& s, double passed_by) {
     if (height > sphere_of(s)) return true;
     if (n != last_normal) {
       last_normal = n;
-      // the ellipsoid within and the box without tell most triangles already
-      const Vec3 half = s.shape.semi_axes.cwiseProduct((R_AM * n).cwiseAbs());
-      least = (1 - kBoundSlack) * half.norm();
-      most = (1 + kBoundSlack) * half.sum();
+      // the ellipsoid within and a bound without tell most triangles already
+      const Vec3 n_A = R_AM * n;
+      least = (1 - kBoundSlack) * s.shape.semi_axes.cwiseProduct(n_A).norm();
+      most = support_bound(s.shape, n_A);
       known = false;
     }
     if (height - most > s.margin || height < -passed_by * most) return true;

@@ -141,14 +141,9 @@ std::optional<SurfaceContact> search(const HyperEllipsoid& A, const Pose& X_WA, 
   const Vec3 towards = distance > 1e-12 ? Vec3(pair.d / distance) : Vec3(Vec3::UnitZ());
   const bool warm = normal_guess.squaredNorm() > 0.5;
   // any direction that separates by more than the margin ends it
-  double known = pair.gap(towards);
-  RoundPair::At start;
-  if (!(known >= margin)) {
-    start = pair.at(warm ? normal_guess : towards);
-    known = start.gap;
-  }
-  if (known >= margin) {
-    if (apart) *apart = known;
+  const RoundPair::At start = pair.at(warm ? normal_guess : towards);
+  if (start.gap >= margin) {
+    if (apart) *apart = start.gap;
     return std::nullopt;
   }
   CommonNormal best = nearest_top(pair, start, warm);

@@ -39,6 +39,9 @@ struct YieldingSpring {
   double share_a = 0.5;                                        // [-] of the depth, by which surface a gives way
   double thickness = std::numeric_limits<double>::infinity();  // [m] depth at which what yields has gone through
   double room = 0;                                             // [m] depth at which what yields bottoms out; 0: never
+  double loading = 0;                                          // [N/m] of a vehicle's panel and the part on it before it yields
+  double force = 0;                                            // [N] of the two at this depth, before several points share it
+  double reached = 1;      // [-] share of it: of a panel that has not been pressed in by all of the depth
   double struck_mass = 0;  // [kg] that a contact with room stops by itself: of its bodies were they free, its share of it
 };
 

@@ -60,7 +60,8 @@ double Stepper::advance(State& state, double most) {
 void Stepper::find_contacts_at_start(State& state) {
   FoundContacts& contacts = state.contacts;
   if (contacts.known && contacts.trees == world_.active_trees) return;
-  find_contacts(world_, state, state, contacts.list);
+  buffers_.end_contacts.swap(contacts.list);
+  find_contacts(world_, state, state, buffers_.end_contacts, contacts.list);
   if (state.time > 0) return;
   for (const Constraint& c : contacts.list)
     if (is_contact(c) && !is_compliant(c)) warn_of_overlap(world_, c.a.record, c.b.record, c.gap);
@@ -90,7 +91,7 @@ Verdict Stepper::attempt(State& state, StepControl& control, std::optional<StepC
   close_joints(*step);
 
   // contacts at the end show what the step was blind to
-  if (lost_body(world_, step->end) < 0) find_contacts(world_, state, step->end, buffers_.end_contacts);
+  if (lost_body(world_, step->end) < 0) find_contacts(world_, state, step->end, state.contacts.list, buffers_.end_contacts);
   return control.judge_end(*step);
 }
 

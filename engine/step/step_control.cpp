@@ -63,7 +63,8 @@ double longest_for_heads(const World& world, const State& state, double length) 
     const double force = std::min(-c.gap * c.spring.stiffness, c.spring.yield);
     const bool strikes = closing > kClosing && c.gap < closing * length;
     if (!strikes && force <= kPressed) continue;
-    const double rate = std::sqrt(c.spring.stiffness * c.response.free);
+    const double stiffness = c.spring.reached < 1 ? c.spring.loading : c.spring.stiffness;
+    const double rate = std::sqrt(stiffness * c.response.free);
     const double thrown = kComesOut * std::max(1.0, force / c.spring.stiffness * rate);
     if (strikes || (state.pace.blow > 0 && (closing > kGoesIn || -closing > thrown)))
       longest = std::min(longest, std::max(kTurn / rate, c.gap > 0 ? c.gap / closing : 0));

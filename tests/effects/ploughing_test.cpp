@@ -52,6 +52,17 @@ TEST(Ploughing, IsTheRatioOfTheAreasThatAPartShows) {
   }
 }
 
+TEST(Ploughing, OfALeaningEllipsoidIsThatOfItsSection) {
+  // a forearm on its tip, all but buried: its section is the ellipse through the centre, smaller by the root of 1 - (1 - d/h)^2
+  const HyperEllipsoid forearm{{0.04, 0.042, 0.205}, 2};
+  const Vec3 inward = Vec3(0.5, -0.3, 0.9).normalized(), slip = inward.cross(Vec3(0.2, 1, 0.1)).normalized();
+  const double h = support_value(forearm, inward);
+  for (const double d : {0.1 * h, 0.5 * h, 0.9 * h}) {
+    const double L = std::sqrt(1 - (1 - d / h) * (1 - d / h)) / slip.cwiseQuotient(forearm.semi_axes).norm();
+    EXPECT_NEAR(ploughing(forearm, inward, slip, d), 8 / (3 * std::numbers::pi) * d / L, 1e-5 * d / L) << d;
+  }
+}
+
 TEST(Ploughing, IsLessAlongALongPartAndMoreTheDeeper) {
   const HyperEllipsoid thigh{{0.09, 0.088, 0.26}, 2.5};
   const Vec3 out = Vec3::UnitX();

@@ -65,6 +65,19 @@ TEST_P(Exponent, SupportPointIsOnTheSurfaceFarthestAndItsNormalIsTheDirection) {
   }
 }
 
+TEST_P(Exponent, SupportBoundHoldsAndIsTight) {
+  std::mt19937_64 random(5);
+  double most = 1;
+  const HyperEllipsoid shape{{0.3, 0.2, 0.1}, GetParam()};
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vec3 d = trial < 3 ? Vec3(Vec3::Unit(trial)) : random_direction(random);
+    const double ratio = support_bound(shape, d) / support_value(shape, d);
+    EXPECT_GE(ratio, 1) << d.transpose();
+    most = std::max(most, ratio);
+  }
+  EXPECT_LT(most, GetParam() == 2 ? 1 + 1e-13 : 1.05);
+}
+
 TEST_P(Exponent, GradientsAndHessiansAreThoseOfTheirFunctions) {
   std::mt19937_64 random(5);
   const HyperEllipsoid shape{{0.3, 0.2, 0.1}, GetParam()};
