@@ -54,16 +54,21 @@ Bracket illinois(Bracket b, double f_low, double f_high, int most, double width,
   return b;
 }
 
-/// Newton on a function that rises, from x: a step that would leave the bracket goes to its middle. `at(x)` gives value and slope.
-/// Ends at a step shorter than `close`, or a bracket no wider than `width`.
+/// Newton on a function that rises, from x: a step that would leave the bracket goes to its middle, and so do later ones that are
+/// not half as long as the one before. Over a root like that of sqrt(|x|) sign(x) they would go to and fro for ever. `at(x)` gives
+/// value and slope. Ends at a step shorter than `close`, or a bracket no wider than `width`.
 template <class At>
 double newton(Bracket b, double x, int most, double width, double close, const At& at) {
+  constexpr int kFree = 8;
+  double last = b.width();
   for (int k = 0; k < most && b.width() > width; ++k) {
     const auto [value, slope] = at(x);
     (value < 0 ? b.low : b.high) = x;
     if (value == 0) break;
-    const double next = b.inside(slope > 0 ? x - value / slope : b.middle());
-    if (std::abs(next - x) < close) break;
+    double next = b.inside(slope > 0 ? x - value / slope : b.middle());
+    if (k >= kFree && std::abs(next - x) > 0.5 * last) next = b.middle();
+    last = std::abs(next - x);
+    if (last < close) break;
     x = next;
   }
   return x;

@@ -277,6 +277,29 @@ TEST(MeshContact, PassesASlightRidgeWithoutACrack) {
   }
 }
 
+/// A body of n = 3 whose support point goes like the root of the angle, where its flat side looks at an edge.
+TEST(MeshContact, FindsAnEdgeThatAFlatSideLooksAt) {
+  const TriangleMesh wedge({{0, -1, 0}, {0, 1, 0}, {-1, 0, -1}, {1, 0, -1}}, {{0, 1, 2}, {0, 3, 1}});
+  const HyperEllipsoid hips{{0.064, 0.101, 0.043}, 3};
+  MeshContactScratch scratch;
+  ContactPoints found;
+  for (int k = -50; k <= 50; ++k) {
+    const double aside = 1e-4 * k, lean = 2e-3 * k;
+    const Pose X{{aside, 0, 0.042}, Quat(Eigen::AngleAxisd(lean, Vec3(0.3, 1, 0.2).normalized()))};
+    double deepest = -1;  // of all directions across the edge the one that keeps them farthest apart
+    for (int i = -20000; i <= 20000; ++i) {
+      const double angle = 0.78 * i / 20000;
+      const Vec3 m(std::sin(angle), 0, std::cos(angle));
+      deepest = std::max(deepest, m.dot(X.p) - support_value(hips, X.q.conjugate() * -m));
+    }
+    contacts_with_mesh(hips, X, wedge, {}, 5e-3, -1, scratch, found);
+    ASSERT_FALSE(found.empty()) << k;
+    double least = 1;
+    for (const SurfaceContact& c : found) least = std::min(least, c.gap);
+    EXPECT_NEAR(least, deepest, 1e-7) << k;
+  }
+}
+
 TEST(MeshContact, IsNotFeltThroughTheBodyFromBehind) {
   // a floor, and above the sphere's centre a scrap that faces down, as a fold of a bonnet's edge faces the inside of a car
   std::vector<Vec3> vertices = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {-1, -1, 0.11}, {1, -1, 0.11}, {0, 1, 0.11}};

@@ -57,6 +57,13 @@ TEST(Roots, NewtonStaysInItsBracket) {
   EXPECT_NEAR(x, 0.1, 1e-12);
   EXPECT_GE(least, 0);
   EXPECT_LE(most, 1);
+  // over the root of sqrt(|x - 0.3|) sign(x - 0.3) + 0.003 a plain step goes to the other side, as far away
+  EXPECT_NEAR(newton({0, 1}, 0.6, 60, 1e-12, 0,
+                     [](double at) {
+                       const double root = std::sqrt(std::abs(at - 0.3));
+                       return std::pair(std::copysign(root, at - 0.3) + 0.003, 0.5 / root);
+                     }),
+              0.3 - 9e-6, 1e-7);
   // without a slope it halves
   EXPECT_NEAR(newton({0, 1}, 0.5, 60, 1e-12, 0, [](double at) { return std::pair(at - 0.3, 0.0); }), 0.3, 1e-11);
 }
