@@ -96,7 +96,8 @@ TEST_P(RandomAccidents, SayThatTheyAreRight) {
 // had, a pinched leg displaced by so much that 1.7 kJ were lost, a tyre that found itself on a limb with 18 kJ in its spring; steps
 // of which the last halving was unsolved, or ran through a stop, where a longer one had mislaid some 10 J; pushes that ran a foot
 // through its stop, and a bicycle into the road, which had been let go as open; trunks that wheels pressed up to 10 mm into the
-// person's own forearm, by contacts at a dead centre that yielded, and a limb that turned 4 degrees beyond its stop.
+// person's own forearm, by contacts at a dead centre that yielded, and a limb that turned 4 degrees beyond its stop; trunks inside
+// vehicles by edges of meshes that were not found.
 TEST(RandomAccident, HoldsWhereItOnceDidNot) {
   Seen seen;
   for (const unsigned seed :
