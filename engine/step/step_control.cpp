@@ -49,7 +49,7 @@ double fastest_turning(const World& world, const Motion& at) {
 /// under what only presses, or comes out far more slowly than the spring would throw it. A press that never was a blow divides
 /// none.
 double longest_for_heads(const World& world, const State& state, double length) {
-  constexpr double kTurn = 0.035;                  // [rad] of the spring: a criterion of it is then within 2 % of its limit
+  constexpr double kTurn = 0.035;                  // [rad] of the spring: a criterion is then within 2 % of its limit, as a rule
   constexpr double kClosing = 2, kPressed = 1000;  // [m/s], [N] of a blow: below it a criterion is less than 100
   constexpr double kGoesIn = 0.1;                  // [m/s] and so a blow goes on: at its deepest a pulse may end at once
   constexpr double kComesOut = 0.3;                // [m/s], [-] and of the speed that goes with the depth in a free swing
