@@ -90,7 +90,7 @@ Vec3 relative_velocity(const Motion& at, int a, int b, const Vec3& point) {
 
 /// A part that comes from one panel onto another takes its force along. The new one resists as far as the part has gone into it,
 /// from above or sideways: it has not been pressed in by all of the depth yet. By its depth alone a head 14 cm deep in a pane,
-/// where it had 3.5 kN, got 56 kN from the pillar beside it a tenth of a millisecond later. Only where persons alone yield.
+/// where it had 3.5 kN, would get 40 kN at once from the pillar beside it. Only where persons alone yield.
 void carry_force_over(Constraint& c, const ContactSearch& search, const SurfaceContact& touch) {
   constexpr double kAll = 1 - 1e-9;  // [-] short of it by rounding alone
   const double depth = -touch.gap, alone = c.spring.stiffness * depth;

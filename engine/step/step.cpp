@@ -60,7 +60,7 @@ double Stepper::advance(State& state, double most) {
 void Stepper::find_contacts_at_start(State& state) {
   FoundContacts& contacts = state.contacts;
   if (contacts.known && contacts.trees == world_.active_trees) return;
-  buffers_.end_contacts.swap(contacts.list);
+  buffers_.end_contacts.swap(contacts.list);  // what was found last is asked for while the list is written
   find_contacts(world_, state, state, buffers_.end_contacts, contacts.list);
   if (state.time > 0) return;
   for (const Constraint& c : contacts.list)
