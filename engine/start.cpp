@@ -34,7 +34,7 @@ void close_joints(World& world, State& state) {
   std::vector<Vec6> force(state.X_WB.size(), Vec6::Zero()), result = force;
   world.active_trees.clear();
   for (int tree = 0; tree < static_cast<int>(world.topology.trees.size()); ++tree) world.active_trees.push_back(tree);
-  project_joints(world, state.X_WB, state.V_WB, force, result);
+  project_joints(world, state.X_WB, state.V_WB, force, result, false);
 }
 
 /// The part of given velocities that a joint forbids.

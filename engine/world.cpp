@@ -20,13 +20,7 @@ std::vector<char> apart(const Model& model, const Plan& plan) {
 }  // namespace
 
 World::World(const Model& m, const Plan& p, const RunOptions& o)
-    : model(m),
-      plan(p),
-      topology(build_topology(m, apart(m, p))),
-      smooth(m, topology.loops.empty() ? Articulation::Keeps::last_tree : Articulation::Keeps::all_trees),
-      impulse(m, Articulation::Keeps::all_trees),
-      loops(m),
-      meter(o.clock) {
+    : model(m), plan(p), topology(build_topology(m, apart(m, p))), smooth(m), impulse(m), loops(m), meter(o.clock) {
   for (const EffectKind* effect : p.active) meter.effects.push_back({effect->name, 0, 0});
   smooth.reset(topology);
   impulse.reset(topology);

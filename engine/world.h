@@ -96,8 +96,8 @@ struct World {
   const Model& model;
   const Plan& plan;
   Topology topology;
-  Articulation smooth;   // of the stage at hand, undamped
-  Articulation impulse;  // at the start of the step, with joint resistance
+  Articulation smooth;   // of the stage at hand, then of the end of the step; undamped
+  Articulation impulse;  // at the start of the step, first undamped, then with joint resistance
   LoopClosure loops;     // of the joints cut from the trees
   ContactSolver solver;
 

@@ -120,7 +120,7 @@ class ImpulseThroughJoints {
       const int tree = world.topology.tree_of_body[body];
       if (tree < 0 || std::find(trees_.begin(), trees_.end(), tree) != trees_.end()) continue;
       trees_.push_back(tree);
-      world.impulse.factor(world.topology, tree, state.X_WB, nullptr);
+      world.impulse.factor_unless_known(world.topology, tree, state.X_WB);
     }
   }
   void respond(const Vec3& impulse) {

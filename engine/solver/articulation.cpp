@@ -65,17 +65,21 @@ Mat3 inertia_W(const Body& body, const Quat& q_WB) {
   return RI * R.transpose();
 }
 
-Articulation::Articulation(const Model& model, Keeps keeps) : model_(model), keeps_(keeps) {}
+Articulation::Articulation(const Model& model) : model_(model) {}
 
 void Articulation::reset(const Topology& topology) {
-  std::size_t links = topology.links.size();
-  if (keeps_ == Keeps::last_tree) {
-    links = 0;
-    for (const Topology::Tree& tree : topology.trees) links = std::max(links, static_cast<std::size_t>(tree.end - tree.begin));
-  }
-  factors_.resize(links);
-  H_.resize(links);
-  places_.assign(links, {});
+  factors_.resize(topology.links.size());
+  H_.resize(topology.links.size());
+  places_.assign(topology.links.size(), {});
+  undamped_.assign(topology.trees.size(), 0);
+}
+
+void Articulation::take_over(Articulation& other) {
+  factors_.swap(other.factors_);
+  H_.swap(other.H_);
+  places_.swap(other.places_);
+  undamped_.swap(other.undamped_);
+  std::fill(other.undamped_.begin(), other.undamped_.end(), 0);
 }
 
 /// X0 = [1, -skew(d); 0, 1]: the parent's motion carried to the body as if the joint were locked.
@@ -167,19 +171,20 @@ JointRows& Articulation::rows_at(const Topology& topology, int link, const std::
   const Joint& joint = model_.joints[topology.links[link].joint];
   const Pose &X_WP = joint.parent < 0 ? kWorld : X_WB[joint.parent], &X_WC = X_WB[joint.child];
   JointRows& rows = of_link(link).rows;
-  Place& place = places_[link - first_];
-  if (place.of_rows == link && same_bits(place.X_WC, X_WC) && same_bits(place.X_WP, X_WP)) return rows;
+  Place& place = places_[link];
+  if (place.rows && same_bits(place.X_WC, X_WC) && same_bits(place.X_WP, X_WP)) return rows;
   joint_rows(joint, X_WP, X_WC, rows);
-  place.of_rows = link;
+  undamped_[topology.links[link].tree] = 0;
+  place.rows = true;
   place.X_WP = X_WP;
   place.X_WC = X_WC;
   return rows;
 }
 
 const Mat3& Articulation::inertia_at(const Topology& topology, int link, const Quat& q_WB) {
-  Place& place = places_[link - first_];
-  if (place.of_inertia != link || !same_bits(place.q_WB, q_WB)) {
-    place.of_inertia = link;
+  Place& place = places_[link];
+  if (!place.turned || !same_bits(place.q_WB, q_WB)) {
+    place.turned = true;
     place.q_WB = q_WB;
     place.inertia = inertia_W(model_.bodies[topology.links[link].body], q_WB);
   }
@@ -188,11 +193,10 @@ const Mat3& Articulation::inertia_at(const Topology& topology, int link, const Q
 
 void Articulation::factor(const Topology& topology, int tree, const std::vector<Pose>& X_WB,
                           const std::vector<JointDamper>* dampers) {
-  turn_to(topology, tree);
   const Topology::Tree& range = topology.trees[tree];
   for (int l = range.begin; l < range.end; ++l) {
     const int b = topology.links[l].body;
-    Mat6& H = H_[l - first_];
+    Mat6& H = H_[l];
     H.setZero();
     H.diagonal().head<3>().setConstant(model_.bodies[b].mass);
     H.bottomRightCorner<3, 3>() = inertia_at(topology, l, X_WB[b].q);
@@ -200,20 +204,33 @@ void Articulation::factor(const Topology& topology, int tree, const std::vector<
   for (int l = range.begin; l < range.end; ++l) {
     const Topology::Link& link = topology.links[l];
     Factor& f = of_link(l);
-    const Mat6& H = H_[l - first_];
+    const Mat6& H = H_[l];
     if (link.joint < 0) {
       f.D = inverse_spd(H);
       f.X.setZero();
       f.rows.count = 0;
-      places_[l - first_].of_rows = -1;  // those of another tree's link, which may have stood here, are gone
       continue;
     }
     rows_at(topology, l, X_WB);
     const bool child = link.body_is_joint_child;
     const Hinge hinge{child ? f.rows.r_C : f.rows.r_P, child ? f.rows.r_P : f.rows.r_C,
                       dampers ? &(*dampers)[link.joint] : nullptr};
-    eliminate_any(f, hinge, H, link.parent < 0 ? nullptr : &H_[topology.link_of_body[link.parent] - first_]);
+    eliminate_any(f, hinge, H, link.parent < 0 ? nullptr : &H_[topology.link_of_body[link.parent]]);
   }
+  undamped_[tree] = dampers == nullptr;
+}
+
+void Articulation::factor_unless_known(const Topology& topology, int tree, const std::vector<Pose>& X_WB) {
+  const Topology::Tree& range = topology.trees[tree];
+  // the root stands where its children's rows have it; by itself it takes no time
+  bool known = undamped_[tree] != 0 && range.end - range.begin > 1;
+  for (int l = range.begin; known && l < range.end; ++l) {
+    if (topology.links[l].joint < 0) continue;
+    const Joint& joint = model_.joints[topology.links[l].joint];
+    const Place& place = places_[l];
+    known = same_bits(place.X_WC, X_WB[joint.child]) && (joint.parent < 0 || same_bits(place.X_WP, X_WB[joint.parent]));
+  }
+  if (!known) factor(topology, tree, X_WB, nullptr);
 }
 
 void Articulation::set_bias(const Topology& topology, int tree, const std::vector<Twist>& V_WB) {
@@ -235,21 +252,20 @@ void Articulation::solve(const Topology& topology, int tree, std::vector<Vec6>& 
       // a shared point: no turning is asked for
       const Vec3 c = (link.body_is_joint_child ? -1 : 1) * f.rows.bias.head<3>();
       a[link.body] << c, Vec3::Zero();
-      force[link.body].noalias() -= H_[l - first_].leftCols<3>() * c;
+      take_bias(H_[l].data(), c.data(), force[link.body].data());
     } else if (bias == Bias::from_rows && link.joint >= 0) {
       a[link.body] = particular(f.rows, link.body_is_joint_child, link.body_is_joint_child ? f.rows.r_C : f.rows.r_P);
-      force[link.body].noalias() -= H_[l - first_] * a[link.body];
+      force[link.body].noalias() -= H_[l] * a[link.body];
     } else {
       a[link.body].setZero();
     }
-    if (link.parent >= 0) force[link.parent].noalias() += f.X.transpose() * force[link.body];
+    if (link.parent >= 0) pass_up(f.X.data(), force[link.body].data(), force[link.parent].data());
   }
   for (int l = range.end - 1; l >= range.begin; --l) {
     const Topology::Link& link = topology.links[l];
     const Factor& f = of_link(l);
-    Vec6& out = a[link.body];
-    out.noalias() += f.D * force[link.body];
-    if (link.parent >= 0) out.noalias() += f.X * a[link.parent];
+    answer(f.D.data(), force[link.body].data(), f.X.data(), link.parent >= 0 ? a[link.parent].data() : nullptr,
+           a[link.body].data());
   }
 }
 

@@ -27,14 +27,8 @@ struct JointDamper {
 
 class Articulation {
  public:
-  /// Whose factors are there to be asked for: those of all trees, or only of the one factorised last, whose place the next takes,
-  /// so that many persons do not fill the cache with what is never read again.
-  enum class Keeps { all_trees, last_tree };
-  Articulation(const Model&, Keeps);
+  explicit Articulation(const Model&);
   void reset(const Topology&);
-
-  /// The tree that the next calls are about; `factor` turns by itself.
-  void turn_to(const Topology& topology, int tree) { first_ = keeps_ == Keeps::last_tree ? topology.trees[tree].begin : 0; }
 
   /// The rows of a link's joint, and the inertia of its body in world axes, where the bodies stand so. What was asked for last is
   /// kept: an attempt at a step asks at the same place for its first stage, its resistance and its energy.
@@ -43,6 +37,11 @@ class Articulation {
 
   /// Factorises one tree at the poses given. `dampers` (per joint) may be null.
   void factor(const Topology&, int tree, const std::vector<Pose>& X_WB, const std::vector<JointDamper>* dampers);
+
+  /// The same without dampers, unless those are the factors the tree has.
+  void factor_unless_known(const Topology&, int tree, const std::vector<Pose>& X_WB);
+  /// Takes over all factors of another, which knows none from then on.
+  void take_over(Articulation& other);
 
   /// Right-hand side g = -Jdot V of every joint of the tree. Call after factor.
   void set_bias(const Topology&, int tree, const std::vector<Twist>& V_WB);
@@ -55,8 +54,8 @@ class Articulation {
     JointRows rows;
     Mat6 X, D;
   };
-  Factor& of_link(int link) { return factors_[link - first_]; }
-  const Factor& of_link(int link) const { return factors_[link - first_]; }
+  Factor& of_link(int link) { return factors_[link]; }
+  const Factor& of_link(int link) const { return factors_[link]; }
 
  private:
   /// What one joint is to the factorisation: levers and sense seen from the body that is eliminated.
@@ -72,18 +71,17 @@ class Articulation {
   void eliminate_fixed(Factor&, const Hinge&, const Mat6& H, Mat6* H_parent);
 
   const Model& model_;
-  Keeps keeps_;
-  int first_ = 0;                // link whose factor stands first
-  std::vector<Factor> factors_;  // per link kept
-  std::vector<Mat6> H_;          // of the same: inertia with what its children added
-  /// Where rows and inertia were asked for last, and by which link.
+  std::vector<Factor> factors_;  // per link
+  std::vector<Mat6> H_;          // per link: inertia with what its children added
+  std::vector<char> undamped_;   // per tree: its factors are where its rows are, without dampers
+  /// Where rows and inertia were asked for last.
   struct Place {
-    int of_rows = -1, of_inertia = -1;
+    bool rows = false, turned = false;  // asked for at all
     Pose X_WP, X_WC;
     Quat q_WB;
     Mat3 inertia;
   };
-  std::vector<Place> places_;  // of the same
+  std::vector<Place> places_;  // per link
 };
 
 /// Inertia of a body about its centre in world axes.

@@ -127,12 +127,9 @@ const double* ContactSolver::answer_of_slip(const Constraint& c, const Row& row)
   return answer_.data();
 }
 
-/// The matrix of the conditions linearised; false if it has no inverse.
-bool ContactSolver::factor_linearised(const std::vector<Constraint>& all, const std::vector<int>& members) {
+/// The matrix of the conditions linearised.
+void ContactSolver::write_linearised(const std::vector<Constraint>& all, const std::vector<int>& members) {
   const int n = static_cast<int>(unknown_.size());
-  factored_rule_.clear();
-  newton_.resize(n);
-  choose_rows();
   for (int k = 0; k < n; ++k) {
     const Row& row = rule_[k];
     const Constraint& c = all[members[row.member]];
@@ -144,7 +141,20 @@ bool ContactSolver::factor_linearised(const std::vector<Constraint>& all, const 
       newton_.A(k, k) += regular_ * G(unknown_[k], unknown_[k]) + softness_of(c, row.r);
     }
   }
-  if (!newton_.factor()) return false;
+}
+
+/// Factorises that matrix; false if it has no inverse.
+bool ContactSolver::factor_linearised(const std::vector<Constraint>& all, const std::vector<int>& members) {
+  factored_rule_.clear();
+  newton_.resize(static_cast<int>(unknown_.size()));
+  choose_rows();
+  write_linearised(all, members);
+  // answers to impulses with such a share added are positive definite; friction that slips is seldom enough to change that
+  const bool in_order = regular_ >= kRegularQuick;
+  if (!(in_order && newton_.factor_in_order())) {
+    if (in_order) write_linearised(all, members);
+    if (!newton_.factor()) return false;
+  }
   factored_rule_ = rule_;
   return true;
 }

@@ -63,6 +63,7 @@ class ContactSolver {
   enum class Care { none, redundant, jammed };
   void newton(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, Care, SolveReport&);
   bool newton_step(std::vector<Constraint>&, const std::vector<int>& members, bool again);
+  void write_linearised(const std::vector<Constraint>&, const std::vector<int>& members);
   bool factor_linearised(const std::vector<Constraint>&, const std::vector<int>& members);
   void follow_smoothing(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, double sharper, SolveReport&);
   bool smoothed_step(std::vector<Constraint>&, const std::vector<int>& members, double eps);
@@ -103,9 +104,9 @@ class ContactSolver {
   int size_ = 0;
   std::size_t stride_ = 0;          // whole_rows(size_)
   std::vector<int> offset_;         // per member
-  std::vector<double> G_;           // column-major stride_ x size_
+  AlignedVector G_;                 // column-major stride_ x size_
   std::vector<Mat3> own_;           // per member: its block on the diagonal; of one row the rest is a unit matrix
-  std::vector<double> u_;           // stride_
+  AlignedVector u_;                 // stride_
   EliminationOrder elimination_;    // of the members in Newton's matrix
   DenseSystem newton_;              // of the rows that can change
   std::vector<int> unknown_;        // row of G per unknown
@@ -115,7 +116,8 @@ class ContactSolver {
   std::vector<int> opens_;          // members whose impulse goes to zero
   std::vector<Pick> picks_;         // of a column of G
   std::vector<double> answer_;      // stride_: of one unknown that slides
-  std::vector<double> L_, u_kept_, L_kept_;
+  std::vector<double> L_, L_kept_;
+  AlignedVector u_kept_;
   std::vector<Vec3> L_start_, L_nothing_, L_best_;
 };
 

@@ -61,7 +61,7 @@ class LoopClosure {
   int size_ = 0;
   std::size_t stride_ = 0;
   Response response_;
-  std::vector<double> G_;  // column-major stride_ x size_
+  AlignedVector G_;  // column-major stride_ x size_
   Eigen::LLT<Eigen::MatrixXd> factor_;
   Eigen::MatrixXd damped_;
   Eigen::VectorXd wanted_, multiplier_, residual_, step_, softness_;

@@ -112,8 +112,7 @@ Rows Response::write_columns(const Topology& topology, const Constraint& c, std:
 }
 
 void Response::compute(const Topology& topology, const Articulation& articulation, const std::vector<Constraint>& all,
-                       const std::vector<int>& members, const std::vector<int>& offset, std::size_t stride,
-                       std::vector<double>& G) {
+                       const std::vector<int>& members, const std::vector<int>& offset, std::size_t stride, AlignedVector& G) {
   for (std::size_t i = 0; i < members.size(); ++i) {
     const Constraint& c = all[members[i]];
     const auto row = static_cast<std::size_t>(offset[i]);

@@ -24,7 +24,7 @@ class Response {
   /// Writes G [1/kg] of the constraints named: `size` columns, each of `stride` rows (whole_rows(size)); the rows of constraint
   /// members[i] begin at offset[i]. Beyond `size` they are zero.
   void compute(const Topology&, const Articulation&, const std::vector<Constraint>&, const std::vector<int>& members,
-               const std::vector<int>& offset, std::size_t stride, std::vector<double>& G);
+               const std::vector<int>& offset, std::size_t stride, AlignedVector& G);
 
   /// Of the last G: outside of these rows the columns of members[i] are zero.
   Rows reach(std::size_t i) const { return reach_[i]; }
@@ -43,7 +43,7 @@ class Response {
   std::vector<Passed> way_;  // of one body to its root
   std::vector<int> met_;     // freedoms on the ways of one constraint's bodies, ascending
   std::vector<Rows> rows_;   // per tree: of G, whole vectors about all that it has a part in
-  std::vector<double> Y_;    // freedoms x stride
+  AlignedVector Y_;          // freedoms x stride
   std::vector<Rows> reach_;  // per constraint
 };
 

@@ -48,4 +48,16 @@ void turn_inertia(const double* q, const double* inertia, double* turned) {
   kWide ? wide::turn_inertia(q, inertia, turned) : plain::turn_inertia(q, inertia, turned);
 }
 
+void take_bias(const double* H, const double* bias, double* force) {
+  kWide ? wide::take_bias(H, bias, force) : plain::take_bias(H, bias, force);
+}
+
+void pass_up(const double* X, const double* force, double* force_parent) {
+  kWide ? wide::pass_up(X, force, force_parent) : plain::pass_up(X, force, force_parent);
+}
+
+void answer(const double* D, const double* force, const double* X, const double* a_parent, double* a) {
+  kWide ? wide::answer(D, force, X, a_parent, a) : plain::answer(D, force, X, a_parent, a);
+}
+
 }  // namespace engine

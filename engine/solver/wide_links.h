@@ -21,4 +21,13 @@ void eliminate_hinge(const double* H, const double* r, const double* r_parent, c
 /// unit quaternion q (x, y, z, w).
 void turn_inertia(const double* q, const double* inertia, double* turned);
 
+/// force -= H's first three columns by `bias` (3): what a body that its point moves by itself asks for.
+void take_bias(const double* H, const double* bias, double* force);
+
+/// force_parent += X^T force.
+void pass_up(const double* X, const double* force, double* force_parent);
+
+/// a += D force + X a_parent; no parent: null.
+void answer(const double* D, const double* force, const double* X, const double* a_parent, double* a);
+
 }  // namespace engine

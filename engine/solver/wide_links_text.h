@@ -227,3 +227,64 @@ inline void eliminate_hinge(const double* H, const double* r_in, const double* r
   store_block(X + 21, one - outer(S1, UX));
   add_rest(H_parent, d, H00 - outer(U0, HS0), H01 - outer(U0, HS1), H11 - outer(U1, HS1));
 }
+
+/// A force above a moment, or a velocity above an angular velocity.
+struct Six {
+  Four upper;
+  Two lower;
+};
+
+inline Six load_six(const double* p) {
+  Six six;
+  std::memcpy(&six.upper, p, sizeof six.upper);
+  std::memcpy(&six.lower, p + 4, sizeof six.lower);
+  return six;
+}
+
+inline void store_six(double* p, const Six& six) {
+  std::memcpy(p, &six.upper, sizeof six.upper);
+  std::memcpy(p + 4, &six.lower, sizeof six.lower);
+}
+
+inline Six operator+(const Six& a, const Six& b) {
+  return {a.upper + b.upper, a.lower + b.lower};
+}
+
+/// Columns k and k + 1 of a matrix of six rows by the numbers that go with them.
+inline Six two_columns(const double* m, const double* by, int k) {
+  const Six a = load_six(m + 6 * k), b = load_six(m + 6 * k + 6);
+  return {a.upper * by[k] + b.upper * by[k + 1], a.lower * by[k] + b.lower * by[k + 1]};
+}
+
+inline Six times(const double* m, const double* by) {
+  return (two_columns(m, by, 0) + two_columns(m, by, 2)) + two_columns(m, by, 4);
+}
+
+inline void take_bias(const double* H, const double* bias, double* force) {
+  const Six f = load_six(force), two = two_columns(H, bias, 0), third = load_six(H + 12);
+  store_six(force, {(f.upper - two.upper) - third.upper * bias[2], (f.lower - two.lower) - third.lower * bias[2]});
+}
+
+/// A column's products with a force, summed up to two.
+inline Two summed(const double* column, const Six& force) {
+  const Six x = load_six(column);
+  const Four upper = x.upper * force.upper;
+  return (__builtin_shufflevector(upper, upper, 0, 1) + __builtin_shufflevector(upper, upper, 2, 3)) + x.lower * force.lower;
+}
+
+inline void pass_up(const double* X, const double* force, double* force_parent) {
+  const Six f = load_six(force);
+  for (int k = 0; k < 6; k += 2) {
+    const Two a = summed(X + 6 * k, f), b = summed(X + 6 * k + 6, f);
+    Two sum;
+    std::memcpy(&sum, force_parent + k, sizeof sum);
+    sum += __builtin_shufflevector(a, b, 0, 2) + __builtin_shufflevector(a, b, 1, 3);
+    std::memcpy(force_parent + k, &sum, sizeof sum);
+  }
+}
+
+inline void answer(const double* D, const double* force, const double* X, const double* a_parent, double* a) {
+  Six out = load_six(a) + times(D, force);
+  if (a_parent) out = out + times(X, a_parent);
+  store_six(a, out);
+}

@@ -8,6 +8,7 @@ namespace engine {
 namespace {
 
 using Four = double __attribute__((vector_size(4 * sizeof(double))));
+using Eight = double __attribute__((vector_size(8 * sizeof(double))));
 
 }  // namespace
 
@@ -44,23 +45,32 @@ void carry_up(const double* J, const Passed* way, std::size_t links, double* Y, 
   }
 }
 
+namespace {
+
+/// So many vectors of rows from `r` on, of all columns at once: a column too many costs less than asking.
+template <std::size_t kVectors>
+inline __attribute__((always_inline)) void meet_some(const double* Y, std::size_t stride, const int* freedoms, std::size_t count,
+                                                     std::size_t r, std::size_t row, std::size_t columns, double* G) {
+  Eight g[3][kVectors] = {};
+  for (std::size_t k = 0; k < count; ++k) {
+    const double* y = Y + static_cast<std::size_t>(freedoms[k]) * stride;
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      Eight some;
+      std::memcpy(&some, y + r + 8 * v, sizeof some);
+      for (std::size_t c = 0; c < 3; ++c) g[c][v] += some * y[row + c];
+    }
+  }
+  for (std::size_t c = 0; c < columns; ++c) std::memcpy(G + (row + c) * stride + r, g[c], sizeof g[c]);
+}
+
+}  // namespace
+
 CRASHREEL_WIDE_CLONES
 void meet_rows(const double* Y, std::size_t stride, const int* freedoms, std::size_t count, Rows rows, std::size_t row,
                std::size_t columns, double* G) {
-  for (std::size_t r = rows.begin; r < rows.end; r += 8) {
-    Four g[3][2] = {};
-    for (std::size_t k = 0; k < count; ++k) {
-      const double* y = Y + static_cast<std::size_t>(freedoms[k]) * stride;
-      Four lower, upper;
-      std::memcpy(&lower, y + r, sizeof lower);
-      std::memcpy(&upper, y + r + 4, sizeof upper);
-      for (std::size_t c = 0; c < 3; ++c) {  // a column too many costs less than asking
-        g[c][0] += lower * y[row + c];
-        g[c][1] += upper * y[row + c];
-      }
-    }
-    for (std::size_t c = 0; c < columns; ++c) std::memcpy(G + (row + c) * stride + r, g[c], sizeof g[c]);
-  }
+  std::size_t r = rows.begin;
+  for (; r + 16 <= rows.end; r += 16) meet_some<2>(Y, stride, freedoms, count, r, row, columns, G);
+  if (r < rows.end) meet_some<1>(Y, stride, freedoms, count, r, row, columns, G);
 }
 
 }  // namespace engine

@@ -42,9 +42,8 @@ double change_since(StepContext& s, int l, const Motion& from) {
   const Twist &V_from = from.V_WB[b], &V_to = s.end.V_WB[b];
   double change = 0.5 * body.mass * (V_to.v - V_from.v).dot(V_to.v + V_from.v);
   change -= body.mass * world.model.settings.gravity.dot(X_to.p - X_from.p);
-  // `from` first: what is found for the end serves the next step's start
   const double turning = V_from.w.dot(world.impulse.inertia_at(world.topology, l, X_from.q) * V_from.w);
-  change += 0.5 * (V_to.w.dot(world.impulse.inertia_at(world.topology, l, X_to.q) * V_to.w) - turning);
+  change += 0.5 * (V_to.w.dot(world.smooth.inertia_at(world.topology, l, X_to.q) * V_to.w) - turning);
   return s.any_damper && j >= 0 && s.buffers.dampers[j].present ? change - resistance_work(s, j) : change;
 }
 

@@ -59,26 +59,26 @@ double Integration::advance(const State& state, const StepControl& control, doub
   Motion& end = buffers_.end;
   CompliantContacts* contacts = compliant ? &*compliant : nullptr;
   const int parts = control.parts(length, smooth.fastest_swing());
-  FirstStage first;  // stands where impulses act
-  auto begin = [&](bool factored) {
+  FirstStage first{};
+  auto begin = [&] {
     const bool all = std::exchange(copied_, world_.still.changes) != world_.still.changes;
     copy_moving(world_, state.X_WB, end.X_WB, all);
     copy_moving(world_, state.V_WB, end.V_WB, all);
     end.time = state.time + length;
-    first = {&world_.impulse, factored};
+    first = FirstStage::where_it_begins;
     if (!world_.topology.loops.empty()) world_.loops.forget();
     if (contacts) contacts->restart(length);
   };
   auto advance_over = [&](double way) {
     if (contacts) contacts->next_part(way / parts);
     for (int k = 0; k < parts; ++k)
-      smooth.advance(world_, end, way / parts, end.X_WB, end.V_WB, stages, contacts, std::exchange(first, {}));
+      smooth.advance(world_, end, way / parts, end.X_WB, end.V_WB, stages, contacts, std::exchange(first, FirstStage::within_step));
   };
-  begin(false);
+  begin();
   advance_over(length);
   if (world_.model.settings.scheme != Scheme::adaptive) return 0;
   buffers_.whole = end;
-  begin(true);
+  begin();
   advance_over(0.5 * length);
   advance_over(0.5 * length);
   return difference();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -65,9 +66,13 @@ void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const
   call(world, Hook::add_forces, &Effect::add_forces, world, X, V, force_);
   if (compliant) compliant->add_forces(X, V, weight, force_);
   if (&a == &stages_[0].a) for_awake_bodies(world, [&](int b) { applied_[b] = force_[b].head<3>(); });
-  Articulation& articulation = first.articulation ? *first.articulation : world.smooth;
+  const bool begins = first == FirstStage::where_it_begins;
+  Articulation& articulation = begins ? world.impulse : world.smooth;
   for (const int tree : world.active_trees) {
-    if (!first.factored) articulation.factor(world.topology, tree, X, nullptr);
+    if (begins)
+      articulation.factor_unless_known(world.topology, tree, X);
+    else
+      articulation.factor(world.topology, tree, X, nullptr);
     articulation.set_bias(world.topology, tree, V);
     articulation.solve(world.topology, tree, force_, a, Articulation::Bias::from_rows);
   }
@@ -110,7 +115,7 @@ void SmoothMotion::advance_by_two(World& world, const Motion& state, double h, s
     end.V[b].v = at_start.v + h * a;
     end.V[b].w = at_start.w + h * turning;
   });
-  accelerations(world, X_, end.V, end.a, nullptr, 0.5, {});
+  accelerations(world, X_, end.V, end.a, nullptr, 0.5, FirstStage::within_step);
   if (world.loops.any()) world.loops.sum_up(0.5 * h);
   for_awake_bodies(world, [&](int b) {
     X[b] = X_[b];
@@ -145,7 +150,7 @@ void SmoothMotion::advance_by_four(World& world, const Motion& state, double h, 
         stage.dq[b] = quaternion_rate(q, stage.V[b].w);
       }
     }
-    accelerations(world, X_, stage.V, stage.a, compliant, kWeight[s], s == 0 ? first : FirstStage{});
+    accelerations(world, X_, stage.V, stage.a, compliant, kWeight[s], s == 0 ? first : FirstStage::within_step);
     if (world.loops.any()) world.loops.sum_up(h * kWeight[s]);
   }
   measure_swing(world);
@@ -197,7 +202,6 @@ namespace {
 
 /// Rows and error of all joints of a tree at X; returns the largest error.
 double joint_errors(World& world, int tree, const std::vector<Pose>& X, double& largest_gap) {
-  world.smooth.turn_to(world.topology, tree);
   const Topology::Tree& range = world.topology.trees[tree];
   double largest = 0;
   for (int l = range.begin; l < range.end; ++l) {
@@ -235,8 +239,8 @@ struct Projected {
 /// Trees that are closed at once: one by itself, or all that loops hold.
 class Projection {
  public:
-  Projection(World& world, std::span<const int> trees, bool loops, Projected at)
-      : world_(world), trees_(trees), loops_(loops), at_(at) {}
+  Projection(World& world, std::span<const int> trees, bool loops, bool factored, Projected at)
+      : world_(world), trees_(trees), loops_(loops), factored_(factored), at_(at) {}
 
   double close();  // largest gap [m] left
 
@@ -254,6 +258,7 @@ class Projection {
   void factor() {
     for (const int tree : trees_) world_.smooth.factor(world_.topology, tree, at_.X, nullptr);
     if (loops_) world_.loops.factor(world_.topology, world_.smooth);
+    factored_ = true;
   }
   template <class Act>
   void for_links(Act act) {
@@ -271,6 +276,7 @@ class Projection {
   World& world_;
   std::span<const int> trees_;
   bool loops_;
+  bool factored_;  // somewhere near
   Projected at_;
 };
 
@@ -278,13 +284,10 @@ double Projection::close() {
   constexpr double kTight = 1e-13;  // [m] and [-]: below it rounding is all there is to remove
   constexpr double kGood = 1e-12;   // [m] and [-] a looser bound would be met by chance in one run and missed in its neighbour
   double gap = 0;
-  double error = errors(gap);
-  bool factored = false;
-  double before = 0;
+  double error = errors(gap), before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 6 && error > (k == 0 ? kTight : kGood); ++k) {
-    // the first factorisation serves the steps after it: the rows have turned by no more than the error
-    if (k == 0 || error > 1e-2 * before) factor();
-    factored = true;
+    // a factorisation serves as long as it takes out nearly all: that of the last stage does, unless impulses have turned much
+    if (!factored_ || error > 1e-2 * before) factor();
     before = error;
     for_links([&](int l, int) {
       JointRows& rows = world_.smooth.of_link(l).rows;
@@ -297,10 +300,9 @@ double Projection::close() {
     error = errors(gap);
   }
   if (velocity_errors() < kTight) return gap;
-  if (!factored) {
-    factor();
-    velocity_errors();
-  }
+  // where the bodies are now, which serves the step that begins there
+  factor();
+  velocity_errors();
   solve();
   for_links([&](int, int b) {
     at_.V[b].v += at_.result[b].head<3>();
@@ -312,16 +314,16 @@ double Projection::close() {
 }  // namespace
 
 double project_joints(World& world, std::vector<Pose>& X, std::vector<Twist>& V, std::vector<Vec6>& force,
-                      std::vector<Vec6>& result) {
+                      std::vector<Vec6>& result, bool factored) {
   const Projected at{X, V, force, result};
   double left = 0;
   for (const int tree : world.active_trees) {
     const Topology::Tree& range = world.topology.trees[tree];
     const bool free = range.end - range.begin == 1 && world.topology.links[range.begin].joint < 0;
     if (free || (world.loops.any() && world.loops.holds(tree))) continue;
-    left = std::max(left, Projection(world, std::span(&tree, 1), false, at).close());
+    left = std::max(left, Projection(world, std::span(&tree, 1), false, factored, at).close());
   }
-  if (world.loops.any()) left = std::max(left, Projection(world, world.loops.trees(), true, at).close());
+  if (world.loops.any()) left = std::max(left, Projection(world, world.loops.trees(), true, factored, at).close());
   return left;
 }
 

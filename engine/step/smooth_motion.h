@@ -14,11 +14,8 @@
 
 namespace engine {
 
-/// What the first stage factorises, at the state the step begins with and without dampers, serves the impulses too.
-struct FirstStage {
-  Articulation* articulation = nullptr;  // that keeps it; null: nobody asks for it later
-  bool factored = false;                 // already
-};
+/// Whether the first stage is where the step begins. What is factorised there serves the impulses too.
+enum class FirstStage { within_step, where_it_begins };
 
 /// Of a step: velocity Verlet has two, Runge-Kutta four.
 enum class Stages { two = 2, four = 4 };
@@ -31,7 +28,7 @@ class SmoothMotion {
   /// Advances the awake bodies by h from `state` under the plan's forces; results for awake bodies only.
   /// `compliant` (may be null) adds the forces of contacts in every stage, of which there must be four.
   void advance(World&, const Motion&, double h, std::vector<Pose>& X, std::vector<Twist>& V, Stages,
-               CompliantContacts* compliant = nullptr, FirstStage first = {});
+               CompliantContacts* compliant = nullptr, FirstStage first = FirstStage::within_step);
 
   /// Rate [rad/s] of the fastest swing that the joint forces of the last step make a body capable of: T r / I, as in a chain of
   /// light links pulled taut by heavy ends. Runge-Kutta 4 blows up above 2.8 over the step.
@@ -70,8 +67,10 @@ class SmoothMotion {
 };
 
 /// Takes the drift out of joints after a step: Newton on C(q) = 0 in the mass metric, then J V = 0 (eq. (63) with F = 0).
-/// Returns largest joint gap [m] left.
-double project_joints(World&, std::vector<Pose>& X, std::vector<Twist>& V, std::vector<Vec6>& force, std::vector<Vec6>& result);
+/// Returns largest joint gap [m] left. `factored`: World::smooth has factors of a place near by, such as those of the last stage.
+/// Where it has any to take out it leaves those of the end.
+double project_joints(World&, std::vector<Pose>& X, std::vector<Twist>& V, std::vector<Vec6>& force, std::vector<Vec6>& result,
+                      bool factored);
 
 /// Turns a pose by a small rotation vector (world) and normalises.
 void displace(Pose&, const Vec3& dp, const Vec3& rotation);

@@ -48,8 +48,10 @@ void solve_islands(StepContext& s, From from) {
       world.log.diagnostics.newton_steps += report.newton_steps;
     };
     solve();
-    if (wake_struck_springs(s, root)) solve();
-    if (hold_spent_springs(s, root)) solve();
+    if (take_springs_shown(s, root, Shown::all)) {
+      solve();
+      if (take_springs_shown(s, root, Shown::spent)) solve();
+    }
     if (report.residual > s.residual) s.residual = report.residual, s.unsettled = report.worst;
     correct_positions(s, island);
   }
@@ -65,9 +67,18 @@ Vec3 carried_on(const Body& body, const Quat& q, const Quat& turned, const Vec3&
   return after > 0 ? Vec3(w_turned * std::sqrt(before / after)) : w;
 }
 
-/// J^T L of all conditions: velocities take the whole impulse, displacements its weighted share.
+constexpr double kNoShare = -1, kSeveralShares = -2;
+
+/// J^T L of all conditions: velocities take the whole impulse, displacements its weighted share. Notes by tree which share all of
+/// its impulses have.
 void gather_impulses(StepContext& s) {
   std::vector<Vec6>&force = s.buffers.force, &displacing = s.buffers.displacing;
+  s.buffers.share.assign(s.world.topology.trees.size(), kNoShare);
+  const auto note = [&s](int body, double share) {
+    if (body < 0) return;
+    double& known = s.buffers.share[s.world.topology.tree_of_body[body]];
+    known = known == kNoShare || known == share ? share : kSeveralShares;
+  };
   for_awake_bodies(s.world, [&](int b) {
     force[b].setZero();
     displacing[b].setZero();
@@ -80,6 +91,8 @@ void gather_impulses(StepContext& s) {
       if (c.b.body >= 0) on[c.b.body] += c.b.J.row(row).transpose() * amount;
     };
     const double share = s.buffers.weight[i] * s.length;
+    if (c.push != 0 || c.impulse != Vec3::Zero())
+      for (const int body : {c.a.body, c.b.body}) note(body, c.push != 0 ? kSeveralShares : share);
     for (int r = 0; r < c.rows; ++r) {
       act(force, r, c.impulse[r]);
       act(displacing, r, share * c.impulse[r] + (r == 0 ? c.push : 0));
@@ -95,6 +108,8 @@ void apply(StepContext& s) {
   std::vector<Twist>& V = s.end.V_WB;
   std::vector<Vec6>& result = s.buffers.result;
   for (const int tree : s.world.active_trees) {
+    const double share = s.buffers.share[tree];
+    if (share == kNoShare) continue;
     const Topology::Tree& range = topology.trees[tree];
     const bool free = range.end - range.begin == 1 && topology.links[range.begin].joint < 0;
     s.world.impulse.solve(topology, tree, s.buffers.force, result, Articulation::Bias::zero);
@@ -103,7 +118,11 @@ void apply(StepContext& s) {
       V[b].v += result[b].head<3>();
       V[b].w += result[b].tail<3>();
     }
-    s.world.impulse.solve(topology, tree, s.buffers.displacing, result, Articulation::Bias::zero);
+    if (share == kSeveralShares) {
+      s.world.impulse.solve(topology, tree, s.buffers.displacing, result, Articulation::Bias::zero);
+    } else {
+      for (int l = range.begin; l < range.end; ++l) result[topology.links[l].body] *= share;
+    }
     for (int l = range.begin; l < range.end; ++l) {
       const int b = topology.links[l].body;
       const Quat q = X[b].q;
@@ -116,7 +135,12 @@ void apply(StepContext& s) {
 }  // namespace
 
 void factor_for_impulses(StepContext& s, const std::vector<JointDamper>* dampers) {
-  for (const int tree : s.world.active_trees) s.world.impulse.factor(s.world.topology, tree, s.state.X_WB, dampers);
+  for (const int tree : s.world.active_trees) {
+    if (dampers)
+      s.world.impulse.factor(s.world.topology, tree, s.state.X_WB, dampers);
+    else
+      s.world.impulse.factor_unless_known(s.world.topology, tree, s.state.X_WB);
+  }
 }
 
 void exchange_over_step(StepContext& s) {
@@ -148,7 +172,7 @@ void exchange_over_step(StepContext& s) {
 
 void close_joints(StepContext& s) {
   const Meter::Span span(s.world.meter, Phase::joint_projection);
-  s.joint_gap = project_joints(s.world, s.end.X_WB, s.end.V_WB, s.buffers.force, s.buffers.result);
+  s.joint_gap = project_joints(s.world, s.end.X_WB, s.end.V_WB, s.buffers.force, s.buffers.result, true);
 }
 
 void keep_impulses(StepContext& s) {

@@ -120,6 +120,7 @@ void Stepper::commit(StepContext& s, const CompliantContacts::Crossing* crossing
   state.contacts.known = true;
   call(world_, Hook::after_step, &Effect::after_step, s);
   note_gains(s);
+  world_.impulse.take_over(world_.smooth);  // joints were closed with factors at the end of the step
 }
 
 }  // namespace engine

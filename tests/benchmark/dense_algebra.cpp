@@ -31,28 +31,33 @@ Eigen::MatrixXd random_matrix(int rows, int columns) {
 }
 
 void systems() {
-  std::printf("dense system, factored and solved, us: unknowns, ours, Eigen::PartialPivLU in place, ratio\n");
-  for (const int n : {6, 12, 24, 48, 96}) {
-    const Eigen::MatrixXd A = random_matrix(n, n) + 4 * Eigen::MatrixXd::Identity(n, n);
+  std::printf(
+      "dense system, factored and solved, us: unknowns, ours in order, ours, Eigen::PartialPivLU in place, over ours in order\n");
+  for (const int n : {6, 12, 24, 48, 96, 200}) {
+    const Eigen::MatrixXd root = random_matrix(n, n);
+    const Eigen::MatrixXd A = root * root.transpose() + Eigen::MatrixXd::Identity(n, n);
     const Eigen::VectorXd b = random_matrix(n, 1);
     Eigen::MatrixXd work(n, n);
     Eigen::VectorXd x(n);
     engine::DenseSystem system;
     const int calls = 20000000 / (n * n * n + 2000);
-    const double ours = quickest(calls, [&] {
-      system.resize(n);
-      for (int c = 0; c < n; ++c) {
-        std::copy_n(A.col(c).data(), n, system.column(c));
-        system.b(c) = b[c];
-      }
-      system.factor();
-      system.solve();
-    });
+    const auto timed = [&](bool (engine::DenseSystem::*factor)()) {
+      return quickest(calls, [&] {
+        system.resize(n);
+        for (int c = 0; c < n; ++c) {
+          std::copy_n(A.col(c).data(), n, system.column(c));
+          system.b(c) = b[c];
+        }
+        (system.*factor)();
+        system.solve();
+      });
+    };
+    const double in_order = timed(&engine::DenseSystem::factor_in_order), ours = timed(&engine::DenseSystem::factor);
     const double theirs = quickest(calls, [&] {
       work = A;
       x = Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd>>(work).solve(b);
     });
-    std::printf("  %3d  %7.2f  %7.2f  %.2f\n", n, ours, theirs, theirs / ours);
+    std::printf("  %3d  %7.2f  %7.2f  %7.2f  %.2f\n", n, in_order, ours, theirs, theirs / in_order);
   }
 }
 

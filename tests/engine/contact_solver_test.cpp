@@ -14,7 +14,7 @@ namespace {
 /// A box on three feet that comes down at 1 m/s, slides at `sliding` [m/s] and turns at `spin` [rad/s] about the vertical.
 class BoxOnThreeFeet {
  public:
-  BoxOnThreeFeet(double sliding, double spin, double friction) : articulation_(model(), Articulation::Keeps::all_trees) {
+  BoxOnThreeFeet(double sliding, double spin, double friction) : articulation_(model()) {
     const std::vector<Pose> X_WB(1);
     articulation_.reset(topology_);
     articulation_.factor(topology_, 0, X_WB, nullptr);

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "engine/math/types.h"
@@ -71,6 +73,73 @@ TEST(DenseSystem, SolvesWhatIsMostlyZerosAsEigen) {
     expect_solved_as_by_eigen(blocks, [blocks](int r, int c) { return (r * c) % 11 == 3 || std::max(r, c) >= blocks - 3; });
 }
 
+/// How contacts answer each other, with a share added to the diagonal; of every third slips, and drags friction along.
+Eigen::MatrixXd answers_of_contacts(int n, double friction) {
+  const Eigen::MatrixXd root = Eigen::MatrixXd::Random(n, n);
+  Eigen::MatrixXd A = root * root.transpose();
+  A.diagonal() *= 1.001;
+  for (int c = 0; c + 1 < n; c += 3) A.col(c) += friction * A.col(c + 1);
+  return A;
+}
+
+void write(const Eigen::MatrixXd& A, DenseSystem& system) {
+  system.resize(static_cast<int>(A.rows()));
+  for (int c = 0; c < A.cols(); ++c) std::copy_n(A.col(c).data(), A.rows(), system.column(c));
+}
+
+TEST(DenseSystem, SolvesInOrderAsEigen) {
+  std::srand(23);
+  DenseSystem system;
+  for (const int n : {1, 2, 3, 4, 5, 8, 11, 12, 36, 45, 97, 203, 6}) {
+    const Eigen::MatrixXd A = answers_of_contacts(n, 0.1);
+    const Eigen::VectorXd b = Eigen::VectorXd::Random(n);
+    write(A, system);
+    ASSERT_TRUE(system.factor_in_order()) << n;
+    for (int r = 0; r < n; ++r) system.b(r) = b[r];
+    system.solve();
+    const auto lu = A.fullPivLu();
+    const Eigen::VectorXd x = lu.solve(b);
+    for (int r = 0; r < n; ++r) EXPECT_NEAR(system.b(r), x[r], 1e-15 * n * (1 + x.norm()) / lu.rcond()) << n;
+  }
+}
+
+TEST(DenseSystem, SolvesInOrderWhatIsMostlyZerosAsEigen) {
+  std::srand(29);
+  constexpr int kBlock = 9;
+  DenseSystem system;
+  for (const int blocks : {12, 31}) {
+    // each answers itself and the one after the next; the last answers all
+    const int n = blocks * kBlock;
+    Eigen::MatrixXd root = Eigen::MatrixXd::Random(n, n);
+    for (int c = 0; c < n; ++c)
+      for (int r = 0; r < n; ++r) {
+        const int row = r / kBlock, column = c / kBlock;
+        if (row != column && row != column + 2 && row != blocks - 1) root(r, c) = 0;
+      }
+    Eigen::MatrixXd A = root * root.transpose();
+    A.diagonal() *= 1.01;
+    const Eigen::VectorXd b = Eigen::VectorXd::Random(n);
+    write(A, system);
+    ASSERT_TRUE(system.factor_in_order());
+    for (int r = 0; r < n; ++r) system.b(r) = b[r];
+    system.solve();
+    const auto lu = A.fullPivLu();
+    const Eigen::VectorXd x = lu.solve(b);
+    for (int r = 0; r < n; ++r) EXPECT_NEAR(system.b(r), x[r], 1e-15 * n * (1 + x.norm()) / lu.rcond());
+  }
+}
+
+TEST(DenseSystem, SaysWherePivotsInOrderVanish) {
+  DenseSystem system;
+  for (const double left : {1e-3, 1e-5, 0.0, -1e-3}) {
+    // the pivot of the last is what the others leave of its diagonal
+    Eigen::MatrixXd A = Eigen::MatrixXd::Identity(7, 7);
+    A(2, 6) = A(6, 2) = std::sqrt(1 - left);
+    write(A, system);
+    EXPECT_EQ(system.factor_in_order(), left == 1e-3) << left;
+  }
+}
+
 TEST(DenseSystem, SaysThatThereIsNoSolution) {
   DenseSystem system;
   system.resize(5);
@@ -131,6 +200,23 @@ TEST(WideLinks, EliminatePointsAndAHingeAsTheirFormulasSay) {
       const Mat6 felt = locked.transpose() * H * motion;
       EXPECT_LE((H_parent - before - (has_parent ? felt : Mat6::Zero())).norm(), 1e-12 * H.norm());
     }
+}
+
+TEST(WideLinks, CarryForcesAndMotionsAsTheirFormulasSay) {
+  using Mat6 = Eigen::Matrix<double, 6, 6>;
+  std::srand(31);
+  const Mat6 H = Mat6::Random(), X = Mat6::Random(), D = Mat6::Random();
+  const Vec3 bias = Vec3::Random();
+  const Vec6 force = Vec6::Random(), parent = Vec6::Random(), motion = Vec6::Random(), above = Vec6::Random();
+  Vec6 left = force, carried = parent, moved = motion, alone = motion;
+  take_bias(H.data(), bias.data(), left.data());
+  pass_up(X.data(), force.data(), carried.data());
+  answer(D.data(), force.data(), X.data(), above.data(), moved.data());
+  answer(D.data(), force.data(), X.data(), nullptr, alone.data());
+  EXPECT_LE((left - (force - H.leftCols<3>() * bias)).norm(), 1e-14);
+  EXPECT_LE((carried - (parent + X.transpose() * force)).norm(), 1e-14);
+  EXPECT_LE((moved - (motion + D * force + X * above)).norm(), 1e-14);
+  EXPECT_LE((alone - (motion + D * force)).norm(), 1e-14);
 }
 
 }  // namespace

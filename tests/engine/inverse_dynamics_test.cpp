@@ -152,7 +152,7 @@ TEST_P(JointKinds, InverseDynamicsGivesBackForcesAndJointTorques) {
       }
     }
     const Topology topology = build_topology(e.model, {});
-    Articulation articulation(e.model, Articulation::Keeps::all_trees);
+    Articulation articulation(e.model);
     articulation.reset(topology);
     articulation.factor(topology, 0, e.X, nullptr);
     articulation.set_bias(topology, 0, e.V);
@@ -274,13 +274,13 @@ TEST_P(JointKinds, RowsAnswerEachOtherAsTheBodiesMoveUnderThem) {
     for (JointDamper& damper : dampers) damper = {random.inertia(), random.inertia(), trial % 2 == 0};
     const Topology topology = build_topology(e.model, {});
     ASSERT_EQ(topology.trees.size(), 2u);
-    Articulation articulation(e.model, Articulation::Keeps::all_trees);
+    Articulation articulation(e.model);
     articulation.reset(topology);
     for (const int tree : {0, 1}) articulation.factor(topology, tree, e.X, &dampers);
     Response response;
     response.reset(topology, all.size());
     const std::size_t stride = whole_rows(static_cast<std::size_t>(size));
-    std::vector<double> G(stride * static_cast<std::size_t>(size), std::numeric_limits<double>::quiet_NaN());
+    AlignedVector G(stride * static_cast<std::size_t>(size), std::numeric_limits<double>::quiet_NaN());
     for (int again = 0; again < 2; ++again) response.compute(topology, articulation, all, members, offset, stride, G);
 
     const Eigen::Map<const Eigen::MatrixXd> found(G.data(), static_cast<Eigen::Index>(stride), size);
