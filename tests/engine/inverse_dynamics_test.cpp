@@ -309,4 +309,46 @@ TEST_P(JointKinds, RowsAnswerEachOtherAsTheBodiesMoveUnderThem) {
   }
 }
 
+TEST(KnownFactors, AreThoseOfThePlaceAndWithoutDampers) {
+  Random random(41);
+  const Experiment e = chain(JointKind::spherical, random);
+  const Topology topology = build_topology(e.model, {});
+  ASSERT_EQ(topology.trees.size(), 1u);
+  const auto links = static_cast<int>(topology.links.size());
+  std::vector<Pose> elsewhere = e.X;
+  elsewhere.back().q = Quat(Eigen::AngleAxisd(1e-7, Vec3::UnitX())) * elsewhere.back().q;
+
+  Articulation made(e.model), asked(e.model), other(e.model);
+  for (Articulation* one : {&made, &asked, &other}) one->reset(topology);
+  const auto expect_factors_at = [&](const std::vector<Pose>& X, const char* when) {
+    made.factor(topology, 0, X, nullptr);
+    asked.factor_unless_known(topology, 0, X);
+    for (int l = 0; l < links; ++l) {
+      EXPECT_EQ(asked.of_link(l).D, made.of_link(l).D) << when;
+      EXPECT_EQ(asked.of_link(l).X, made.of_link(l).X) << when;
+    }
+  };
+  expect_factors_at(e.X, "at first");
+  expect_factors_at(elsewhere, "moved by a hair");
+  std::vector<JointDamper> dampers(e.model.joints.size());
+  for (JointDamper& damper : dampers) damper = {Mat3::Identity(), Mat3::Identity(), true};
+  asked.factor(topology, 0, elsewhere, &dampers);
+  expect_factors_at(elsewhere, "damped before");
+  // rows that were looked at elsewhere and are back: as joints are closed, whose factors stay behind
+  asked.factor(topology, 0, e.X, nullptr);
+  for (int l = 0; l < links; ++l)
+    if (topology.links[static_cast<std::size_t>(l)].joint >= 0) asked.rows_at(topology, l, elsewhere);
+  expect_factors_at(elsewhere, "its rows there alone");
+
+  // known they are not made again: what is written into them stays
+  asked.of_link(0).D *= 2;
+  const Mat6 marked = asked.of_link(0).D;
+  asked.factor_unless_known(topology, 0, elsewhere);
+  EXPECT_EQ(asked.of_link(0).D, marked);
+  other.take_over(asked);
+  other.factor_unless_known(topology, 0, elsewhere);
+  EXPECT_EQ(other.of_link(0).D, marked);
+  expect_factors_at(elsewhere, "taken over by another");
+}
+
 }  // namespace
