@@ -251,23 +251,35 @@ bool is_pressed_again(const Constraint& c, double slow) {
 
 }  // namespace
 
-bool take_springs_shown(StepContext& s, int root, Shown what) {
+bool wake_struck_springs(StepContext& s, int root) {
   const double slow = 2 * impact_speed(s);
   const bool whole = s.buffers.islands.by_whole[root];
   bool any = false;
   for (const int i : s.buffers.islands.members[root]) {
     const Constraint& c = s.constraints[i];
     SpringShown& shown = s.buffers.shown[i];
-    const bool foretold = what == Shown::all && shown.as == SpringShown::As::foretold;
-    if (foretold && is_pressed_again(c, slow))
+    if (shown.as != SpringShown::As::foretold) continue;
+    if (is_pressed_again(c, slow))
       shown = {SpringShown::As::rests, 0};
-    else if (foretold && may_turn(c, slow) && c.gap < 0 && c.u.before[0] > -slow && c.u.after[0] < -slow)
+    else if (may_turn(c, slow) && c.gap < 0 && c.u.before[0] > -slow && std::abs(c.u.after[0]) > slow)
       shown = {SpringShown::As::struck, whole ? c.u.after[0] : c.u.before[0]};
-    else if (shown.as != SpringShown::As::spent && may_turn(c, slow) && c.u.after[0] > slow)
-      shown = {SpringShown::As::spent, c.spring.hysteresis * c.u.after[0]};
     else
       continue;
     take_spring(s, i, whole);
+    any = true;
+  }
+  return any;
+}
+
+bool hold_spent_springs(StepContext& s, int root) {
+  const double slow = 2 * impact_speed(s);
+  bool any = false;
+  for (const int i : s.buffers.islands.members[root]) {
+    const Constraint& c = s.constraints[i];
+    SpringShown& shown = s.buffers.shown[i];
+    if (shown.as == SpringShown::As::spent || !may_turn(c, slow) || c.u.after[0] <= slow) continue;
+    shown = {SpringShown::As::spent, c.spring.hysteresis * c.u.after[0]};
+    take_spring(s, i, s.buffers.islands.by_whole[root]);
     any = true;
   }
   return any;

@@ -14,12 +14,14 @@ void take_mean_friction(StepContext&);
 
 void formulate(StepContext&);
 
-/// What the impulses found have shown of springs. Those at rest that something strikes within the step leave the steep part of
-/// their law, whose slope they were told to follow; what parted and is pressed again rests. A spring that turns its contact within
-/// the step gives back no more than its share from there on: without this the force of the approach would go on to the end of the
-/// step, and that of rest for one more, and throw off by S depth step / mass what ought to stay. `spent`: only these. True where
-/// the island of this tree has any and its impulses are to be found again.
-enum class Shown { all, spent };
-bool take_springs_shown(StepContext&, int root, Shown);
+/// Springs at rest that something strikes within the step leave the steep part of their law, whose slope they were told to follow.
+/// True where the island of this tree has any and its impulses are to be found again. So is what parted and is pressed again: it
+/// rests.
+bool wake_struck_springs(StepContext&, int root);
+
+/// A spring that turns its contact within the step gives back no more than its share from there on: without this the force of the
+/// approach would go on to the end of the step, and that of rest for one more, and throw off by S depth step / mass what ought to
+/// stay. True where any was held and the impulses are to be found again.
+bool hold_spent_springs(StepContext&, int root);
 
 }  // namespace engine

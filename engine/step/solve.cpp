@@ -48,10 +48,8 @@ void solve_islands(StepContext& s, From from) {
       world.log.diagnostics.newton_steps += report.newton_steps;
     };
     solve();
-    if (take_springs_shown(s, root, Shown::all)) {
-      solve();
-      if (take_springs_shown(s, root, Shown::spent)) solve();
-    }
+    if (wake_struck_springs(s, root)) solve();
+    if (hold_spent_springs(s, root)) solve();
     if (report.residual > s.residual) s.residual = report.residual, s.unsettled = report.worst;
     correct_positions(s, island);
   }
