@@ -294,11 +294,11 @@ TEST(RunOver, IsToldWhenAWheelStandsOnWhoLies) {
 /// Heads on an SUV at 60 km/h, beside its middle and on it: springs that rest are struck and spent within a step of 1 ms.
 TEST(HeadOnSuv, HasTheCriterionOfAFinerStep) {
   const auto criterion = [](double aside, const char* step) {
-    const scenes::Scene scene = scenes::load(
-        std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/sedan_pedestrian_40kmh.toml",
-        {"person.pedestrian.pose=standing", "person.pedestrian.position=0.16 " + std::to_string(aside - 1.89) + " m",
-         "vehicle.sedan.model=suv", "vehicle.sedan.speed=60 km/h", "vehicle.sedan.front=-1.6667 -1.75 m",
-         std::string("simulation.step=") + step, "simulation.duration=1 s"});
+    const scenes::Scene scene =
+        scenes::load(std::string(CRASHREEL_SOURCE_DIR) + "/scenes/cases/sedan_pedestrian_40kmh.toml",
+                     {"person.pedestrian.pose=standing", "person.pedestrian.position=0.16 " + std::to_string(aside - 1.89) + " m",
+                      "vehicle.sedan.model=suv", "vehicle.sedan.speed=60 km/h", "vehicle.sedan.front=-1.6667 -1.75 m",
+                      std::string("simulation.step=") + step, "simulation.duration=1 s"});
     for (const Metric& m : measure(scene.model, simulate(scene.model)))
       if (m.key == "hic15_vehicle") return m.value;
     return 0.0;
