@@ -11,7 +11,7 @@ namespace engine {
 
 void DenseSystem::resize(int n) {
   n_ = static_cast<std::size_t>(n);
-  stride_ = whole_lines(n_);
+  stride_ = whole_rows(n_);
   if (A_.size() < stride_ * stride_) A_.resize(stride_ * stride_);  // never smaller: growing again would write zeros for nothing
   if (b_.size() < stride_) b_.resize(stride_);
   if (diagonal_.size() < stride_) diagonal_.resize(stride_);

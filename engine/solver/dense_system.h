@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/math/aligned_vector.h"
+#include "engine/solver/wide_products.h"
 
 namespace engine {
 
@@ -18,7 +19,7 @@ struct RowRun {
 class DenseSystem {
  public:
   void reserve(std::size_t n) {
-    A_.reserve(whole_lines(n) * whole(n)), b_.reserve(whole(n)), diagonal_.reserve(whole(n)), pivot_.reserve(whole(n)),
+    A_.reserve(whole_rows(n) * whole(n)), b_.reserve(whole(n)), diagonal_.reserve(whole(n)), pivot_.reserve(whole(n)),
         reach_.reserve(whole(n)), runs_.reserve(whole(n));
   }
   /// A and b are to be written whole.
@@ -39,11 +40,10 @@ class DenseSystem {
  private:
   /// The system is filled up to a multiple of four unknowns.
   static std::size_t whole(std::size_t n) { return (n + 3) / 4 * 4; }
-  /// Columns begin on cache lines.
-  static std::size_t whole_lines(std::size_t n) { return (n + 7) / 8 * 8; }
 
-  std::size_t n_ = 0, stride_ = 0;
-  AlignedVector A_;  // column-major
+  std::size_t n_ = 0;
+  std::size_t stride_ = 0;  // whole_rows(n_): columns begin on cache lines
+  AlignedVector A_;         // column-major
   std::vector<double> b_;
   std::vector<double> diagonal_;    // as A was written
   std::vector<std::size_t> pivot_;  // row that changed places with row k

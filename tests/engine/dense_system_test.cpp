@@ -15,6 +15,25 @@
 namespace engine {
 namespace {
 
+void write(const Eigen::MatrixXd& A, DenseSystem& system) {
+  system.resize(static_cast<int>(A.rows()));
+  for (int c = 0; c < A.cols(); ++c) std::copy_n(A.col(c).data(), A.rows(), system.column(c));
+}
+
+/// Of a system that has been factored: some right-hand sides, one after the other.
+void expect_solutions_of_eigen(const Eigen::MatrixXd& A, DenseSystem& system) {
+  const auto n = static_cast<int>(A.rows());
+  const auto lu = A.fullPivLu();
+  for (int again = 0; again < 2; ++again) {
+    const Eigen::VectorXd b = Eigen::VectorXd::Random(n);
+    for (int r = 0; r < n; ++r) system.b(r) = b[r];
+    system.solve();
+    const Eigen::VectorXd x = lu.solve(b);
+    // rounding in either, as far as the matrix can enlarge it
+    for (int r = 0; r < n; ++r) EXPECT_NEAR(system.b(r), x[r], 1e-15 * n * (1 + x.norm()) / lu.rcond()) << n;
+  }
+}
+
 TEST(DenseSystem, SolvesAsEigenWhateverWasSolvedBefore) {
   std::srand(7);
   DenseSystem system;
@@ -22,19 +41,9 @@ TEST(DenseSystem, SolvesAsEigenWhateverWasSolvedBefore) {
   for (const int n : {1, 2, 3, 4, 5, 7, 8, 9, 45, 50, 44, 6, 1}) {
     Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n);
     if (n > 1) A(0, 0) = 0;  // asks for a change of rows
-    const Eigen::VectorXd first = Eigen::VectorXd::Random(n), second = Eigen::VectorXd::Random(n);
-    system.resize(n);
-    for (int c = 0; c < n; ++c)
-      for (int r = 0; r < n; ++r) system.A(r, c) = A(r, c);
+    write(A, system);
     ASSERT_TRUE(system.factor()) << n;
-    const auto lu = A.fullPivLu();
-    for (const Eigen::VectorXd& b : {first, second}) {
-      for (int r = 0; r < n; ++r) system.b(r) = b[r];
-      system.solve();
-      const Eigen::VectorXd x = lu.solve(b);
-      // rounding in either, as far as the matrix can enlarge it
-      for (int r = 0; r < n; ++r) EXPECT_NEAR(system.b(r), x[r], 1e-15 * n * (1 + x.norm()) / lu.rcond()) << n;
-    }
+    expect_solutions_of_eigen(A, system);
   }
 }
 
@@ -49,16 +58,9 @@ void expect_solved_as_by_eigen(int blocks, Meet meet) {
       if (r / kBlock != c / kBlock && !meet(r / kBlock, c / kBlock)) A(r, c) = 0;
   A.diagonal() *= 1e-3;
   DenseSystem system;
-  system.resize(n);
-  for (int c = 0; c < n; ++c)
-    for (int r = 0; r < n; ++r) system.A(r, c) = A(r, c);
+  write(A, system);
   ASSERT_TRUE(system.factor());
-  const Eigen::VectorXd b = Eigen::VectorXd::Random(n);
-  for (int r = 0; r < n; ++r) system.b(r) = b[r];
-  system.solve();
-  const auto lu = A.fullPivLu();
-  const Eigen::VectorXd x = lu.solve(b);
-  for (int r = 0; r < n; ++r) EXPECT_NEAR(system.b(r), x[r], 1e-15 * n * (1 + x.norm()) / lu.rcond());
+  expect_solutions_of_eigen(A, system);
 }
 
 TEST(DenseSystem, SolvesBandsAsEigen) {
@@ -73,33 +75,22 @@ TEST(DenseSystem, SolvesWhatIsMostlyZerosAsEigen) {
     expect_solved_as_by_eigen(blocks, [blocks](int r, int c) { return (r * c) % 11 == 3 || std::max(r, c) >= blocks - 3; });
 }
 
-/// How contacts answer each other, with a share added to the diagonal; of every third slips, and drags friction along.
-Eigen::MatrixXd answers_of_contacts(int n, double friction) {
-  const Eigen::MatrixXd root = Eigen::MatrixXd::Random(n, n);
+/// How contacts answer each other, with a share added to the diagonal. Every third slips and drags friction along.
+Eigen::MatrixXd answers_of_contacts(const Eigen::MatrixXd& root) {
   Eigen::MatrixXd A = root * root.transpose();
   A.diagonal() *= 1.001;
-  for (int c = 0; c + 1 < n; c += 3) A.col(c) += friction * A.col(c + 1);
+  for (int c = 0; c + 1 < A.cols(); c += 3) A.col(c) += 0.1 * A.col(c + 1);
   return A;
-}
-
-void write(const Eigen::MatrixXd& A, DenseSystem& system) {
-  system.resize(static_cast<int>(A.rows()));
-  for (int c = 0; c < A.cols(); ++c) std::copy_n(A.col(c).data(), A.rows(), system.column(c));
 }
 
 TEST(DenseSystem, SolvesInOrderAsEigen) {
   std::srand(23);
   DenseSystem system;
   for (const int n : {1, 2, 3, 4, 5, 8, 11, 12, 36, 45, 97, 203, 6}) {
-    const Eigen::MatrixXd A = answers_of_contacts(n, 0.1);
-    const Eigen::VectorXd b = Eigen::VectorXd::Random(n);
+    const Eigen::MatrixXd A = answers_of_contacts(Eigen::MatrixXd::Random(n, n));
     write(A, system);
     ASSERT_TRUE(system.factor_in_order()) << n;
-    for (int r = 0; r < n; ++r) system.b(r) = b[r];
-    system.solve();
-    const auto lu = A.fullPivLu();
-    const Eigen::VectorXd x = lu.solve(b);
-    for (int r = 0; r < n; ++r) EXPECT_NEAR(system.b(r), x[r], 1e-15 * n * (1 + x.norm()) / lu.rcond()) << n;
+    expect_solutions_of_eigen(A, system);
   }
 }
 
@@ -108,24 +99,17 @@ TEST(DenseSystem, SolvesInOrderWhatIsMostlyZerosAsEigen) {
   constexpr int kBlock = 9;
   DenseSystem system;
   for (const int blocks : {12, 31}) {
-    // each answers itself and the one after the next; the last answers all
-    const int n = blocks * kBlock;
-    Eigen::MatrixXd root = Eigen::MatrixXd::Random(n, n);
-    for (int c = 0; c < n; ++c)
-      for (int r = 0; r < n; ++r) {
+    // each has a part in itself and in the one after the next, the last in all
+    Eigen::MatrixXd root = Eigen::MatrixXd::Random(blocks * kBlock, blocks * kBlock);
+    for (int c = 0; c < root.cols(); ++c)
+      for (int r = 0; r < root.rows(); ++r) {
         const int row = r / kBlock, column = c / kBlock;
         if (row != column && row != column + 2 && row != blocks - 1) root(r, c) = 0;
       }
-    Eigen::MatrixXd A = root * root.transpose();
-    A.diagonal() *= 1.01;
-    const Eigen::VectorXd b = Eigen::VectorXd::Random(n);
+    const Eigen::MatrixXd A = answers_of_contacts(root);
     write(A, system);
     ASSERT_TRUE(system.factor_in_order());
-    for (int r = 0; r < n; ++r) system.b(r) = b[r];
-    system.solve();
-    const auto lu = A.fullPivLu();
-    const Eigen::VectorXd x = lu.solve(b);
-    for (int r = 0; r < n; ++r) EXPECT_NEAR(system.b(r), x[r], 1e-15 * n * (1 + x.norm()) / lu.rcond());
+    expect_solutions_of_eigen(A, system);
   }
 }
 
