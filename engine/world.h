@@ -6,6 +6,7 @@
 #include <bit>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -134,11 +135,26 @@ void copy_moving(const World& world, const std::vector<T>& from, std::vector<T>&
   for (const int b : world.still.others) to[b] = from[b];
 }
 
+/// Calls act(body) for every body of these trees.
+template <class Act>
+void for_bodies_of(const World& world, std::span<const int> trees, Act&& act) {
+  for (const int tree : trees)
+    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) act(world.topology.links[l].body);
+}
+
 /// Calls act(body) for every body of the trees that take part.
 template <class Act>
 void for_awake_bodies(const World& world, Act&& act) {
+  for_bodies_of(world, world.active_trees, act);
+}
+
+/// Calls act(trees, looped) for each tree that takes part by itself, then for all together that closed loops hold.
+template <class Act>
+void for_joined_trees(const World& world, Act&& act) {
+  const bool any = world.loops.any();
   for (const int tree : world.active_trees)
-    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) act(world.topology.links[l].body);
+    if (!(any && world.loops.holds(tree))) act(std::span(&tree, 1), false);
+  if (any) act(std::span(world.loops.trees()), true);
 }
 
 /// Kinetic and gravitational energy [J] of all bodies that move.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -65,6 +66,7 @@ struct SurfacePoint {
   double radius = 0;                 // [m] from the wheel's axle
   std::vector<Vec3> normals_B = {};  // between which it can press; none: any
 };
+using SurfacePoints = std::shared_ptr<const std::vector<SurfacePoint>>;  // of one body, for all its pairs
 
 /// Of the pairs those that a step can bring together, as the broad phase saw last.
 struct PairsInReach {
@@ -82,13 +84,13 @@ struct ContactPairs {
   std::vector<MeshPair> mesh;
   std::vector<MeshPairRun> mesh_runs;
   std::vector<BodyPairRun> round;
-  std::vector<BodyPair> bodywork;                                         // of meshes whose points meet the other's surface
-  std::vector<std::array<std::vector<SurfacePoint>, 2>> bodywork_points;  // of those pairs, that may meet the other
-  std::vector<TyrePair> tyres;                                            // by wheels
-  std::vector<Road> roads;                                                // the terrain first
-  std::vector<std::vector<SurfacePoint>> points;                          // per body with a mesh
-  ContactPoints touches;                                                  // scratch: those of the pair looked at last
-  std::vector<SurfaceContact> point_contacts;                             // of meshes
+  std::vector<BodyPair> bodywork;                             // of meshes whose points meet the other's surface
+  std::vector<std::array<SurfacePoints, 2>> bodywork_points;  // of those pairs, that may meet the other
+  std::vector<TyrePair> tyres;                                // by wheels
+  std::vector<Road> roads;                                    // the terrain first
+  std::vector<std::vector<SurfacePoint>> points;              // per body with a mesh
+  ContactPoints touches;                                      // scratch: those of the pair looked at last
+  std::vector<SurfaceContact> point_contacts;                 // of meshes
   std::vector<int> point_scratch;
   MeshContactScratch mesh_scratch;
 };

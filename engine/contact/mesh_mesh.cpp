@@ -36,7 +36,7 @@ Touches touches_between<ShapeKind::mesh, ShapeKind::mesh>(const Outlook& outlook
   Clearance& clearance = outlook.state.contact_memory.bodywork[pair.at][way];
   const auto& shape = std::get<MeshShape>(world.model.bodies[pair.b].shape);
   const Road* road = road_of(world.pairs, pair.b);
-  const std::vector<SurfacePoint>& points = world.pairs.bodywork_points[pair.at][way];
+  const std::vector<SurfacePoint>& points = *world.pairs.bodywork_points[pair.at][way];
   touch_with_points(outlook, pair.a, points, {0, points.size()},
                     {.mesh = shape.mesh.get(),
                      .X_WM = at.X_WB[pair.b] * shape.X_BM,

@@ -87,12 +87,12 @@ void reserve_contacts(ContactPairs& pairs) {
   std::size_t points = 0;
   for (const auto& of_body : pairs.points) points = std::max(points, of_body.size());
   for (const auto& of_pair : pairs.bodywork_points)
-    for (const auto& of_body : of_pair) points = std::max(points, of_body.size());
+    for (const SurfacePoints& of_body : of_pair) points = std::max(points, of_body->size());
   pairs.point_contacts.reserve(points);
 }
 
 /// The points of a body that stand clear of the one it is coupled to at the start: those about the coupling do not.
-std::vector<SurfacePoint> clear_points(const Model& model, int body, int other, ContactPairs& pairs) {
+SurfacePoints clear_points(const Model& model, int body, int other, ContactPairs& pairs) {
   const auto& shape = std::get<MeshShape>(model.bodies[other].shape);
   const Pose X_MB = (model.bodies[other].X_WB * shape.X_BM).inverse() * model.bodies[body].X_WB;
   std::vector<SurfacePoint> out = pairs.points[body];
@@ -100,7 +100,7 @@ std::vector<SurfacePoint> clear_points(const Model& model, int body, int other, 
     const auto surface = nearest_surface(*shape.mesh, X_MB * p.p_B, kDeepestPoint, pairs.point_scratch);
     return surface && surface->gap < kClear;
   });
-  return out;
+  return std::make_shared<const std::vector<SurfacePoint>>(std::move(out));
 }
 
 }  // namespace
@@ -148,11 +148,16 @@ void list_mesh_pairs(const Model& model, ContactPairs& pairs) {
     for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b)
       if (meshes_meet(model, a, b)) pairs.bodywork.push_back({a, b});
   reserve_scratch(model, pairs);
+  std::vector<SurfacePoints> known(bodies.size());
+  const auto all_points = [&](int b) {
+    if (!known[b]) known[b] = std::make_shared<const std::vector<SurfacePoint>>(points(b, PointsOf::vertices_and_edges));
+    return known[b];
+  };
   for (const BodyPair& pair : pairs.bodywork)
     if (coupled(model, pair.a, pair.b))
       pairs.bodywork_points.push_back({clear_points(model, pair.a, pair.b, pairs), clear_points(model, pair.b, pair.a, pairs)});
     else
-      pairs.bodywork_points.push_back({points(pair.a, PointsOf::vertices_and_edges), points(pair.b, PointsOf::vertices_and_edges)});
+      pairs.bodywork_points.push_back({all_points(pair.a), all_points(pair.b)});
   reserve_contacts(pairs);
 }
 

@@ -274,10 +274,10 @@ class AirDrag final : public Effect {
 
   void before_step(World& world, State& state, double) override { power_ = power_taken(world, state, air_); }
 
-  void add_forces(const World& world, const std::vector<Pose>& X, const std::vector<Twist>& V,
+  void add_forces(const World& world, std::span<const int> trees, const std::vector<Pose>& X, const std::vector<Twist>& V,
                   std::vector<Vec6>& force) const override {
     if (air_.density == 0) return;
-    for_awake_bodies(world, [&](int b) { force[b].head<3>() += force_on(air_, static_cast<std::size_t>(b), X[b].q, V[b].v); });
+    for_bodies_of(world, trees, [&](int b) { force[b].head<3>() += force_on(air_, static_cast<std::size_t>(b), X[b].q, V[b].v); });
   }
 
   void after_step(StepContext& s) override {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "engine/effects/registration.h"
 #include "engine/effects/words.h"
@@ -188,11 +189,10 @@ void steer_along_path(const Vehicle& vehicle, const Motion& state, double h, OnT
       std::clamp(std::clamp(wanted, driver.steer - step, driver.steer + step), -vehicle.path.largest, vehicle.path.largest);
 }
 
-/// Share of its vehicle's load that a wheel carried in the last step; before the first one, at rest.
-double carried_share(const std::vector<WheelState>& wheels, const WheelState& of) {
+/// Share of its vehicle's load that a wheel carried in the last step; before the first one, at rest. `wheels`: of that vehicle.
+double carried_share(std::span<const WheelState> wheels, const WheelState& of) {
   double all = 0, all_at_rest = 0;
   for (const WheelState& wheel : wheels) {
-    if (wheel.vehicle != of.vehicle) continue;
     all += wheel.impulse[0];
     all_at_rest += wheel.static_load;
   }
@@ -256,10 +256,11 @@ class Driver final : public EffectWith<DriverMemory> {
       steer_along_path(world.model.vehicles[v], state, step, on_path[v]);
     for (WheelState& wheel : state.wheels) {
       const Vehicle& vehicle = world.model.vehicles[wheel.vehicle];
+      const std::span all(&wheel - wheel.wheel, vehicle.wheels.size());
       const bool follows = vehicle.path.points.size() > 1;
       wheel.steer = follows ? on_path[wheel.vehicle].steer : vehicle.steer.at(state.time);
       if (!vehicle.wheels[wheel.wheel].steered) wheel.steer = 0;
-      wheel.brake = brake_of(vehicle, wheel.wheel, state.time, carried_share(state.wheels, wheel));
+      wheel.brake = brake_of(vehicle, wheel.wheel, state.time, carried_share(all, wheel));
       wheel.drive = drive_of(vehicle, wheel.wheel, state.time);
     }
   }

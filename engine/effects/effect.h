@@ -75,8 +75,10 @@ class Effect {
   virtual void find_limits(ContactSearch&) {}
   /// Appends conditions that also follow the clock or the length of the step: wheels, closed loops. Called at its start.
   virtual void find(StepContext&) {}
-  /// Smooth forces at a stage of the integration: adds to `force` (6 per body).
-  virtual void add_forces(const World&, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& /*force*/) const {}
+  /// Smooth forces on such trees at a stage of the integration: adds to `force` (6 per body). Schemes rk4 and adaptive ask for all
+  /// that take part at once.
+  virtual void add_forces(const World&, std::span<const int> /*trees*/, const std::vector<Pose>&, const std::vector<Twist>&,
+                          std::vector<Vec6>& /*force*/) const {}
   /// Implicit joint resistance over the step: fills dampers and resistances.
   virtual void resist(StepContext&) {}
   /// Sees the end of a step the resistance has acted over; true when it has revised a damper and the impulses must be found again.

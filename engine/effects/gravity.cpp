@@ -35,9 +35,9 @@ class Gravity final : public Effect {
 
   Gravity(const World&, int self) : Effect(self) {}
 
-  void add_forces(const World& world, const std::vector<Pose>&, const std::vector<Twist>&,
+  void add_forces(const World& world, std::span<const int> trees, const std::vector<Pose>&, const std::vector<Twist>&,
                   std::vector<Vec6>& force) const override {
-    for_awake_bodies(world, [&](int b) { force[b].head<3>() += world.model.bodies[b].mass * world.model.settings.gravity; });
+    for_bodies_of(world, trees, [&](int b) { force[b].head<3>() += world.model.bodies[b].mass * world.model.settings.gravity; });
   }
 };
 template struct Registered<Gravity>;

@@ -133,9 +133,9 @@ class JointResistance final : public EffectWith<FrictionMemory> {
     if (world.model.settings.scheme != Scheme::stepping) power_ = power_taken(world, state);
   }
 
-  void add_forces(const World& world, const std::vector<Pose>& X, const std::vector<Twist>& V,
+  void add_forces(const World& world, std::span<const int>, const std::vector<Pose>& X, const std::vector<Twist>& V,
                   std::vector<Vec6>& force) const override {
-    if (!any_in_stages_) return;  // the legs' flexions would be looked up for nothing
+    if (!any_in_stages_) return;  // scheme stepping: the legs' flexions would be looked up for nothing
     for (const int j : world.awake_joints) {
       const Joint& joint = world.model.joints[j];
       if (!in_stages_[j] || !world.awake[joint.child]) continue;

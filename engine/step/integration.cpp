@@ -6,7 +6,6 @@
 
 #include "engine/math/roots.h"
 #include "engine/step/bounds.h"
-#include "engine/step/step_control.h"
 
 namespace engine {
 namespace {
@@ -15,7 +14,13 @@ constexpr double kCarried = 0.02;  // [s] over which an error of speed counts as
 
 }  // namespace
 
-Integration::Integration(World& world, StepBuffers& buffers) : smooth(world.model), world_(world), buffers_(buffers) {
+double fastest_turning(const World& world, std::span<const int> trees, const Motion& at) {
+  double fastest = 0;
+  for_bodies_of(world, trees, [&](int b) { fastest = std::max(fastest, at.V_WB[b].w.squaredNorm()); });
+  return std::sqrt(fastest);
+}
+
+Integration::Integration(World& world, StepBuffers& buffers) : world_(world), buffers_(buffers), smooth_(world.model) {
   if (contacts_in_stages(world.model.settings)) compliant.emplace(world);
 }
 
@@ -33,69 +38,84 @@ double Integration::difference() const {
   return most;
 }
 
-Stages Integration::stages(const StepContext& s, const StepControl& control) {
-  if (world_.model.settings.scheme != Scheme::stepping || !control.bears_two_stages(s.length, smooth.fastest_swing()))
-    return Stages::four;
+void Integration::note_touched(const StepContext& s) {
   const Topology& topology = world_.topology;
   touched_.assign(topology.trees.size(), 0);
   for (const Constraint& c : s.constraints) {
-    if (!is_contact(c) || c.gap + s.length * std::min(0.0, c.u.before[0]) > 0) continue;
+    const bool closes = c.kind == ConstraintKind::wheel || (is_contact(c) && c.gap + s.length * std::min(0.0, c.u.before[0]) <= 0);
+    if (!closes) continue;
     for (const int b : {c.a.body, c.b.body})
       if (b >= 0) touched_[static_cast<std::size_t>(topology.tree_of_body[b])] = 1;
   }
-  // a body by itself takes little time
-  const auto has_joints = [&topology](int tree) { return topology.links[topology.trees[tree].begin].joint >= 0; };
-  bool any = false;
-  for (const int tree : world_.active_trees) {
-    if (!has_joints(tree)) continue;
-    if (!touched_[static_cast<std::size_t>(tree)]) return Stages::four;
-    any = true;
-  }
-  return any ? Stages::two : Stages::four;
 }
 
-double Integration::advance(const State& state, const StepControl& control, double length, Stages stages) {
+Integration::Pace Integration::pace(std::span<const int> trees, const State& state, double length) const {
+  constexpr double kTurn = 0.1;  // [rad] of any body in a part
+  // Verlet bears a swing of 2, and is off by a twelfth of the square of either; the swing is the fastest of all trees
+  constexpr double kTurnByTwo = 0.05, kSwingByTwo = 0.5;  // [rad], [-]
+  const double turn = fastest_turning(world_, trees, state) * length, swings = state.pace.swing.rate * length;
+  // the error a second of turning leaves goes with w (w h)^4: parts in number with w^(5/4) would keep it what it is at the bound
+  const double wanted = std::max(turn / kTurn * (turn / kTurn), swings / kSmoothSwing);
+  const auto touched = [this](int tree) { return touched_[static_cast<std::size_t>(tree)] != 0; };
+  const bool by_two = world_.plan.integrated_by == Scheme::stepping && turn < kTurnByTwo && swings < kSwingByTwo &&
+                      std::all_of(trees.begin(), trees.end(), touched);
+  return {static_cast<int>(std::clamp(std::ceil(wanted), 1.0, kMostParts)), by_two ? Stages::two : Stages::four};
+}
+
+/// A way of the step, from StepBuffers::end.
+void Integration::advance_over(const State& state, double way, double length, FirstStage first) {
+  CompliantContacts* contacts = compliant ? &*compliant : nullptr;
+  swing = {};
+  const auto advance_trees = [&](std::span<const int> trees, bool looped) {
+    const Pace pace = this->pace(trees, state, length);
+    if (contacts) contacts->next_part(way / pace.parts);
+    Swing fastest;
+    FirstStage stage = first;
+    for (int k = 0; k < pace.parts; ++k)
+      fastest = smooth_.advance(world_, trees, looped, buffers_.end, way / pace.parts, pace.stages, contacts,
+                                std::exchange(stage, FirstStage::within_step));
+    if (fastest.rate > swing.rate) swing = fastest;
+  };
+  if (world_.plan.integrated_by == Scheme::stepping)
+    for_joined_trees(world_, advance_trees);
+  else
+    advance_trees(world_.active_trees, true);
+}
+
+double Integration::advance(const State& state, double length) {
   const Meter::Span span(world_.meter, Phase::integration);
   Motion& end = buffers_.end;
-  CompliantContacts* contacts = compliant ? &*compliant : nullptr;
-  const int parts = control.parts(length, smooth.fastest_swing());
-  FirstStage first{};
-  auto begin = [&] {
+  const auto begin = [&] {
     const bool all = std::exchange(copied_, world_.still.changes) != world_.still.changes;
     copy_moving(world_, state.X_WB, end.X_WB, all);
     copy_moving(world_, state.V_WB, end.V_WB, all);
     end.time = state.time + length;
-    first = FirstStage::where_it_begins;
+    smooth_.take_over(world_, state);
     if (!world_.topology.loops.empty()) world_.loops.forget();
-    if (contacts) contacts->restart(length);
-  };
-  auto advance_over = [&](double way) {
-    if (contacts) contacts->next_part(way / parts);
-    for (int k = 0; k < parts; ++k)
-      smooth.advance(world_, end, way / parts, end.X_WB, end.V_WB, stages, contacts, std::exchange(first, FirstStage::within_step));
+    if (compliant) compliant->restart(length);
   };
   begin();
-  advance_over(length);
+  advance_over(state, length, length, FirstStage::where_it_begins);
   if (world_.model.settings.scheme != Scheme::adaptive) return 0;
   buffers_.whole = end;
   begin();
-  advance_over(0.5 * length);
-  advance_over(0.5 * length);
+  advance_over(state, 0.5 * length, length, FirstStage::where_it_begins);
+  advance_over(state, 0.5 * length, length, FirstStage::within_step);
   return difference();
 }
 
-bool Integration::locate_contact_event(const State& state, const StepControl& control, double& length) {
+bool Integration::locate_contact_event(const State& state, double& length) {
   constexpr double kTight = 1e-12;  // [-] of the step
   bool any = false;
   for (int event = 0; event < 8 && compliant->first_crossing(buffers_.end, crossing); ++event) {
     any = true;
     const auto crossed = [&](double part) {
-      advance(state, control, part, Stages::four);
+      advance(state, part);
       return compliant->crossing_at(buffers_.end, crossing);
     };
     const auto met = [](double f) { return f > -1e-15 && f <= 0; };
     length = math::illinois({0, length}, crossing.start, crossing.end, 50, kTight * length, crossed, met).high;
-    advance(state, control, length, Stages::four);
+    advance(state, length);
     CompliantContacts::Crossing earlier;
     if (!compliant->first_crossing(buffers_.end, earlier) || (earlier.key == crossing.key && earlier.kind == crossing.kind)) break;
   }

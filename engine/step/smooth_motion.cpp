@@ -53,61 +53,66 @@ SmoothMotion::SmoothMotion(const Model& model)
   }
 }
 
-void SmoothMotion::accelerations(World& world, const std::vector<Pose>& X, const std::vector<Twist>& V, std::vector<Vec6>& a,
-                                 CompliantContacts* compliant, double weight, FirstStage first) {
+void SmoothMotion::accelerations(World& world, const Trees& trees, Stage& stage, CompliantContacts* compliant, double weight,
+                                 FirstStage first) {
   const Model& model = world.model;
-  for (const int tree : world.active_trees) {
-    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
-      const int b = world.topology.links[l].body;
-      const Vec3 w_B = X[b].q.conjugate() * V[b].w;
-      force_[b] << 0, 0, 0, -V[b].w.cross(X[b].q * (model.bodies[b].inertia_B * w_B));
-    }
-  }
-  call(world, Hook::add_forces, &Effect::add_forces, world, X, V, force_);
-  if (compliant) compliant->add_forces(X, V, weight, force_);
-  if (&a == &stages_[0].a) for_awake_bodies(world, [&](int b) { applied_[b] = force_[b].head<3>(); });
+  const bool starts = &stage == &stages_[0];
+  for_bodies_of(world, trees.list, [&](int b) {
+    const Vec3& w = stage.V[b].w;
+    const Vec3 w_B = X_[b].q.conjugate() * w;
+    force_[b] << 0, 0, 0, -w.cross(X_[b].q * (model.bodies[b].inertia_B * w_B));
+  });
+  call(world, Hook::add_forces, &Effect::add_forces, world, trees.list, X_, stage.V, force_);
+  if (compliant) compliant->add_forces(X_, stage.V, weight, force_);
+  if (starts) for_bodies_of(world, trees.list, [&](int b) { applied_[b] = force_[b].head<3>(); });
   const bool begins = first == FirstStage::where_it_begins;
   Articulation& articulation = begins ? world.impulse : world.smooth;
-  for (const int tree : world.active_trees) {
+  for (const int tree : trees.list) {
     if (begins)
-      articulation.factor_unless_known(world.topology, tree, X);
+      articulation.factor_unless_known(world.topology, tree, X_);
     else
-      articulation.factor(world.topology, tree, X, nullptr);
-    articulation.set_bias(world.topology, tree, V);
-    articulation.solve(world.topology, tree, force_, a, Articulation::Bias::from_rows);
+      articulation.factor(world.topology, tree, X_, nullptr);
+    articulation.set_bias(world.topology, tree, stage.V);
+    articulation.solve(world.topology, tree, force_, stage.a, Articulation::Bias::from_rows);
   }
-  if (!world.loops.any()) return;
+  if (!trees.looped) return;
   double gap = 0;
-  world.loops.place(X, gap);
+  world.loops.place(X_, gap);
   world.loops.factor(world.topology, articulation);
-  world.loops.ask_for_acceleration(V);
-  world.loops.solve(world.topology, articulation, a, &a == &stages_[0].a ? &applied_ : nullptr);
+  world.loops.ask_for_acceleration(stage.V);
+  world.loops.solve(world.topology, articulation, stage.a, starts ? &applied_ : nullptr);
 }
 
-void SmoothMotion::advance(World& world, const Motion& state, double h, std::vector<Pose>& X, std::vector<Twist>& V, Stages stages,
-                           CompliantContacts* compliant, FirstStage first) {
-  take_over(world, state, stages);
-  stages == Stages::two ? advance_by_two(world, state, h, X, V, first) : advance_by_four(world, state, h, X, V, compliant, first);
-}
-
-/// What moves by a schedule, and all bodies where others do than before.
-void SmoothMotion::take_over(const World& world, const Motion& state, Stages stages) {
+void SmoothMotion::take_over(const World& world, const Motion& state) {
   const bool all = std::exchange(copied_, world.still.changes) != world.still.changes;
-  copy_moving(world, state.X_WB, X_, all);
-  for (int s = 0; s < static_cast<int>(all ? Stages::four : stages); ++s) copy_moving(world, state.V_WB, stages_[s].V, all);
+  const auto take = [&](const auto& from, auto& to) {
+    if (all) to = from;
+    for (const int b : world.still.others)
+      if (!world.awake[static_cast<std::size_t>(b)]) to[b] = from[b];
+  };
+  take(state.X_WB, X_);
+  for (Stage& stage : stages_) take(state.V_WB, stage.V);
 }
 
-void SmoothMotion::advance_by_two(World& world, const Motion& state, double h, std::vector<Pose>& X, std::vector<Twist>& V,
-                                  FirstStage first) {
+Swing SmoothMotion::advance(World& world, std::span<const int> list, bool looped, Motion& motion, double h, Stages stages,
+                            CompliantContacts* compliant, FirstStage first) {
+  const Trees trees{list, looped && world.loops.any()};
+  if (stages == Stages::two)
+    advance_by_two(world, trees, motion, h, first);
+  else
+    advance_by_four(world, trees, motion, h, compliant, first);
+  return swing(world, trees);
+}
+
+void SmoothMotion::advance_by_two(World& world, const Trees& trees, Motion& motion, double h, FirstStage first) {
   Stage &start = stages_[0], &end = stages_[1];
-  for_awake_bodies(world, [&](int b) {
-    X_[b] = state.X_WB[b];
-    start.V[b] = state.V_WB[b];
+  for_bodies_of(world, trees.list, [&](int b) {
+    X_[b] = motion.X_WB[b];
+    start.V[b] = motion.V_WB[b];
   });
-  accelerations(world, X_, start.V, start.a, nullptr, 0.5, first);
-  if (world.loops.any()) world.loops.sum_up(0.5 * h);
-  measure_swing(world);
-  for_awake_bodies(world, [&](int b) {
+  accelerations(world, trees, start, nullptr, 0.5, first);
+  if (trees.looped) world.loops.sum_up(0.5 * h);
+  for_bodies_of(world, trees.list, [&](int b) {
     const Twist& at_start = start.V[b];
     const auto a = start.a[b].head<3>(), turning = start.a[b].tail<3>();
     const Vec3 turn = h * (at_start.w + 0.5 * h * turning);
@@ -115,68 +120,63 @@ void SmoothMotion::advance_by_two(World& world, const Motion& state, double h, s
     end.V[b].v = at_start.v + h * a;
     end.V[b].w = at_start.w + h * turning;
   });
-  accelerations(world, X_, end.V, end.a, nullptr, 0.5, FirstStage::within_step);
-  if (world.loops.any()) world.loops.sum_up(0.5 * h);
-  for_awake_bodies(world, [&](int b) {
-    X[b] = X_[b];
+  accelerations(world, trees, end, nullptr, 0.5, FirstStage::within_step);
+  if (trees.looped) world.loops.sum_up(0.5 * h);
+  for_bodies_of(world, trees.list, [&](int b) {
+    motion.X_WB[b] = X_[b];
     const Vec6 dV = 0.5 * h * (start.a[b] + end.a[b]);
-    V[b].v = start.V[b].v + dV.head<3>();
-    V[b].w = start.V[b].w + dV.tail<3>();
+    motion.V_WB[b].v += dV.head<3>();
+    motion.V_WB[b].w += dV.tail<3>();
   });
 }
 
-void SmoothMotion::advance_by_four(World& world, const Motion& state, double h, std::vector<Pose>& X, std::vector<Twist>& V,
-                                   CompliantContacts* compliant, FirstStage first) {
+void SmoothMotion::advance_by_four(World& world, const Trees& trees, Motion& motion, double h, CompliantContacts* compliant,
+                                   FirstStage first) {
   constexpr double kNode[4] = {0, 0.5, 0.5, 1};
   constexpr double kWeight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+  std::vector<Pose>& X = motion.X_WB;
+  std::vector<Twist>& V = motion.V_WB;
   for (int s = 0; s < 4; ++s) {
     Stage& stage = stages_[s];
-    for (const int tree : world.active_trees) {
-      for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
-        const int b = world.topology.links[l].body;
-        Eigen::Vector4d q = state.X_WB[b].q.coeffs();
-        if (s == 0) {
-          X_[b] = state.X_WB[b];
-          stage.V[b] = state.V_WB[b];
-        } else {
-          const Stage& before = stages_[s - 1];
-          const double c = kNode[s] * h;
-          X_[b].p = state.X_WB[b].p + c * before.V[b].v;
-          q += c * before.dq[b];
-          X_[b].q.coeffs() = q.normalized();
-          stage.V[b].v = state.V_WB[b].v + c * before.a[b].head<3>();
-          stage.V[b].w = state.V_WB[b].w + c * before.a[b].tail<3>();
-        }
-        stage.dq[b] = quaternion_rate(q, stage.V[b].w);
+    for_bodies_of(world, trees.list, [&](int b) {
+      Eigen::Vector4d q = X[b].q.coeffs();
+      if (s == 0) {
+        X_[b] = X[b];
+        stage.V[b] = V[b];
+      } else {
+        const Stage& before = stages_[s - 1];
+        const double c = kNode[s] * h;
+        X_[b].p = X[b].p + c * before.V[b].v;
+        q += c * before.dq[b];
+        X_[b].q.coeffs() = q.normalized();
+        stage.V[b].v = V[b].v + c * before.a[b].head<3>();
+        stage.V[b].w = V[b].w + c * before.a[b].tail<3>();
       }
-    }
-    accelerations(world, X_, stage.V, stage.a, compliant, kWeight[s], s == 0 ? first : FirstStage::within_step);
-    if (world.loops.any()) world.loops.sum_up(h * kWeight[s]);
+      stage.dq[b] = quaternion_rate(q, stage.V[b].w);
+    });
+    accelerations(world, trees, stage, compliant, kWeight[s], s == 0 ? first : FirstStage::within_step);
+    if (trees.looped) world.loops.sum_up(h * kWeight[s]);
   }
-  measure_swing(world);
-  const auto& [k1, k2, k3, k4] = stages_;
+  const Stage &k1 = stages_[0], &k2 = stages_[1], &k3 = stages_[2], &k4 = stages_[3];
   double lifted = 0;
-  for (const int tree : world.active_trees) {
-    for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {
-      const int b = world.topology.links[l].body;
-      const Vec3 way = h / 6 * (k1.V[b].v + 2 * k2.V[b].v + 2 * k3.V[b].v + k4.V[b].v);
-      X[b].p = state.X_WB[b].p + way;
-      X[b].q.coeffs() = (state.X_WB[b].q.coeffs() + h / 6 * (k1.dq[b] + 2 * k2.dq[b] + 2 * k3.dq[b] + k4.dq[b])).normalized();
-      const Vec6 dV = h / 6 * (k1.a[b] + 2 * k2.a[b] + 2 * k3.a[b] + k4.a[b]);
-      V[b].v = state.V_WB[b].v + dV.head<3>();
-      V[b].w = state.V_WB[b].w + dV.tail<3>();
-      if (compliant) lifted += world.model.bodies[b].mass * world.model.settings.gravity.dot(0.5 * h * (k1.V[b].v + V[b].v) - way);
-    }
-  }
+  for_bodies_of(world, trees.list, [&](int b) {
+    const Vec3 way = h / 6 * (k1.V[b].v + 2 * k2.V[b].v + 2 * k3.V[b].v + k4.V[b].v);
+    X[b].p += way;
+    X[b].q.coeffs() = (X[b].q.coeffs() + h / 6 * (k1.dq[b] + 2 * k2.dq[b] + 2 * k3.dq[b] + k4.dq[b])).normalized();
+    const Vec6 dV = h / 6 * (k1.a[b] + 2 * k2.a[b] + 2 * k3.a[b] + k4.a[b]);
+    V[b].v += dV.head<3>();
+    V[b].w += dV.tail<3>();
+    if (compliant) lifted += world.model.bodies[b].mass * world.model.settings.gravity.dot(0.5 * h * (k1.V[b].v + V[b].v) - way);
+  });
   if (compliant) compliant->end_part(k1.V, V, lifted);
 }
 
-/// Joint forces from the leaves up: what a body's own acceleration and its children's joints do not explain, its parent's joint
+/// By joint forces from the leaves up: what a body's own acceleration and its children's joints do not explain, its parent's joint
 /// gives.
-void SmoothMotion::measure_swing(const World& world) {
+Swing SmoothMotion::swing(const World& world, const Trees& trees) {
+  Swing fastest;
   double largest = 0;
-  swinging_body_ = -1;
-  for (const int tree : world.active_trees) {
+  for (const int tree : trees.list) {
     const Topology::Tree& range = world.topology.trees[tree];
     if (range.end - range.begin == 1 && world.topology.links[range.begin].joint < 0) continue;
     for (int l = range.begin; l < range.end; ++l) joint_force_[world.topology.links[l].body].setZero();
@@ -191,11 +191,12 @@ void SmoothMotion::measure_swing(const World& world) {
       const Swinging& swinging = swinging_[static_cast<std::size_t>(link.joint)];
       if (const double square = 2 * T.norm() * swinging.per_force; square > largest) {
         largest = square;
-        swinging_body_ = swinging.body;
+        fastest.body = swinging.body;
       }
     }
   }
-  fastest_swing_ = std::sqrt(largest);
+  fastest.rate = std::sqrt(largest);
+  return fastest;
 }
 
 namespace {
@@ -317,13 +318,11 @@ double project_joints(World& world, std::vector<Pose>& X, std::vector<Twist>& V,
                       std::vector<Vec6>& result, bool factored) {
   const Projected at{X, V, force, result};
   double left = 0;
-  for (const int tree : world.active_trees) {
-    const Topology::Tree& range = world.topology.trees[tree];
+  for_joined_trees(world, [&](std::span<const int> trees, bool looped) {
+    const Topology::Tree& range = world.topology.trees[trees.front()];
     const bool free = range.end - range.begin == 1 && world.topology.links[range.begin].joint < 0;
-    if (free || (world.loops.any() && world.loops.holds(tree))) continue;
-    left = std::max(left, Projection(world, std::span(&tree, 1), false, factored, at).close());
-  }
-  if (world.loops.any()) left = std::max(left, Projection(world, world.loops.trees(), true, factored, at).close());
+    if (looped || !free) left = std::max(left, Projection(world, trees, looped, factored, at).close());
+  });
   return left;
 }
 

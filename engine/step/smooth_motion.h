@@ -7,6 +7,7 @@
 // end, takes half of the time and gives order two. A swing under joint forces neither gains nor loses by it.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "engine/step/compliant_contacts.h"
@@ -25,18 +26,14 @@ class SmoothMotion {
  public:
   explicit SmoothMotion(const Model&);
 
-  /// Advances the awake bodies by h from `state` under the plan's forces; results for awake bodies only.
-  /// `compliant` (may be null) adds the forces of contacts in every stage, of which there must be four.
-  void advance(World&, const Motion&, double h, std::vector<Pose>& X, std::vector<Twist>& V, Stages,
-               CompliantContacts* compliant = nullptr, FirstStage first = FirstStage::within_step);
+  /// What moves by a schedule stands so during the steps that follow.
+  void take_over(const World&, const Motion&);
 
-  /// Rate [rad/s] of the fastest swing that the joint forces of the last step make a body capable of: T r / I, as in a chain of
-  /// light links pulled taut by heavy ends. Runge-Kutta 4 blows up above 2.8 over the step.
-  double fastest_swing() const { return fastest_swing_; }
-  /// As the last step of a run that goes on here left it.
-  void recall(double fastest_swing, int body) { fastest_swing_ = fastest_swing, swinging_body_ = body; }
-  /// The body capable of it; -1: none.
-  int swinging_body() const { return swinging_body_; }
+  /// Advances these trees by h under the plan's forces; `looped`: they are all that closed loops hold, or all there are.
+  /// `compliant` (may be null) adds the forces of contacts in every stage, of which there must be four. Returns their fastest
+  /// swing.
+  Swing advance(World&, std::span<const int> trees, bool looped, Motion&, double h, Stages, CompliantContacts* compliant = nullptr,
+                FirstStage first = FirstStage::within_step);
 
  private:
   struct Stage {
@@ -44,13 +41,15 @@ class SmoothMotion {
     std::vector<Eigen::Vector4d> dq;
     std::vector<Twist> V;
   };
-  void accelerations(World&, const std::vector<Pose>&, const std::vector<Twist>&, std::vector<Vec6>& a, CompliantContacts*,
-                     double weight, FirstStage);
-  void take_over(const World&, const Motion&, Stages);
-  void advance_by_four(World&, const Motion&, double h, std::vector<Pose>& X, std::vector<Twist>& V, CompliantContacts*,
-                       FirstStage);
-  void advance_by_two(World&, const Motion&, double h, std::vector<Pose>& X, std::vector<Twist>& V, FirstStage);
-  void measure_swing(const World&);
+  /// The trees in hand.
+  struct Trees {
+    std::span<const int> list;
+    bool looped;
+  };
+  void accelerations(World&, const Trees&, Stage&, CompliantContacts*, double weight, FirstStage);
+  void advance_by_four(World&, const Trees&, Motion&, double h, CompliantContacts*, FirstStage);
+  void advance_by_two(World&, const Trees&, Motion&, double h, FirstStage);
+  Swing swing(const World&, const Trees&);
 
   Stage stages_[4];
   std::vector<Pose> X_;
@@ -61,9 +60,7 @@ class SmoothMotion {
     double per_force = 0;  // [1/(kg m)]
   };
   std::vector<Swinging> swinging_;  // per joint
-  double fastest_swing_ = 0;
-  int swinging_body_ = -1;
-  long copied_ = 0;  // StillBodies::changes when all bodies were taken over
+  long copied_ = 0;                 // StillBodies::changes when all bodies were taken over
 };
 
 /// Takes the drift out of joints after a step: Newton on C(q) = 0 in the mass metric, then J V = 0 (eq. (63) with F = 0).

@@ -27,8 +27,7 @@ Stepper::Stepper(World& world, OnImpulses on_impulses)
 double Stepper::advance(State& state, double most) {
   buffers_.dissipated_before = state.energy.dissipated;
   choose_trees(world_, state);
-  motion_.smooth.recall(state.pace.swing_rate, state.pace.swinging_body);
-  StepControl control(world_, state, most, motion_.smooth.fastest_swing());
+  StepControl control(world_, state, most);
   call(world_, Hook::before_step, &Effect::before_step, world_, state, control.length());
   choose_trees(world_, state);
   find_contacts_at_start(state);
@@ -48,8 +47,7 @@ double Stepper::advance(State& state, double most) {
     step.emplace(world_, state, buffers_, verdict.length);
     verdict = attempt(state, control, step);
   }
-  state.pace.swing_rate = motion_.smooth.fastest_swing();
-  state.pace.swinging_body = motion_.smooth.swinging_body();
+  state.pace.swing = motion_.swing;
   if (verdict.kind == Verdict::Kind::ended) return verdict.length;
   control.accept(*step);
   commit(*step, control.crossed() ? &motion_.crossing : nullptr);
@@ -77,9 +75,10 @@ Verdict Stepper::attempt(State& state, StepControl& control, std::optional<StepC
   }
 
   // the smooth motion: RK4 through the joints, to the next event of a compliant contact
-  const double error = motion_.advance(state, control, length, motion_.stages(*step, control));
-  if (const Verdict v = control.judge_motion(motion_.smooth, error, length); v.kind != Verdict::Kind::go_on) return v;
-  if (motion_.compliant && control.locates_events() && motion_.locate_contact_event(state, control, length)) control.note_event();
+  motion_.note_touched(*step);
+  const double error = motion_.advance(state, length);
+  if (const Verdict v = control.judge_motion(motion_.swing, error, length); v.kind != Verdict::Kind::go_on) return v;
+  if (motion_.compliant && control.locates_events() && motion_.locate_contact_event(state, length)) control.note_event();
   if (length != step->length) step.emplace(world_, state, buffers_, length);
 
   // joint resistance and the impulses of all conditions; joints closed

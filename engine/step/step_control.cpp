@@ -16,10 +16,7 @@ namespace {
 
 constexpr double kUnsolved = 2;                // [-] residual over the tolerance above which the step is halved and taken again
 constexpr double kBearable = 10 * kMayMislay;  // [J] mislaid where each half of the step has something else wrong
-constexpr double kSmoothTurn = 0.1;            // [rad] of any body in one step of the smooth motion
-constexpr double kSmoothSwing = 2.0;           // [-] rate of a swing under joint forces times the step: RK4 bears 2.8
 constexpr double kLargestTurn = 0.3;           // [rad] in one step of all
-constexpr double kMostParts = 20;              // of the smooth motion in one step, and of a step by turning
 // Of a step by halving: a foot under a wheel, at its stop and on the road at once, comes out where a step moves it less.
 constexpr double kMostHalvedParts = 200;
 // Of a step by swings, the tolerance of scheme adaptive, events. A taut chain wants 9 at a mass ratio of 2000 and 2 ms; a thousand
@@ -35,14 +32,6 @@ constexpr const char* kSwingsTooFast =
 constexpr const char* kSpringsTooFast =
     "the spring of its contact is so fast that a step would be more than 5000 parts; more mass, a lower stiffness or a smaller "
     "step may help";
-
-/// Angular speed [rad/s] of the fastest body. Joint rows and contact points change by the angle turned, to second order of which a
-/// step is blind: a light limb flung at 300 rad/s gets its steps divided, the rest of the run keeps its own.
-double fastest_turning(const World& world, const Motion& at) {
-  double fastest = 0;
-  for_awake_bodies(world, [&](int b) { fastest = std::max(fastest, at.V_WB[b].w.squaredNorm()); });
-  return std::sqrt(fastest);
-}
 
 /// Longest step [s] that follows the blow on a head that yields: a pulse of a few milliseconds, whose peak the criteria raise to
 /// the power of 2.5. The way to a touch is one step. Where the pulse turns it has no speed: steps go on short, and grow from there
@@ -103,20 +92,21 @@ bool acceptable(const std::vector<Constraint>& start, const std::vector<Constrai
 
 }  // namespace
 
-StepControl::StepControl(World& world, State& state, double most, double fastest_swing)
+StepControl::StepControl(World& world, State& state, double most)
     : world_(world),
       state_(state),
       settings_(world.model.settings),
       shortest_(settings_.step / kMostPartsOfAll),
       depth_tolerance_(settings_.scheme == Scheme::adaptive ? std::max(10 * settings_.adaptive_tolerance, 2 * kSlop) : 1),
-      turning_(fastest_turning(world, state)),
       length_(most) {
   if (most == settings_.step) state.pace.events = 0;
-  if (turning_ * length_ > kLargestTurn) {
+  // joint rows and contact points change by the angle turned, to second order of which a step is blind: a light limb flung at 300
+  // rad/s gets its steps divided, the rest of the run keeps its own
+  if (const double turning = fastest_turning(world, world.active_trees, state); turning * length_ > kLargestTurn) {
     ++world.log.diagnostics.substeps;
-    length_ = std::min(length_, std::max(kLargestTurn / turning_, settings_.step / kMostParts));
+    length_ = std::min(length_, std::max(kLargestTurn / turning, settings_.step / kMostParts));
   }
-  if (const double swing = fastest_swing * length_ / kSmoothSwing; swing > 1) {
+  if (const double swing = state.pace.swing.rate * length_ / kSmoothSwing; swing > 1) {
     ++world.log.diagnostics.substeps;
     length_ /= std::max(1.0, swing / kMostParts);
   }
@@ -200,19 +190,6 @@ Verdict StepControl::place_slip_end(const StepContext& s) {
   return {Verdict::Kind::place, placed_};
 }
 
-int StepControl::parts(double length, double fastest_swing) const {
-  // the error a second of turning leaves goes with w (w h)^4: parts in number with w^(5/4) would keep it what it is at the bound
-  const double for_turning = turning_ * length / kSmoothTurn * (turning_ * length / kSmoothTurn);
-  const double wanted = std::max(for_turning, fastest_swing / kSmoothSwing * length);
-  return static_cast<int>(std::clamp(std::ceil(wanted), 1.0, kMostParts));
-}
-
-bool StepControl::bears_two_stages(double length, double fastest_swing) const {
-  // Verlet bears a swing of 2, and is off by a twelfth of the square of either
-  constexpr double kTurn = 0.05, kSwing = 0.5;  // [rad], [-] as above
-  return turning_ * length < kTurn && fastest_swing * length < kSwing;
-}
-
 /// Ends the run for what a step of any length worth taking could not follow; the state stays the last that was followed.
 Verdict StepControl::end_run(int body, const char* effect, const char* message) {
   world_.log.failure = Failure{state_.time, world_.model.bodies[body].name, effect, message};
@@ -227,8 +204,8 @@ Verdict StepControl::bear_springs(const CompliantContacts& contacts, double& len
   return {};
 }
 
-Verdict StepControl::judge_motion(const SmoothMotion& smooth, double error, double length) {
-  if (smooth.fastest_swing() * shortest_ > kSmoothSwing) return end_run(smooth.swinging_body(), "joints", kSwingsTooFast);
+Verdict StepControl::judge_motion(const Swing& swing, double error, double length) {
+  if (swing.rate * shortest_ > kSmoothSwing) return end_run(swing.body, "joints", kSwingsTooFast);
   error_ = error;
   if (!(error > settings_.adaptive_tolerance && length > shortest_)) return {};
   const double share = std::clamp(0.9 * math::pow(settings_.adaptive_tolerance / error, 0.2), 0.1, 0.7);

@@ -16,7 +16,7 @@ class StepControl {
  public:
   /// A step of at most `most` [s] from the state. Divided where a body turns fast or joint forces make a light one swing fast; ends
   /// at an instant that the state names.
-  StepControl(World&, State&, double most, double fastest_swing);
+  StepControl(World&, State&, double most);
 
   /// Divides the step where a head that yields is struck, by the contacts at its start.
   void follow_blows_on_heads();
@@ -28,16 +28,11 @@ class StepControl {
   double cut_at_impact(const StepContext&);
   bool placing() const { return placing_; }
 
-  /// Steps of the smooth motion in one of this length.
-  int parts(double length, double fastest_swing) const;
-  /// Does all turn and swing so slowly that two stages follow it?
-  bool bears_two_stages(double length, double fastest_swing) const;
-
   /// What the spring of a compliant contact bears.
   Verdict bear_springs(const CompliantContacts&, double& length);
 
   /// After the smooth motion: does it follow the joints, and the error of scheme `adaptive`?
-  Verdict judge_motion(const SmoothMotion&, double error, double length);
+  Verdict judge_motion(const Swing&, double error, double length);
 
   /// Are events of compliant contacts still placed in this step?
   bool locates_events() const;
@@ -61,7 +56,6 @@ class StepControl {
   const Settings& settings_;
   const double shortest_;                  // [s]
   const double depth_tolerance_;           // [m] what a step may add to a penetration
-  double turning_ = 0;                     // [rad/s] of the fastest body
   double length_ = 0;                      // [s]
   double error_ = 0;                       // [m] of the smooth motion
   bool placing_ = false;                   // impacts are still placed inside this step

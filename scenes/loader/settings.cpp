@@ -38,10 +38,10 @@ const Key kSimulationKeys[] = {
                                                "Time between recorded instants, rounded to whole steps.", Range{0, 1, true}}),
     bound<&engine::Settings::scheme>(
         {"scheme", Type::choice, Dimension::none, "'stepping'",
-         "Integration. stepping: Runge-Kutta 4 for the smooth motion, velocity Verlet while every person is touched; contacts, "
-         "limits and joint resistance implicit at the end "
-         "of the step. rk4: joint resistance and compliant contacts too are evaluated anew in each of four stages. adaptive: rk4 "
-         "with steps no longer than `step`, divided until the error is below `adaptive_tolerance`.",
+         "Integration. stepping: Runge-Kutta 4 for the smooth motion, velocity Verlet for what is touched; contacts, limits and "
+         "joint resistance implicit at the end of the step. rk4: joint resistance and compliant contacts too are evaluated anew in "
+         "each of four stages. adaptive: rk4 with steps no longer than `step`, divided until the error is below "
+         "`adaptive_tolerance`.",
          kAny, "stepping|rk4|adaptive"}),
     bound<&engine::Settings::adaptive_tolerance>(
         {"adaptive_tolerance", Type::number, Dimension::length, "'0.01 mm'",

@@ -277,22 +277,25 @@ void give_capsules(Model& model) {
   }
 }
 
-Model crowd(const std::string& what, int count, double step) {
+Model crowd(const std::string& what, int first, int count, double step) {
+  constexpr double kFaster = 0.002, kHigher = 2e-4;  // [-], [m] from one to the next
   const double deg = std::numbers::pi / 180;
   Model model = empty(1.0, step);
   const auto mesh = car_mesh(1000);  // one for all, as a scene has it whose cars name the same file
   for (int k = 0; k < count; ++k) {
     const Vec3 place(0, 5.0 * k, 0);
+    const double faster = 1 + kFaster * (first + k), higher = kHigher * (first + k);
     if (what == "struck") {
       add_figure(model, turned(0, Vec3::UnitX(), 90 * deg, place + Vec3(0, 0.05, 0)));
       add_car(model, mesh, place + Vec3(-2.6, 0, 0.6));
+      model.bodies.back().V_WB.v *= faster;
       continue;
     }
     add_figure(model, turned((what == "lying" ? 89 : -70) * deg, Vec3::UnitY(), 0.3, place));
     const auto figure = model.persons.back().bodies;
-    lift(model, figure, {0, 0, (what == "lying" ? 0.01 : 0.3) - lowest_point(model, figure)});
+    lift(model, figure, {0, 0, (what == "lying" ? 0.01 + higher : 0.3) - lowest_point(model, figure)});
     if (what == "thrown")
-      for (const int b : figure) model.bodies[b].V_WB.v = {10, 0, 0};
+      for (const int b : figure) model.bodies[b].V_WB.v = {10 * faster, 0, 0};
   }
   return model;
 }

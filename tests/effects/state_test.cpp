@@ -160,7 +160,7 @@ TEST(State, SeesEveryPartThatChanges) {
   expect_new("warm start", [](State& s) { s.warm.at(0).impulse_W.x() += 1; });
   expect_new("wheel", [](State& s) { s.wheels.at(0).compression += 1e-9; });
   expect_new("pace", [](State& s) { s.pace.next = 1e-4; });
-  expect_new("swing", [](State& s) { s.pace.swing_rate += 1; });
+  expect_new("swing", [](State& s) { s.pace.swing.rate += 1; });
   expect_new("ledger", [](State& s) { s.energy.dissipated.at(0) += 1; });
   expect_new("released", [](State& s) { s.released.at(0) ^= 1; });
 }

@@ -1,6 +1,7 @@
 // Smooth motion against closed forms and published references.
 #include <gtest/gtest.h>
 
+#include "engine/math/same_bits.h"
 #include "tests/engine/experiment.h"
 
 namespace engine::test {
@@ -205,6 +206,20 @@ TEST(JointedBodies, ConvergeWithOrderTwoWhereTheyAreTouched) {
   EXPECT_NEAR(mechanical_energy(last) / mechanical_energy(first), 1, 1e-5);
   const Vec3 L = angular_momentum(model, first);
   EXPECT_LT((angular_momentum(model, last) - L).norm(), 1e-5 * L.norm());
+}
+
+// What spins far away takes its steps in four parts of four stages.
+TEST(JointedBodies, MoveAsByThemselvesBesideWhatSpinsFast) {
+  Model model = balls_on_ice(1e-3);
+  const Snapshot alone = simulate(model).snapshots.back();
+  model.bodies.push_back(ball(0.2, 1, {50, 0, 20}));
+  model.bodies.back().V_WB.w = {0, 0, 200};
+  const Snapshot beside = simulate(model).snapshots.back();
+  for (std::size_t b = 0; b < 2; ++b) {
+    EXPECT_TRUE(same_bits(beside.bodies[b].X_WB, alone.bodies[b].X_WB));
+    EXPECT_EQ(beside.bodies[b].V_WB.v, alone.bodies[b].V_WB.v);
+    EXPECT_EQ(beside.bodies[b].V_WB.w, alone.bodies[b].V_WB.w);
+  }
 }
 
 TEST(JointedBodies, KeepEnergyMomentumAndJoints) {
