@@ -59,14 +59,19 @@ void note_rises(StepContext& s) {
   }
 }
 
-/// What [J] no condition explains of the step's impulses.
+/// What [J] no condition explains of the step's impulses, of the island of which that is most.
 double unexplained(StepContext& s) {
-  double left = 0;
+  Islands& islands = s.buffers.islands;
+  std::vector<double>& left = islands.left;
+  left.assign(islands.members.size(), 0);
   for (const int tree : s.world.active_trees)
     for (int l = s.world.topology.trees[tree].begin; l < s.world.topology.trees[tree].end; ++l)
-      left += change_since(s, l, s.buffers.smooth);
-  for (std::size_t i = 0; i < s.constraints.size(); ++i) left -= work_of(s, i);
-  return left;
+      left[math::representative(islands.of_tree, tree)] += change_since(s, l, s.buffers.smooth);
+  for (const int root : islands.roots)
+    for (const int i : islands.members[root]) left[root] -= work_of(s, static_cast<std::size_t>(i));
+  double most = 0;
+  for (const int tree : s.world.active_trees) most = std::max(most, std::abs(left[tree]));
+  return most;
 }
 
 /// The most [J] that the hard contacts and stops of one effect gave which has none to give.
@@ -154,7 +159,7 @@ void note_gains(StepContext& s) {
 
 double mislaid(StepContext& s) {
   const double unearned = stored_unearned(s);
-  return s.impulses ? std::max({std::abs(unexplained(s)), largest_gift(s), unearned}) : unearned;
+  return s.impulses ? std::max({unexplained(s), largest_gift(s), unearned}) : unearned;
 }
 
 double largest_rise(StepContext& s) {

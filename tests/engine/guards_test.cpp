@@ -170,6 +170,31 @@ double computed() {
   return 1e-3 * looks + (slow_look >= 0 && looks > slow_look ? 1.5 : 0);  // a second of those others had
 }
 
+/// Pairs of heavy bodies on a ball joint that fall onto the road far from each other.
+Model falling_pairs(int count, double mass) {
+  Model model = on_ground(0.2);
+  for (int k = 0; k < count; ++k) {
+    const int first = static_cast<int>(model.bodies.size());
+    const Vec3 at(5.0 * k, 0, 0.5);
+    for (const double along : {0.0, 0.6}) {
+      model.bodies.push_back(solid({{0.25, 0.1, 0.1}, 2}, mass, at + Vec3(along, 0, 0)));
+      model.bodies.back().V_WB.v = {3, 0, -6};
+    }
+    model.joints.push_back(joint_at(model, JointKind::spherical, first, first + 1, at + Vec3(0.3, 0, 0)));
+    model.bodies[first].V_WB = {{3, 0, -6 + 8 * 0.3}, {0, 8, 0}};
+  }
+  return model;
+}
+
+// A step is halved where an impact leaves 10 J unexplained: of each by itself, however many there are.
+TEST(StepControl, HalvesForTheBooksOfOneIslandNotOfAll) {
+  const auto substeps = [](int count, double mass) { return simulate(falling_pairs(count, mass)).diagnostics.substeps; };
+  constexpr double kMass = 5e4;  // of which one leaves somewhat less
+  EXPECT_EQ(substeps(1, kMass), 0);
+  EXPECT_EQ(substeps(4, kMass), 0);
+  EXPECT_GT(substeps(1, 4 * kMass), 0);
+}
+
 TEST(StepWatch, NamesTheStepThatTookLongestAndItsBodies) {
   looks = 0;
   slow_look = 301;  // one look when the run begins, one a step
