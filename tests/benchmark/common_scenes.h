@@ -20,8 +20,8 @@ void tilt(engine::Model&, double angle);
 /// balls is one. Neighbours' balls may meet where capsules of one joint may not.
 void give_capsules(engine::Model&);
 
-/// Figures lying on the ground, thrown, or struck, `count` of them 5 m apart, from number `first` on. Each starts a little faster or
-/// higher than the one before it: what limbs do after a blow hangs on last digits, and of equal starts all would do the same.
+/// Figures lying on the ground, thrown, or struck, `count` of them 5 m apart, from number `first` on. Each starts a little faster
+/// or higher than the one before it: what limbs do after a blow hangs on last digits, and of equal starts all would do the same.
 engine::Model crowd(const std::string& what, int first, int count, double step);
 
 /// The vehicle scene with a mesh of about `triangles`.
