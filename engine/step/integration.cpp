@@ -79,7 +79,7 @@ void Integration::advance_over(const State& state, double way, double length, Fi
   if (world_.plan.integrated_by == Scheme::stepping)
     for_joined_trees(world_, advance_trees);
   else
-    advance_trees(world_.active_trees, true);
+    advance_trees(world_.active_trees, world_.loops.any());
 }
 
 double Integration::advance(const State& state, double length) {

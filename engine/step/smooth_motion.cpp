@@ -86,7 +86,10 @@ void SmoothMotion::accelerations(World& world, const Trees& trees, Stage& stage,
 void SmoothMotion::take_over(const World& world, const Motion& state) {
   const bool all = std::exchange(copied_, world.still.changes) != world.still.changes;
   const auto take = [&](const auto& from, auto& to) {
-    if (all) to = from;
+    if (all) {
+      to = from;
+      return;
+    }
     for (const int b : world.still.others)
       if (!world.awake[static_cast<std::size_t>(b)]) to[b] = from[b];
   };
@@ -96,7 +99,7 @@ void SmoothMotion::take_over(const World& world, const Motion& state) {
 
 Swing SmoothMotion::advance(World& world, std::span<const int> list, bool looped, Motion& motion, double h, Stages stages,
                             CompliantContacts* compliant, FirstStage first) {
-  const Trees trees{list, looped && world.loops.any()};
+  const Trees trees{list, looped};
   if (stages == Stages::two)
     advance_by_two(world, trees, motion, h, first);
   else

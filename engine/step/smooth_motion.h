@@ -29,9 +29,8 @@ class SmoothMotion {
   /// What moves by a schedule stands so during the steps that follow.
   void take_over(const World&, const Motion&);
 
-  /// Advances these trees by h under the plan's forces; `looped`: they are all that closed loops hold, or all there are.
-  /// `compliant` (may be null) adds the forces of contacts in every stage, of which there must be four. Returns their fastest
-  /// swing.
+  /// Advances these trees by h under the plan's forces; `looped`: all that closed loops hold are among them. `compliant` (may be
+  /// null) adds the forces of contacts in every stage, of which there must be four. Returns their fastest swing.
   Swing advance(World&, std::span<const int> trees, bool looped, Motion&, double h, Stages, CompliantContacts* compliant = nullptr,
                 FirstStage first = FirstStage::within_step);
 
