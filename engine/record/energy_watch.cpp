@@ -11,6 +11,8 @@ namespace engine {
 namespace {
 
 constexpr double kTold = 0.01;         // [-] of what was turned over
+constexpr double kToldOfMuch = 1e-3;   // [-] the same of more than one step may mislay
+constexpr double kMuch = 10;           // [J] and that is as much as here
 constexpr double kLeastEnergy = 1e-3;  // [-] of what the scene's masses have a metre up: what only rests turns nothing over
 
 constexpr double kGift = 0.1;     // [-] of what was turned over: springs give back, and no more than they took
@@ -71,11 +73,11 @@ void EnergyWatch::close(const World& world, Diagnostics& out) const {
   out.energy_turned_over = turned_over_;
   out.max_unexplained = unexplained_;
   out.max_effect_gain = gain.amount;
-  const double worth = kTold * std::max(turned_over_, kLeastEnergy * scale_);
+  const double of = std::max(turned_over_, kLeastEnergy * scale_), worth = kTold * of;
   constexpr const char* kCompare = "; see whether a smaller step says the same";
-  if (unexplained_ > worth)
-    out.warnings.push_back("energy: " + number(unexplained_) + " J at " + moment(at_) +
-                           " that no effect explains, more than 1 % of the " + number(turned_over_) + " J turned over" + kCompare);
+  if (unexplained_ > std::clamp(kMuch, kToldOfMuch * of, worth))
+    out.warnings.push_back("energy: " + number(unexplained_) + " J at " + moment(at_) + " that no effect explains, of " +
+                           number(turned_over_) + " J turned over" + kCompare);
   tell_of_gifts(world, out);
   if (gain.amount <= worth) return;
   const auto name = [&](int b) { return b >= 0 ? world.model.bodies[b].name : std::string("the world"); };

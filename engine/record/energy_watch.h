@@ -10,7 +10,8 @@ class EnergyWatch {
   /// At every snapshot.
   void weigh(const World&, const State&, const Energies&);
 
-  /// At the end of the run: its figures, and warnings of what is more than 1 % of what was turned over.
+  /// At the end of the run: its figures, and warnings of what is more than 1 % of what was turned over. Of what nothing explains,
+  /// also of more than 10 J that are more than 0.1 %.
   void close(const World&, Diagnostics&) const;
 
  private:

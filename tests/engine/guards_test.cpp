@@ -59,6 +59,20 @@ TEST(EnergyWatch, WarnsOfMoreThanAHundredthUnexplained) {
   }
 }
 
+/// Of much it is a thousandth, and no less than a step may mislay.
+TEST(EnergyWatch, WarnsOfAThousandthOfMuch) {
+  for (const double moved : {5e3, 5e4})
+    for (const double missing : {9.0, 11.0, 45.0, 55.0}) {
+      Watched w;
+      EnergyWatch watch;
+      watch.weigh(w.world, w.state, at_instant(moved, 0, 0, 0));
+      watch.weigh(w.world, w.state, at_instant(moved - missing, 0, 0, missing));
+      Diagnostics out;
+      watch.close(w.world, out);
+      EXPECT_EQ(out.warnings.size(), missing > std::max(10.0, 1e-3 * moved) ? 1u : 0u) << missing << " J of " << moved;
+    }
+}
+
 TEST(EnergyWatch, IsSilentAboutRoundingOfWhatRests) {
   Watched w;
   EnergyWatch watch;
