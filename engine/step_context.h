@@ -57,6 +57,7 @@ struct StepBuffers {
   Islands islands;
   std::vector<double> weight;             // [-] per condition: share of the step that its displacement acts
   std::vector<double> share;              // [s] per tree: by which its impulses displace it
+  std::vector<char> loosened;             // per tree: 1 where a damper is not that of the last pass
   std::vector<SpringShown> shown;         // per condition
   std::vector<Vec3> pull;                 // [m/s] per condition: along its rows by gravity over the step
   std::vector<double> dissipated_before;  // [J] per effect, when the step began

@@ -174,8 +174,11 @@ class JointResistance final : public EffectWith<FrictionMemory> {
 
   bool gave_way(StepContext& step) override {
     bool any = false;
-    for (const int j : step.world.awake_joints)
-      if (step.buffers.dampers[j].present) any = engine::gave_way(step, j) || any;
+    for (const int j : step.world.awake_joints) {
+      if (!step.buffers.dampers[j].present || !engine::gave_way(step, j)) continue;
+      step.buffers.loosened[step.world.topology.tree_of_body[step.world.model.joints[j].child]] = 1;
+      any = true;
+    }
     return any;
   }
 

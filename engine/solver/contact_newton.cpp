@@ -1,7 +1,9 @@
 // Newton on all contacts, limits and wheels of an island at once (semi-smooth, after Alart and Curnier 1991).
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 #include "engine/solver/contact_solver.h"
 #include "engine/solver/one_contact.h"
@@ -103,42 +105,63 @@ void ContactSolver::choose_rows() {
   }
 }
 
-void ContactSolver::pick(const double* from, double* to) const {
+/// Of two columns at once: what decides how rows are taken is asked half as often. A heap of ten takes 4 % less time.
+void ContactSolver::pick(const std::array<const double*, 2>& from, const std::array<double*, 2>& to) const {
+  const double *a = from[0], *b = from[1];
+  double *x = to[0], *y = to[1];
   for (const Pick& pick : picks_) {
-    const double* at = from + pick.first;
-    if (pick.length == 0) *to++ = pick.weights[0] * at[0] + pick.weights[1] * at[1];
+    const double *at = a + pick.first, *beside = b + pick.first;
+    if (pick.length == 0) {
+      *x++ = pick.weights[0] * at[0] + pick.weights[1] * at[1];
+      *y++ = pick.weights[0] * beside[0] + pick.weights[1] * beside[1];
+      continue;
+    }
     // by fours: a library's call to copy takes longer
+    const auto take = [&](auto count) {
+      std::memcpy(x, at, count * sizeof(double)), x += count, at += count;
+      std::memcpy(y, beside, count * sizeof(double)), y += count, beside += count;
+    };
     int left = pick.length;
-    for (; left >= 4; left -= 4, at += 4, to += 4) std::memcpy(to, at, 4 * sizeof(double));
-    if (left & 2) std::memcpy(to, at, 2 * sizeof(double)), at += 2, to += 2;
-    if (left & 1) *to++ = *at;
+    for (; left >= 4; left -= 4) take(std::integral_constant<std::size_t, 4>());
+    if (left & 2) take(std::integral_constant<std::size_t, 2>());
+    if (left & 1) take(std::integral_constant<std::size_t, 1>());
   }
 }
 
 /// How all velocities answer an unknown of a contact that slides.
-const double* ContactSolver::answer_of_slip(const Constraint& c, const Row& row) {
+const double* ContactSolver::answer_of_slip(const Constraint& c, const Row& row, Answer& answer) {
   const Slip& slip = slips_[static_cast<std::size_t>(row.member)];
   Vec3 unit(0, slip.across[0], slip.across[1]);
   if (row.kind == Row::sliding) unit << 1, c.surface.friction * slip.along;
   const Rows reach = response_.reach(static_cast<std::size_t>(row.member));
   const double* g = G_.data() + static_cast<std::size_t>(offset_[row.member]) * stride_;
-  answer_.assign(stride_, 0.0);
-  add_three_columns(g + reach.begin, stride_, unit.data(), answer_.data() + reach.begin, reach.end - reach.begin);
-  return answer_.data();
+  if (answer.rows.size() != stride_) answer.rows.assign(stride_, 0.0), answer.reach = {};
+  std::fill(answer.rows.data() + answer.reach.begin, answer.rows.data() + answer.reach.end, 0.0);
+  answer.reach = reach;
+  add_three_columns(g + reach.begin, stride_, unit.data(), answer.rows.data() + reach.begin, reach.end - reach.begin);
+  return answer.rows.data();
 }
 
 /// The matrix of the conditions linearised.
 void ContactSolver::write_linearised(const std::vector<Constraint>& all, const std::vector<int>& members) {
+  const auto answer_of = [&](int k) {
+    const Row& row = rule_[static_cast<std::size_t>(k)];
+    const bool slides = row.kind == Row::sliding || row.kind == Row::across;
+    return slides ? answer_of_slip(all[members[row.member]], row, answers_[static_cast<std::size_t>(k % 2)])
+                  : G_.data() + static_cast<std::size_t>(unknown_[k]) * stride_;
+  };
   const int n = static_cast<int>(unknown_.size());
+  for (int k = 0; k < n; k += 2) {
+    const int next = std::min(k + 1, n - 1);  // the last may be written twice
+    const double* from = answer_of(k);
+    pick({from, next > k ? answer_of(next) : from}, {newton_.column(k), newton_.column(next)});
+  }
   for (int k = 0; k < n; ++k) {
     const Row& row = rule_[k];
-    const Constraint& c = all[members[row.member]];
-    const bool slides = row.kind == Row::sliding || row.kind == Row::across;
-    pick(slides ? answer_of_slip(c, row) : G_.data() + static_cast<std::size_t>(unknown_[k]) * stride_, newton_.column(k));
     if (row.kind == Row::across) {
       newton_.A(k, k) += slips_[static_cast<std::size_t>(row.member)].by_impulse;
     } else {
-      newton_.A(k, k) += regular_ * G(unknown_[k], unknown_[k]) + softness_of(c, row.r);
+      newton_.A(k, k) += regular_ * G(unknown_[k], unknown_[k]) + softness_of(all[members[row.member]], row.r);
     }
   }
 }

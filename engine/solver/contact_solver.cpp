@@ -29,7 +29,8 @@ void ContactSolver::reserve(const Topology& topology, std::size_t constraints) {
   slips_.reserve(constraints);
   for (std::vector<Vec3>* list : {&L_start_, &L_nothing_, &L_best_}) list->reserve(constraints);
   own_.reserve(constraints);
-  for (std::vector<double>* list : {&L_, &L_kept_, &softened_, &answer_}) list->reserve(rows);
+  for (std::vector<double>* list : {&L_, &L_kept_, &softened_}) list->reserve(rows);
+  for (Answer& answer : answers_) answer.rows.reserve(rows);
   for (AlignedVector* list : {&u_, &u_kept_}) list->reserve(rows);
   for (std::vector<int>* list : {&offset_, &unknown_, &opens_}) list->reserve(rows);
   picks_.reserve(rows);

@@ -10,6 +10,7 @@
 // which the two go round in circles, where limbs jam, are followed from smoothed conditions instead (smoothed_newton.cpp).
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "engine/solver/constraint.h"
@@ -94,8 +95,13 @@ class ContactSolver {
     Eigen::Vector2d weights;
   };
   void choose_rows();
-  void pick(const double* from, double* to) const;
-  const double* answer_of_slip(const Constraint&, const Row&);
+  void pick(const std::array<const double*, 2>& from, const std::array<double*, 2>& to) const;
+  /// Of an unknown that slides, in all rows of G.
+  struct Answer {
+    std::vector<double> rows;  // stride_
+    Rows reach;                // outside of it they are zero
+  };
+  const double* answer_of_slip(const Constraint&, const Row&, Answer&);
   void take_known(std::vector<Constraint>&, const std::vector<int>& members);
 
   double regular_ = 0;
@@ -115,7 +121,7 @@ class ContactSolver {
   std::vector<Slip> slips_;         // per member, of those that slide
   std::vector<int> opens_;          // members whose impulse goes to zero
   std::vector<Pick> picks_;         // of a column of G
-  std::vector<double> answer_;      // stride_: of one unknown that slides
+  std::array<Answer, 2> answers_;   // of two neighbours
   std::vector<double> L_, L_kept_;
   AlignedVector u_kept_;
   std::vector<Vec3> L_start_, L_nothing_, L_best_;

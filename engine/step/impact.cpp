@@ -141,7 +141,7 @@ bool exchange_impacts(StepContext& s, const OnImpulses& on_impulses) {
   });
   if (!any) return false;
   const Meter::Span span(s.world.meter, Phase::impulses);
-  factor_for_impulses(s, nullptr);
+  factor_for_impulses(s);
   build_islands(s);
   for (const int root : s.buffers.islands.roots)
     if (choose_members(s, s.buffers.islands.members[root])) exchange(s);

@@ -1,5 +1,7 @@
 #include "engine/step/joint_friction.h"
 
+#include <algorithm>
+
 #include "engine/effects/effect.h"
 #include "engine/step/smooth_motion.h"
 
@@ -68,6 +70,7 @@ void note_motion_after(StepContext& s) {
 
 bool friction_gave_way(StepContext& s) {
   bool any = false;
+  std::fill(s.buffers.loosened.begin(), s.buffers.loosened.end(), 0);
   for (std::size_t e = 0; e < s.world.effects.size(); ++e)
     if (s.world.plan.active[e]->takes_part(Hook::gave_way)) any = s.world.effects[e]->gave_way(s) || any;
   return any;

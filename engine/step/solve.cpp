@@ -130,15 +130,16 @@ void apply(StepContext& s) {
   }
 }
 
+/// With the joints' dampers; of trees whose own have not changed since the last pass the factors stand.
+void factor_with_dampers(StepContext& s) {
+  for (const int tree : s.world.active_trees)
+    if (s.buffers.loosened[tree]) s.world.impulse.factor(s.world.topology, tree, s.state.X_WB, &s.buffers.dampers);
+}
+
 }  // namespace
 
-void factor_for_impulses(StepContext& s, const std::vector<JointDamper>* dampers) {
-  for (const int tree : s.world.active_trees) {
-    if (dampers)
-      s.world.impulse.factor(s.world.topology, tree, s.state.X_WB, dampers);
-    else
-      s.world.impulse.factor_unless_known(s.world.topology, tree, s.state.X_WB);
-  }
+void factor_for_impulses(StepContext& s) {
+  for (const int tree : s.world.active_trees) s.world.impulse.factor_unless_known(s.world.topology, tree, s.state.X_WB);
 }
 
 void exchange_over_step(StepContext& s) {
@@ -148,9 +149,10 @@ void exchange_over_step(StepContext& s) {
   const Meter::Span span(s.world.meter, Phase::impulses);
   Motion& smooth = s.buffers.smooth;
   smooth = s.end;
+  s.buffers.loosened.assign(s.world.topology.trees.size(), 1);
   for (int pass = 0;; ++pass) {
     if (s.any_damper) {
-      factor_for_impulses(s, &s.buffers.dampers);
+      factor_with_dampers(s);
       apply_resistance(s);
     }
     for (Constraint& c : s.constraints) c.u.free = row_velocity(c, s.end.V_WB);

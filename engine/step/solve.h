@@ -9,8 +9,8 @@ namespace engine {
 /// turned out not to be held by its friction. Sets StepContext::impulses; false when there is nothing of either.
 void exchange_over_step(StepContext&);
 
-/// Factorises the awake trees at the start of the step, with the joints' dampers or without (null).
-void factor_for_impulses(StepContext&, const std::vector<JointDamper>* dampers);
+/// Factorises the awake trees at the start of the step, without the joints' dampers.
+void factor_for_impulses(StepContext&);
 
 /// Takes the drift out of the joints; StepContext::joint_gap is what there was.
 void close_joints(StepContext&);

@@ -25,6 +25,7 @@ StepBuffers::StepBuffers(const World& world) {
   for (auto* list : {&islands.line, &islands.place}) list->reserve(trees);
   for (auto* list : {&weight, &allowed, &targets}) list->reserve(kRoom);
   share.reserve(trees);
+  loosened.reserve(trees);
   shown.reserve(kRoom);
   pull.reserve(kRoom);
   members.reserve(kRoom);
