@@ -91,19 +91,31 @@ struct Swing {
   int body = -1;    // -1: none
 };
 
-/// What the steps so far say of the length of the next.
-struct StepPace {
-  double last = 0;           // [s] length of the last step
-  double next = 0;           // [s] what the last step suggests, 0: anything
-  int cuts = 0;              // of the step under way, to place impacts
-  int events = 0;            // of compliant contacts placed in it
-  Swing swing;               // of the last step
-  double next_instant = -1;  // [s] at which a step must end, negative: none
-  double blow = 0;           // [s] the longest step that a blow on a head allowed last, 0: any
+/// How long steps may be that follow the blow on one head.
+struct HeadPace {
+  double last = 0;   // [s] that the blow allowed last, infinite: any
+  double next = 0;   // [s] that it allows now
+  double until = 0;  // [s] when its pulse is over at the latest
 
   template <class S>
   static auto fields(S& s) {
-    return std::tie(s.last, s.next, s.cuts, s.events, s.swing.rate, s.swing.body, s.next_instant, s.blow);
+    return std::tie(s.last, s.next, s.until);
+  }
+};
+
+/// What the steps so far say of the length of the next.
+struct StepPace {
+  double last = 0;              // [s] length of the last step
+  double next = 0;              // [s] what the last step suggests, 0: anything
+  int cuts = 0;                 // of the step under way, to place impacts
+  int events = 0;               // of compliant contacts placed in it
+  Swing swing;                  // of the last step
+  double next_instant = -1;     // [s] at which a step must end, negative: none
+  std::vector<HeadPace> heads;  // per person
+
+  template <class S>
+  static auto fields(S& s) {
+    return std::tie(s.last, s.next, s.cuts, s.events, s.swing.rate, s.swing.body, s.next_instant, s.heads);
   }
 };
 

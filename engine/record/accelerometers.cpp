@@ -22,7 +22,7 @@ void Accelerometers::begin(const World& world, Recording& recording) {
 }
 
 void Accelerometers::follow(const World& world, const State& state, double left, Recording& recording) {
-  constexpr double kSampling = 1e-4;  // [s] 10 kHz, as SAE J211 asks of heads: an instant has no acceleration
+  constexpr double kSampling = 4e-5;  // [s] 25 kHz, where SAE J211 asks 10 of heads: an instant has no acceleration
   if (!yields(world.model.settings.contact_law, true) || world.model.persons.empty()) return;
   if (recording.heads.empty()) begin(world, recording);
   const double step = state.time - times_.back();

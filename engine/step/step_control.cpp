@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/divergence.h"
 #include "engine/effects/effect.h"
@@ -33,32 +34,67 @@ constexpr const char* kSpringsTooFast =
     "the spring of its contact is so fast that a step would be more than 5000 parts; more mass, a lower stiffness or a smaller "
     "step may help";
 
-/// Longest step [s] that follows the blow on a head that yields: a pulse of a few milliseconds, whose peak the criteria raise to
-/// the power of 2.5. The way to a touch is one step. Where the pulse turns it has no speed: steps go on short, and grow from there
-/// under what only presses, or comes out far more slowly than the spring would throw it. A press that never was a blow divides
-/// none.
-double longest_for_heads(const World& world, const State& state, double length) {
-  constexpr double kTurn = 0.035;                  // [rad] of the spring: a criterion is then within 2 % of its limit, as a rule
-  constexpr double kClosing = 2, kPressed = 1000;  // [m/s], [N] of a blow: below it a criterion is less than 100
-  constexpr double kGoesIn = 0.1;                  // [m/s] and so a blow goes on: at its deepest a pulse may end at once
-  constexpr double kComesOut = 0.3;                // [m/s], [-] and of the speed that goes with the depth in a free swing
-  constexpr double kGrowth = 2;                    // [-] from step to step
+/// Head injury criterion [s] of a pulse of half a swing at `rate` [rad/s] whose peak is `peak` [m/s^2].
+double criterion_of_pulse(double peak, double rate) {
+  constexpr double kShape = 0.41465;  // [-] at the best window, two thirds of the pulse
+  return kShape * math::pow(peak / kGravity, 2.5) * std::numbers::pi / rate;
+}
+
+/// Longest part [s] of the `length` [s] left of a `step` [s] that follows a pulse on a spring that swings at `rate` [rad/s]. The
+/// way to a touch is one. The way to where the pulse turns is in equal parts: there a spring that gives little back lets go at
+/// once, and a part that went beyond would blur the largest force.
+double part_of_pulse(const Constraint& c, double closing, double force, double rate, double length, double step) {
+  constexpr double kTurn = 0.07;  // [rad] of the spring: a criterion is then within 2 % of its limit, as a rule
+  constexpr double kLeast = 0.3;  // [-] of that, where the turn is nearer
+  const double part = std::clamp(kTurn / rate, step / kMostParts, step);
+  if (c.gap > 0) return std::max(part, c.gap / closing);
+  double way = length;
+  if (closing > 0) way = std::min(way, std::max(kLeast * part, math::atan2(closing, force / c.spring.stiffness * rate) / rate));
+  return way / std::ceil(way / part);
+}
+
+/// Longest step [s] that follows the blows on heads that yield: pulses of a few milliseconds, whose peak the criteria raise to the
+/// power of 2.5. Where a pulse turns it has no speed: steps go on short, and grow from there under what only presses, or comes out
+/// far more slowly than the spring would throw it. A press that never was a blow divides none, nor does a pressed head while
+/// another is struck.
+double longest_for_heads(const World& world, State& state, double length) {
+  constexpr double kCriterion = 100;  // [s] a blow from here on
+  constexpr double kPressed = 1000;   // [N] and it goes on from here on
+  constexpr double kGoesIn = 0.05;    // [m/s] and so a blow goes on: at its deepest a pulse may end at once
+  constexpr double kComesOut = 0.3;   // [m/s], [-] and of the speed that goes with the depth in a free swing
+  constexpr double kGrowth = 2;       // [-] from step to step
   const Model& model = world.model;
+  const double step = model.settings.step;
+  std::vector<HeadPace>& heads = state.pace.heads;
+  for (HeadPace& head : heads) head.next = std::numeric_limits<double>::infinity();
   const auto is_head = [&model](int b) { return is_part(model, b) && model.persons[model.bodies[b].person].head == b; };
-  double longest = std::numeric_limits<double>::infinity();
   for (const Constraint& c : state.contacts.list) {
     if (!is_contact(c) || !is_compliant(c) || !(is_head(c.a.record) || is_head(c.b.record))) continue;
     const double closing = -row_velocity(c, state.V_WB)[0];
     const double force = std::min(-c.gap * c.spring.stiffness, c.spring.yield);
-    const bool strikes = closing > kClosing && c.gap < closing * length;
-    if (!strikes && force <= kPressed) continue;
+    const bool meets = closing > 0 && c.gap < closing * length;
+    if (!meets && force <= kPressed) continue;
     const double stiffness = c.spring.reached < 1 ? c.spring.loading : c.spring.stiffness;
     const double rate = std::sqrt(stiffness * c.response.free);
     const double thrown = kComesOut * std::max(1.0, force / c.spring.stiffness * rate);
-    if (strikes || (state.pace.blow > 0 && (closing > kGoesIn || -closing > thrown)))
-      longest = std::min(longest, std::max(kTurn / rate, c.gap > 0 ? c.gap / closing : 0));
-    else if (state.pace.blow > 0)
-      longest = std::min(longest, kGrowth * state.pace.blow);
+    for (const int b : {c.a.record, c.b.record}) {
+      if (!is_head(b)) continue;
+      HeadPace& head = heads[static_cast<std::size_t>(model.bodies[b].person)];
+      const double peak = closing * rate / (c.response.free * model.bodies[b].mass);
+      const bool strikes = meets && criterion_of_pulse(peak, rate) > kCriterion;
+      if (strikes) head.until = std::max(head.until, state.time + std::numbers::pi / rate);
+      const bool struck = state.time < head.until;
+      if (strikes || (struck && (closing > kGoesIn || -closing > thrown)))
+        head.next = std::min(head.next, part_of_pulse(c, closing, force, rate, length, step));
+      else if (struck && kGrowth * head.last < step)
+        head.next = std::min(head.next, kGrowth * head.last);
+    }
+  }
+  double longest = std::numeric_limits<double>::infinity();
+  for (HeadPace& head : heads) {
+    longest = std::min(longest, head.next);
+    head.last = head.next;
+    if (std::isinf(head.next)) head.until = 0;  // the blow is over
   }
   return longest;
 }
@@ -117,10 +153,9 @@ StepControl::StepControl(World& world, State& state, double most)
 
 void StepControl::follow_blows_on_heads() {
   const double longest = longest_for_heads(world_, state_, length_);
-  state_.pace.blow = longest < settings_.step ? longest : 0;
   if (longest >= length_ - kSliver * settings_.step) return;
   ++world_.log.diagnostics.substeps;
-  length_ = std::max(longest, settings_.step / kMostParts);
+  length_ = longest;
 }
 
 double StepControl::cut_at_impact(const StepContext& s) {
