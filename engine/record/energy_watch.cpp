@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTold = 0.01;         // [-] of what was turned over
 constexpr double kToldOfMuch = 1e-3;   // [-] the same of more than one step may mislay
-constexpr double kMuch = 10;           // [J] and that is as much as here
+constexpr double kMuch = 10;           // [J] and that is so much: kMayMislay of an island in a step, which this room may not know
 constexpr double kLeastEnergy = 1e-3;  // [-] of what the scene's masses have a metre up: what only rests turns nothing over
 
 constexpr double kGift = 0.1;     // [-] of what was turned over: springs give back, and no more than they took

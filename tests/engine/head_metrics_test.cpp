@@ -68,8 +68,8 @@ TEST(HeadInjury, OfAFallDoesNotHangOnTheStep) {
       }
 }
 
-/// A blow of less than 100, if all came back, divides no step. What its steps of 1 ms make of it is not far off in units of the
-/// criterion, whose limit is 700.
+/// A blow of less than 100, if all came back, divides no step. Where it is not divided it is off by less than a divided one at the
+/// criterion's limit of 700 may be, which is 14.
 TEST(HeadInjury, OfASlightBlowIsOffByAFewUnits) {
   for (const double height : {0.025, 0.035, 0.05, 0.065, 0.085}) {
     const double fine = hic15_of_fall(1e6, height, 2e-5);
