@@ -27,8 +27,8 @@ double half_chord(const HyperEllipsoid& part, const Vec3& p, const Vec3& directi
     for (int i = 0; i < 3; ++i)
       if (direction[i] != 0) far = std::min(far, part.semi_axes[i] / std::abs(direction[i]) - sense * p[i] / direction[i]);
     const auto beyond = [&](double s) {
-      const Vec3 x = p + sense * s * direction, gradient = gauge_gradient(part, x);
-      return std::pair(gradient.dot(x) - 1, sense * gradient.dot(direction));  // the gauge grows with the distance: Euler
+      const auto [gauge, gradient] = gauge_at(part, p + sense * s * direction);
+      return std::pair(gauge - 1, sense * gradient.dot(direction));
     };
     return math::newton({0, far}, far, kSteps, 0, 1e-6 * largest, beyond);
   };

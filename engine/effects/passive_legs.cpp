@@ -32,10 +32,10 @@ Flexion flexion_of(const Joint& joint, const Pose& X_WP, const Pose& X_WC) {
   const double cosine = math::hypot(R(0, 2), R(2, 2));
   Flexion out;
   out.angle = joint.flexes_about * math::atan2(R(0, 2), R(2, 2));
+  const double sine_y = cosine > 0 ? R(0, 2) / cosine : 0, cosine_y = cosine > 0 ? R(2, 2) / cosine : 1;
   // axes of the three turns in the parent: y, R_y x, R_y R_x z; the first of their reciprocal basis
   const double tangent = -R(1, 2) / std::max(cosine, kSteepest);
-  const Vec3 gradient_P(tangent * math::sin(joint.flexes_about * out.angle), 1,
-                        tangent * math::cos(joint.flexes_about * out.angle));
+  const Vec3 gradient_P(tangent * sine_y, 1, tangent * cosine_y);
   out.gradient_W = joint.flexes_about * (R_WP * gradient_P);
   return out;
 }

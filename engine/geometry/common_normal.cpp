@@ -17,27 +17,22 @@
 namespace engine {
 
 double RoundPair::gap(const Vec3& n) const {
-  return n.dot(d) - support_value(*shape[0], R_WS[0].transpose() * n) - support_value(*shape[1], R_WS[1].transpose() * n);
+  return at(n).gap;
 }
 
 RoundPair::At RoundPair::at(const Vec3& n) const {
-  return at(n, 0, support(*shape[0], R_WS[0].transpose() * n));
+  return at(n, 0, unscaled_support(*shape[0], R_WS[0].transpose() * n));
 }
 
-RoundPair::At RoundPair::at(const Vec3& n, std::size_t known, const Support& its) const {
+RoundPair::At RoundPair::at(const Vec3& n, std::size_t known, const UnscaledSupport& its) const {
   At out;
   out.n = n;
   for (std::size_t s = 0; s < 2; ++s) out.n_S[s] = R_WS[s].transpose() * n;
-  const std::size_t other = 1 - known;
-  out.reach[known] = its;
-  out.reach[other] = support(*shape[other], out.n_S[other]);
+  const UnscaledSupport other = unscaled_support(*shape[1 - known], out.n_S[1 - known]);
+  out.reach = known == 0 ? scaled(its, other) : scaled(other, its);
   out.gap = n.dot(d) - out.reach[0].value - out.reach[1].value;
   out.sum = R_WS[0] * out.reach[0].point + R_WS[1] * out.reach[1].point;
   return out;
-}
-
-Vec3 RoundPair::support_sum(const Vec3& n) const {
-  return R_WS[0] * support_point(*shape[0], R_WS[0].transpose() * n) + R_WS[1] * support_point(*shape[1], R_WS[1].transpose() * n);
 }
 
 Mat3 RoundPair::hessian(const At& p, std::size_t s) const {
@@ -102,9 +97,8 @@ class SurfaceChart {
     Vec3 u = t;
     for (int k = 0; k < 2; ++k) u[free(k)] = std::copysign(powers[k], t[free(k)]);
     const Vec3 direction = u.cwiseQuotient(shape_.semi_axes);
-    const double sum = u.dot(t), scale = math::two_powers(sum, 1, -1 / n)[0], length = direction.norm();
-    const Support its{sum * scale / length, scale * shape_.semi_axes.cwiseProduct(t)};
-    return pair_.at(pair_.R_WS[which_] * (direction / length), which_, its);
+    const double sum = u.dot(t), length = direction.norm();
+    return pair_.at(pair_.R_WS[which_] * (direction / length), which_, {{sum / length, shape_.semi_axes.cwiseProduct(t)}, sum, n});
   }
 
  private:
@@ -119,9 +113,9 @@ class SurfaceChart {
 };
 
 std::size_t flatter(const RoundPair& pair, const At& at) {
-  const Vec3& n = at.n;
   auto radii = [&](std::size_t s) {
-    const Mat3 H = pair.hessian(at, s);
+    const Vec3& n = at.n_S[s];
+    const Mat3 H = support_hessian(*pair.shape[s], n, at.reach[s]);
     return H.trace() - n.dot(H * n);
   };
   return radii(1) > radii(0) ? 1 : 0;
@@ -135,7 +129,7 @@ double climb_about(const RoundPair& pair, const Vec3& w, double tolerance, Vec3&
   auto turned = [&](double angle) -> Vec3 { return math::cos(angle) * (n - along) + math::sin(angle) * across + along; };
   auto slope = [&](double angle) {
     const Vec3 m = turned(angle);
-    return w.cross(m).dot(pair.d - pair.support_sum(m));
+    return w.cross(m).dot(pair.d - pair.at(m).sum);
   };
   const double start = slope(0);
   if (std::abs(start) < 1e-15) return 0;
@@ -217,12 +211,12 @@ CommonNormal climb(const RoundPair& pair, const Vec3& n, int steps) {
 }
 
 bool close_in(const RoundPair& pair, At& at) {
-  constexpr double kRounding = 2e-14, kSmall = 1e-12;  // [m]
+  constexpr double kSmall = 1e-12;  // [m] of the tangential miss; the gap errs by its square over the radius
   constexpr int kSteps = 30, kShortened = 5;
   if (at.closed) return true;
   At here = at;
   Eigen::Vector2d miss = tangential_miss(pair, here);
-  bool by_itself = miss.norm() <= kRounding;
+  bool by_itself = miss.norm() <= kSmall;
   for (int k = 0; k < kSteps && !by_itself; ++k) {
     const SurfaceChart chart(pair, flatter(pair, here), here);
     Eigen::Vector2d step = chart.step(here, miss);
@@ -237,7 +231,7 @@ bool close_in(const RoundPair& pair, At& at) {
       here = next;
       miss = left;
     }
-    by_itself = !nearer || miss.norm() <= kRounding;
+    by_itself = !nearer || miss.norm() <= kSmall;
   }
   if (miss.norm() > kSmall || here.gap < at.gap - 1e-15) return false;
   const Tangents E = tangents(here.n);

@@ -26,8 +26,7 @@ struct RoundPair {
   double gap(const Vec3& n) const;
   At at(const Vec3& n) const;
   /// The same where the farthest point of one shape is known better than from n, in whose digits it may be lost on a flat side.
-  At at(const Vec3& n, std::size_t known, const Support&) const;
-  Vec3 support_sum(const Vec3& n) const;
+  At at(const Vec3& n, std::size_t known, const UnscaledSupport&) const;
   Mat3 hessian(const At&, std::size_t shape) const;  // [m] of its support function, world axes
 };
 

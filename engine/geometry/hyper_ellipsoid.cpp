@@ -15,11 +15,7 @@ namespace {
 constexpr double kLargestRadius = 1e3;
 
 /// base^exponent of three bases >= 0. One of them is mostly 1, where all are shares of the largest.
-Vec3 powers(const Vec3& bases, double exponent) {
-  if (exponent == 1) return bases;
-  if (exponent == 2) return bases.cwiseAbs2();
-  if (exponent == 0.5) return bases.cwiseSqrt();
-  if (exponent == 1.5) return bases.cwiseProduct(bases.cwiseSqrt());
+[[gnu::always_inline]] inline Vec3 powers(const Vec3& bases, double exponent) {
   const int alone = bases[0] == 1 ? 0 : bases[1] == 1 ? 1 : 2;
   const int i = (alone + 1) % 3, j = (alone + 2) % 3;
   const Eigen::Vector2d two = math::two_powers(bases[i], bases[j], exponent);
@@ -28,14 +24,6 @@ Vec3 powers(const Vec3& bases, double exponent) {
   out[j] = two[1];
   out[alone] = bases[alone] == 1 ? 1 : math::two_powers(bases[alone], 1, exponent)[0];
   return out;
-}
-
-/// (sum (w_i)^p)^(1/p) for w >= 0.
-double norm_p(const Vec3& w, double p) {
-  if (p == 2) return w.norm();
-  const double largest = w.maxCoeff();
-  if (largest == 0) return 0;
-  return largest * math::two_powers(powers(w / largest, p).sum(), 1, 1 / p)[0];
 }
 
 double cube(double x) {
@@ -59,23 +47,43 @@ Vec3 principal_inertia(const HyperEllipsoid& shape, double mass) {
   return mass * second_moment(shape.exponent) * (Vec3::Constant(squares.sum()) - squares);
 }
 
-Support support(const HyperEllipsoid& shape, const Vec3& direction) {
+namespace {
+
+[[gnu::always_inline]] inline UnscaledSupport unscaled(const HyperEllipsoid& shape, const Vec3& direction) {
   assert(direction.squaredNorm() > 0 && "a support point needs a direction");
   if (shape.exponent == 2) {
     const Vec3 w = shape.semi_axes.cwiseProduct(direction);
     const double h = w.norm();
-    return {h, shape.semi_axes.cwiseProduct(w / h)};
+    return {{h, shape.semi_axes.cwiseProduct(w / h)}, 1, 2};
   }
   // s_i = a_i (w_i/h)^(1/(n-1)) with h^q = sum w_i^q, q = n/(n-1)
   const Vec3 w = shape.semi_axes.cwiseProduct(direction.cwiseAbs());
   const double largest = w.maxCoeff();
   const Vec3 u = w / largest, u_q1 = powers(u, 1 / (shape.exponent - 1));
-  const double sum = u.dot(u_q1);
-  const double scale = math::two_powers(sum, 1, -1 / shape.exponent)[0];
-  Support out;
-  out.value = largest * sum * scale;
-  for (int i = 0; i < 3; ++i) out.point[i] = std::copysign(shape.semi_axes[i] * scale * u_q1[i], direction[i]);
+  UnscaledSupport out;
+  out.sum = u.dot(u_q1);
+  out.n = shape.exponent;
+  out.of.value = largest * out.sum;
+  for (int i = 0; i < 3; ++i) out.of.point[i] = std::copysign(shape.semi_axes[i] * u_q1[i], direction[i]);
   return out;
+}
+
+}  // namespace
+
+UnscaledSupport unscaled_support(const HyperEllipsoid& shape, const Vec3& direction) {
+  return unscaled(shape, direction);
+}
+
+std::array<Support, 2> scaled(const UnscaledSupport& a, const UnscaledSupport& b) {
+  const Eigen::Vector2d scale = math::two_powers({a.sum, b.sum}, {-1 / a.n, -1 / b.n});
+  return {Support{scale[0] * a.of.value, scale[0] * a.of.point}, Support{scale[1] * b.of.value, scale[1] * b.of.point}};
+}
+
+Support support(const HyperEllipsoid& shape, const Vec3& direction) {
+  const UnscaledSupport one = unscaled(shape, direction);
+  if (one.sum == 1) return one.of;
+  const double scale = math::two_powers(one.sum, 1, -1 / one.n)[0];
+  return {scale * one.of.value, scale * one.of.point};
 }
 
 double support_value(const HyperEllipsoid& shape, const Vec3& direction) {
@@ -107,24 +115,36 @@ Mat3 support_hessian(const HyperEllipsoid& shape, const Vec3& direction, const S
   return H / ((n - 1) * h);
 }
 
+GaugeAt gauge_at(const HyperEllipsoid& shape, const Vec3& x) {
+  const Vec3 w = x.cwiseAbs().cwiseQuotient(shape.semi_axes);
+  int top = 0;
+  const double largest = w.maxCoeff(&top);
+  if (largest == 0) return {0, Vec3::Zero()};
+  const int i = (top + 1) % 3, k = (top + 2) % 3;
+  const double n = shape.exponent, u_i = w[i] / largest, u_k = w[k] / largest;
+  const Eigen::Vector2d steep = math::two_powers(u_i, u_k, n - 1);
+  const double sum = 1 + u_i * steep[0] + u_k * steep[1], root = math::two_powers(sum, 1, 1 / n)[0];
+  Vec3 gradient;
+  gradient[top] = 1;
+  gradient[i] = steep[0];
+  gradient[k] = steep[1];
+  gradient = (root / sum * gradient).cwiseQuotient(shape.semi_axes);
+  for (int j = 0; j < 3; ++j) gradient[j] = std::copysign(gradient[j], x[j]);
+  return {largest * root, gradient};
+}
+
 double gauge(const HyperEllipsoid& shape, const Vec3& x) {
-  return norm_p(x.cwiseAbs().cwiseQuotient(shape.semi_axes), shape.exponent);
+  return gauge_at(shape, x).value;
 }
 
 Vec3 gauge_gradient(const HyperEllipsoid& shape, const Vec3& x) {
-  const double N = gauge(shape, x);
-  if (N == 0) return Vec3::Zero();
-  const Vec3 w = x.cwiseAbs().cwiseQuotient(shape.semi_axes) / N;
-  const Vec3 steepness = powers(w, shape.exponent - 1).cwiseQuotient(shape.semi_axes);
-  Vec3 g;
-  for (int i = 0; i < 3; ++i) g[i] = std::copysign(steepness[i], x[i]);
-  return g;
+  return gauge_at(shape, x).gradient;
 }
 
 Mat3 gauge_hessian(const HyperEllipsoid& shape, const Vec3& x) {
-  const double N = gauge(shape, x), n = shape.exponent;
+  const auto [N, g] = gauge_at(shape, x);
+  const double n = shape.exponent;
   if (N == 0) return Mat3::Zero();
-  const Vec3 g = gauge_gradient(shape, x);
   Mat3 H = -g * g.transpose();
   const Vec3 w = x.cwiseAbs().cwiseQuotient(shape.semi_axes) / N;
   H.diagonal() += (n == 2 ? Vec3(Vec3::Ones()) : powers(w, n - 2)).cwiseQuotient(shape.semi_axes.cwiseAbs2());

@@ -1,6 +1,8 @@
 // The hyper-ellipsoid |x/a|^n + |y/b|^n + |z/c|^n = 1, eq. (60): the shape of every body segment.
 #pragma once
 
+#include <array>
+
 #include "engine/math/types.h"
 
 namespace engine {
@@ -27,6 +29,15 @@ struct Support {
 /// d in body axes, need not be unit; zero asserts.
 Support support(const HyperEllipsoid&, const Vec3& direction);
 
+/// A support but for its scale sum^(-1/n): two scales cost no more than one.
+struct UnscaledSupport {
+  Support of;
+  double sum = 1, n = 2;
+};
+
+UnscaledSupport unscaled_support(const HyperEllipsoid&, const Vec3& direction);
+std::array<Support, 2> scaled(const UnscaledSupport&, const UnscaledSupport&);
+
 /// Value alone; zero for no direction.
 double support_value(const HyperEllipsoid&, const Vec3& direction);
 
@@ -40,10 +51,14 @@ Vec3 support_point(const HyperEllipsoid&, const Vec3& direction);
 /// radii are capped.
 Mat3 support_hessian(const HyperEllipsoid&, const Vec3& direction, const Support&);
 
-/// Gauge N(x) = (|x/a|^n + |y/b|^n + |z/c|^n)^(1/n): 1 on the surface, < 1 inside, homogeneous of degree one.
+/// Gauge N(x) = (|x/a|^n + |y/b|^n + |z/c|^n)^(1/n): 1 on the surface, < 1 inside, homogeneous of degree one. Along its gradient
+/// points the outward normal. Zero x gives zeros. The same powers serve both.
+struct GaugeAt {
+  double value;   // [-]
+  Vec3 gradient;  // [1/m]
+};
+GaugeAt gauge_at(const HyperEllipsoid&, const Vec3& x);
 double gauge(const HyperEllipsoid&, const Vec3& x);
-
-/// Gradient of the gauge [1/m]; along it points the outward normal. Zero x gives zero.
 Vec3 gauge_gradient(const HyperEllipsoid&, const Vec3& x);
 
 /// Hessian of the gauge [1/m^2], 3x3.

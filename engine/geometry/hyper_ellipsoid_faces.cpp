@@ -148,29 +148,6 @@ void clip(const View& view, const Side& side_a, const Quad& a, const Side& side_
                  [&](const Plane& p) { return covers(side_b, view.at(p)); });
 }
 
-/// The gauge at a point other than the centre, and its gradient, by the same powers: half as many as one by one.
-struct GaugeAt {
-  double value;
-  Vec3 gradient;  // [1/m]
-};
-
-GaugeAt gauge_at(const HyperEllipsoid& shape, const Vec3& x) {
-  const Vec3 w = x.cwiseAbs().cwiseQuotient(shape.semi_axes);
-  int top = 0;
-  const double largest = w.maxCoeff(&top);
-  const int i = (top + 1) % 3, k = (top + 2) % 3;
-  const double n = shape.exponent, u_i = w[i] / largest, u_k = w[k] / largest;
-  const Plane steep = math::two_powers(u_i, u_k, n - 1);
-  const double sum = 1 + u_i * steep[0] + u_k * steep[1], root = math::two_powers(sum, 1, 1 / n)[0];
-  Vec3 gradient;
-  gradient[top] = 1;
-  gradient[i] = steep[0];
-  gradient[k] = steep[1];
-  gradient = (root / sum * gradient).cwiseQuotient(shape.semi_axes);
-  for (int j = 0; j < 3; ++j) gradient[j] = std::copysign(gradient[j], x[j]);
-  return {largest * root, gradient};
-}
-
 /// A body lies behind the plane of its side and behind those through the side's corners: how far along `n` from `x` (body axes) the
 /// nearest is.
 double nearest_plane(const Side& side, const SideCorners& corners, const Vec3& x, const Vec3& n) {

@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kSmallAngle = 1e-4;  // [rad] below it the series of sin(x)/x and the like hold to 1e-17
 
-/// Left Jacobian of the rotation vector: w = J phi'.
-Mat3 left_jacobian(const Vec3& phi) {
+/// Left Jacobian of the rotation vector of a swing: w = J phi'. Sine and cosine of its angle by those of half of it.
+Mat3 left_jacobian(const Vec3& phi, double half_sine, double half_cosine) {
   const double t = phi.norm();
   const Mat3 P = skew(phi);
   if (t < kSmallAngle) return Mat3::Identity() + 0.5 * P + P * P / 6;
-  return Mat3::Identity() + (1 - math::cos(t)) / (t * t) * P + (t - math::sin(t)) / (t * t * t) * P * P;
+  return Mat3::Identity() + 2 * half_sine * half_sine / (t * t) * P + (t - 2 * half_sine * half_cosine) / (t * t * t) * P * P;
 }
 
 }  // namespace
@@ -37,11 +37,11 @@ void add_swing_and_twist(const JointFrames& at, JointCoordinates& out) {
   const Quat twist = twist_norm > 1e-12 ? Quat(q.w() / twist_norm, 0, 0, q.z() / twist_norm) : Quat::Identity();
   const Quat swing = q * twist.conjugate();
   const double sine = math::hypot(swing.x(), swing.y());
-  const double angle = 2 * math::atan2(sine, swing.w());
-  const double scale = sine < 0.5 * kSmallAngle ? 2.0 : angle / sine;
+  const Eigen::Vector2d halves = math::two_atan2({sine, twist.z()}, {swing.w(), twist.w()});
+  const double scale = sine < 0.5 * kSmallAngle ? 2.0 : 2 * halves[0] / sine;
   const Vec3 phi(scale * swing.x(), scale * swing.y(), 0);
-  out.value.head<3>() << phi.x(), phi.y(), 2 * math::atan2(twist.z(), twist.w());
-  Mat3 B = left_jacobian(phi);
+  out.value.head<3>() << phi.x(), phi.y(), 2 * halves[1];
+  Mat3 B = left_jacobian(phi, sine, swing.w());
   B.col(2) = swing * Vec3::UnitZ();
   out.gradient_W.leftCols<3>() = R_WFp * B.inverse().transpose();
   const Quat half(1 + q.w(), q.x(), q.y(), q.z());

@@ -35,6 +35,14 @@ double atan(double x) {
 double atan2(double y, double x) {
   return CRASHREEL_OF_TWO(atan2, y, x);
 }
+Eigen::Vector2d two_atan2(const Eigen::Vector2d& y, const Eigen::Vector2d& x) {
+#ifdef __SSE2__
+  const __m128d angles = Sleef_cinz_atan2d2_u10sse2(_mm_set_pd(y[1], y[0]), _mm_set_pd(x[1], x[0]));
+  return {_mm_cvtsd_f64(angles), _mm_cvtsd_f64(_mm_unpackhi_pd(angles, angles))};
+#else
+  return {atan2(y[0], x[0]), atan2(y[1], x[1])};
+#endif
+}
 double exp(double x) {
   return CRASHREEL_OF_ONE(exp, x);
 }
@@ -42,7 +50,8 @@ double pow(double x, double y) {
   return CRASHREEL_OF_TWO(pow, x, y);
 }
 double tanh(double x) {
-  return CRASHREEL_OF_ONE(tanh, x);
+  constexpr double kOne = 20;  // beyond it the result is 1 to the last bit
+  return std::abs(x) > kOne ? std::copysign(1.0, x) : CRASHREEL_OF_ONE(tanh, x);
 }
 double tgamma(double x) {
   return CRASHREEL_OF_ONE(tgamma, x);
@@ -55,14 +64,14 @@ double hypot(double x, double y) {
   return std::sqrt(x * x + y * y);
 }
 
-Eigen::Vector2d two_powers(double base_1, double base_2, double exponent) {
+Eigen::Vector2d two_powers(const Eigen::Vector2d& bases, const Eigen::Vector2d& exponents) {
 #ifdef __SSE2__
-  const __m128d logarithms = Sleef_cinz_logd2_u35sse2(_mm_set_pd(base_2, base_1));
-  const __m128d powers = Sleef_cinz_expd2_u10sse2(_mm_mul_pd(_mm_set1_pd(exponent), logarithms));
+  const __m128d logarithms = Sleef_cinz_logd2_u35sse2(_mm_set_pd(bases[1], bases[0]));
+  const __m128d powers = Sleef_cinz_expd2_u10sse2(_mm_mul_pd(_mm_set_pd(exponents[1], exponents[0]), logarithms));
   return {_mm_cvtsd_f64(powers), _mm_cvtsd_f64(_mm_unpackhi_pd(powers, powers))};
 #else
-  return {Sleef_cinz_expd1_u10purec(exponent * Sleef_cinz_logd1_u35purec(base_1)),
-          Sleef_cinz_expd1_u10purec(exponent * Sleef_cinz_logd1_u35purec(base_2))};
+  return {Sleef_cinz_expd1_u10purec(exponents[0] * Sleef_cinz_logd1_u35purec(bases[0])),
+          Sleef_cinz_expd1_u10purec(exponents[1] * Sleef_cinz_logd1_u35purec(bases[1]))};
 #endif
 }
 

@@ -13,6 +13,7 @@ double tan(double);
 double acos(double);
 double atan(double);
 double atan2(double y, double x);
+Eigen::Vector2d two_atan2(const Eigen::Vector2d& y, const Eigen::Vector2d& x);
 double exp(double);
 double pow(double base, double exponent);
 double tanh(double);
@@ -25,7 +26,17 @@ double hypot(double x, double y);
 /// base^exponent of two bases >= 0 at once, several times faster than `pow`: exp(exponent ln base), the logarithm to 3.5 ulp.
 /// Relative error below 4e-16 (1 + |exponent ln base|); of a base in 0..1 and a positive exponent the absolute error stays below
 /// 4e-16.
-Eigen::Vector2d two_powers(double base_1, double base_2, double exponent);
+Eigen::Vector2d two_powers(const Eigen::Vector2d& bases, const Eigen::Vector2d& exponents);
+
+/// The same with one exponent: those of n = 2, 2.5 and 3, which products and roots give, take no logarithm.
+inline Eigen::Vector2d two_powers(double base_1, double base_2, double exponent) {
+  const Eigen::Vector2d bases(base_1, base_2);
+  if (exponent == 1) return bases;
+  if (exponent == 2) return bases.cwiseAbs2();
+  if (exponent == 0.5) return bases.cwiseSqrt();
+  if (exponent == 1.5) return bases.cwiseProduct(bases.cwiseSqrt());
+  return two_powers(bases, {exponent, exponent});
+}
 
 /// Turn by `angle` [rad] about a unit axis.
 Quat rotation(double angle, const Vec3& axis);

@@ -34,6 +34,9 @@ Eigen::Vector2d slip_impulse(const Eigen::Matrix2d& S, const Eigen::Vector2d& q,
       const double value = 1 / length - 1 / bound;
       const double rate = -t.dot(slope) / (length * length * length) + bound_rate / (bound * bound);
       if (rate > 0) next = y - value / rate;
+      // Newton squares what is missing: the last step needs no look at where it leads
+      const bool kink = (y < soft) != (next < soft);
+      if (bracket.contains(next) && !kink && std::abs(length - bound) <= 1e-6 * length) return t + (next - y) * slope;
     }
     if (!bracket.contains(next))
       next = std::isfinite(high) ? std::sqrt(std::max(low, 1e-9 * high) * high) : 4 * std::max(y, S.trace());

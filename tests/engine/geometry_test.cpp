@@ -65,6 +65,19 @@ TEST_P(Exponent, SupportPointIsOnTheSurfaceFarthestAndItsNormalIsTheDirection) {
   }
 }
 
+TEST_P(Exponent, SupportsOfTwoBodiesAreTheSameTogetherAsOneByOne) {
+  std::mt19937_64 random(12);
+  const HyperEllipsoid a{{0.3, 0.2, 0.1}, GetParam()}, b{{0.1, 0.15, 0.4}, 2.5};
+  for (int trial = 0; trial < 100; ++trial) {
+    const Vec3 d = random_direction(random), e = random_direction(random);
+    const auto [of_a, of_b] = scaled(unscaled_support(a, d), unscaled_support(b, e));
+    EXPECT_EQ(of_a.value, support(a, d).value);
+    EXPECT_EQ(of_a.point, support(a, d).point);
+    EXPECT_EQ(of_b.value, support(b, e).value);
+    EXPECT_EQ(of_b.point, support(b, e).point);
+  }
+}
+
 TEST_P(Exponent, SupportBoundHoldsAndIsTight) {
   std::mt19937_64 random(5);
   double most = 1;

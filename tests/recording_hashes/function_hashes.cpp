@@ -47,6 +47,10 @@ int main() {
     const double y = a.between(-10, 10);
     return math::atan2(y, a.between(-10, 10));
   });
+  print_hash("two_atan2", [](Arguments& a) {
+    const double one = a.between(-10, 10), other = a.between(-10, 10);
+    return math::two_atan2({one, other}, {a.between(-10, 10), a.between(-1, 1)}).sum();
+  });
   print_hash("exp", [](Arguments& a) { return math::exp(a.between(-100, 100)); });
   print_hash("pow", [](Arguments& a) {
     const double base = a.between(0, 100);
