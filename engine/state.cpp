@@ -5,7 +5,7 @@
 namespace engine {
 namespace {
 
-constexpr std::uint64_t kMark = 0x3330455441545343;  // "CSTATE03"
+constexpr std::uint64_t kMark = 0x3430455441545343;  // "CSTATE04"
 
 /// All but the motion and what effects keep to themselves.
 template <class S>

@@ -50,13 +50,25 @@ struct Clearance {
 
 /// What a pair of hyper-ellipsoids keeps from step to step.
 struct PairMemory {
-  Vec3 normal_A = Vec3::Zero();  // of the last narrow phase, in a's axes; from it the next one starts; zero: none yet
+  Vec3 normal_A = Vec3::Zero();  // of the last narrow phase, in a's axes; zero: none yet
+  Vec3 turn_A = Vec3::Zero();    // its change since the one before
   Clearance clearance;           // of b in the frame of a
   OtherNormals others;           // of the two deep in each other
 
+  /// The unit normal a narrow phase starts from, as if it went on as before; zero: none yet.
+  Vec3 next_normal() const { return turn_A.isZero(0) ? normal_A : Vec3((normal_A + turn_A).normalized()); }
+
+  /// `searched`: not just the one that it started from, which may do to tell that they are apart.
+  void note_normal(const Vec3& normal, bool searched) {
+    constexpr double kSteady = 0.1;  // [rad] what turns by more does not go on so
+    const bool steady = searched && !normal_A.isZero(0) && (normal - normal_A).norm() < kSteady;
+    turn_A = steady ? Vec3(normal - normal_A) : Vec3(Vec3::Zero());
+    if (searched) normal_A = normal;
+  }
+
   template <class S>
   static auto fields(S& s) {
-    return std::tie(s.normal_A, s.clearance, s.others);
+    return std::tie(s.normal_A, s.turn_A, s.clearance, s.others);
   }
 };
 

@@ -23,10 +23,11 @@ void contacts_of_rounds(const HyperEllipsoid& A, const Pose& X_WA, const HyperEl
   const FacesMeet faces = contacts_of_faces(A, X_WA, B, X_WB, margin, out, apart);
   if (faces == FacesMeet::apart) memory.clearance.least = apart;
   if (faces != FacesMeet::other) return;
-  Vec3 normal = X_WA.q * memory.normal_A;
+  const Vec3 guess = X_WA.q * memory.next_normal();
+  Vec3 normal = guess;
   if (const auto touch = contact_of_pair(A, X_WA, B, X_WB, margin, normal, &memory.clearance.least, &memory.others))
     out.push_back(*touch);
-  memory.normal_A = X_WA.q.conjugate() * normal;
+  memory.note_normal(X_WA.q.conjugate() * normal, normal != guess);
 }
 
 }  // namespace

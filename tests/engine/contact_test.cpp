@@ -31,6 +31,22 @@ TEST(PairTable, HasOneRowForEveryTwoShapesThatCanMeet) {
   EXPECT_TRUE(missing.empty());
 }
 
+/// A guess: what turns evenly goes on so, what jumps, or was not looked for, does not.
+TEST(PairMemory, ExpectsANormalToTurnOnAsItDid) {
+  const auto turned = [](double angle) { return Vec3(std::cos(angle), std::sin(angle), 0); };
+  PairMemory memory;
+  EXPECT_EQ(memory.next_normal(), Vec3(0, 0, 0));
+  memory.note_normal(turned(0), true);
+  EXPECT_EQ(memory.next_normal(), turned(0));
+  memory.note_normal(turned(0.01), true);
+  EXPECT_NEAR((memory.next_normal() - turned(0.02)).norm(), 0, 2e-6);
+  EXPECT_NEAR(memory.next_normal().norm(), 1, 1e-15);
+  memory.note_normal(memory.next_normal(), false);
+  EXPECT_EQ(memory.next_normal(), turned(0.01));
+  memory.note_normal(turned(1), true);
+  EXPECT_EQ(memory.next_normal(), turned(1));
+}
+
 TEST(Clearance, KeepsToWhatCannotHaveLeftYet) {
   // a limb 17 mm inside slides over a crack, where a look finds nothing of it, and on
   constexpr double kReach = 0.1;
