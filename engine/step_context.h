@@ -27,9 +27,10 @@ struct Resistance {
 /// Trees that conditions join: they are solved together. By the smallest tree of each island.
 struct Islands {
   std::vector<std::vector<int>> members;  // per tree: indices of conditions
-  std::vector<int> roots;                 // trees that have members, in order: no loop goes over who has none
+  std::vector<int> roots;                 // trees that have members, the smallest island first: no loop goes over who has none
   std::vector<int> of_tree;               // a tree of the same island, or itself at its root
   std::vector<char> by_whole;             // per tree: all impulses displace by their whole
+  std::vector<SolveReport> reports;       // per tree
   std::vector<double> rise, left;         // [J] per tree: gained, explained by no condition
   std::vector<int> line, place;           // trees of one island side by side, and per tree where
   std::vector<std::pair<int, int>> ends;  // per condition: the trees it joins; twice the same where it holds one

@@ -32,13 +32,15 @@ void ContactSolver::reserve(const Topology& topology, std::size_t constraints) {
   for (std::vector<double>* list : {&L_, &L_kept_, &softened_}) list->reserve(rows);
   for (Answer& answer : answers_) answer.rows.reserve(rows);
   for (AlignedVector* list : {&u_, &u_kept_}) list->reserve(rows);
-  for (std::vector<int>* list : {&offset_, &unknown_, &opens_}) list->reserve(rows);
+  for (std::vector<int>* list : {&assembled_, &offset_, &unknown_, &opens_}) list->reserve(rows);
   picks_.reserve(rows);
 }
 
 void ContactSolver::assemble(const Topology& topology, const Articulation& articulation, const std::vector<Constraint>& all,
-                             const std::vector<int>& members) {
+                             const std::vector<int>& members, const std::vector<char>* anew) {
   const int count = static_cast<int>(members.size());
+  const bool known = anew && members == assembled_;
+  assembled_ = members;
   offset_.resize(count);
   size_ = 0;
   for (int i = 0; i < count; ++i) {
@@ -49,7 +51,12 @@ void ContactSolver::assemble(const Topology& topology, const Articulation& artic
   // all of it is written; never smaller: growing again would write zeros for nothing
   if (const std::size_t room = stride_ * static_cast<std::size_t>(size_); G_.size() < room) G_.resize(room);
   u_.assign(stride_, 0.0);
-  response_.compute(topology, articulation, all, members, offset_, stride_, G_);
+  if (known) {
+    const Response::Changed since{*anew, softened_};
+    response_.compute(topology, articulation, all, members, offset_, stride_, G_, &since);
+  } else {
+    response_.compute(topology, articulation, all, members, offset_, stride_, G_);
+  }
   note_own_responses(all, members);
   soften_dead_centres(all, members);
   elimination_.find(topology, all, members);

@@ -32,8 +32,10 @@ class ContactSolver {
   /// Buffers for so many constraints, so that no step allocates.
   void reserve(const Topology&, std::size_t constraints);
 
-  /// Builds G for the constraints named. Their rows and bodies must be set, and their bodies' trees factorised.
-  void assemble(const Topology&, const Articulation&, const std::vector<Constraint>&, const std::vector<int>& members);
+  /// Builds G for the constraints named. Their rows and bodies must be set, and their bodies' trees factorised. `anew` (per tree):
+  /// if the constraints are those of the last G, only these trees have been factorised since.
+  void assemble(const Topology&, const Articulation&, const std::vector<Constraint>&, const std::vector<int>& members,
+                const std::vector<char>* anew = nullptr);
 
   /// Solves; impulses of the constraints are start value and result, u_after is set. `tolerance` [m/s].
   SolveReport solve(std::vector<Constraint>&, const std::vector<int>& members, double tolerance);
@@ -109,6 +111,7 @@ class ContactSolver {
   Response response_;
   int size_ = 0;
   std::size_t stride_ = 0;          // whole_rows(size_)
+  std::vector<int> assembled_;      // members of the last G
   std::vector<int> offset_;         // per member
   AlignedVector G_;                 // column-major stride_ x size_
   std::vector<Mat3> own_;           // per member: its block on the diagonal; of one row the rest is a unit matrix

@@ -112,7 +112,9 @@ Rows Response::write_columns(const Topology& topology, const Constraint& c, std:
 }
 
 void Response::compute(const Topology& topology, const Articulation& articulation, const std::vector<Constraint>& all,
-                       const std::vector<int>& members, const std::vector<int>& offset, std::size_t stride, AlignedVector& G) {
+                       const std::vector<int>& members, const std::vector<int>& offset, std::size_t stride, AlignedVector& G,
+                       const Changed* since) {
+  const auto is_new = [since](int tree) { return !since || since->trees[static_cast<std::size_t>(tree)] != 0; };
   for (std::size_t i = 0; i < members.size(); ++i) {
     const Constraint& c = all[members[i]];
     const auto row = static_cast<std::size_t>(offset[i]);
@@ -129,12 +131,13 @@ void Response::compute(const Topology& topology, const Articulation& articulatio
     rank_[link] = 6 - f.rows.count;
     first_[link] = freedoms;
     freedoms += rank_[link];
-    take_root(f.D, rank_[link], Q_[link]);
+    if (is_new(topology.links[link].tree)) take_root(f.D, rank_[link], Q_[link]);
   }
 
   // the last row is written as a whole vector too; never smaller: growing again would write zeros for nothing
   if (const std::size_t room = static_cast<std::size_t>(freedoms) * stride + 4; Y_.size() < room) Y_.resize(room);
   for (const int link : marked_) {
+    if (!is_new(topology.links[link].tree)) continue;
     const Rows rows = rows_[topology.links[link].tree];
     for (int k = first_[link]; k < first_[link] + rank_[link]; ++k) {
       double* y = Y_.data() + static_cast<std::size_t>(k) * stride;
@@ -145,14 +148,18 @@ void Response::compute(const Topology& topology, const Articulation& articulatio
     const Constraint& c = all[members[i]];
     const auto row = static_cast<std::size_t>(offset[i]);
     for (const auto& [body, J] : {std::pair{c.a.body, c.a.J.data()}, std::pair{c.b.body, c.b.J.data()}}) {
-      if (body < 0) continue;
+      if (body < 0 || !is_new(topology.tree_of_body[body])) continue;
       follow(topology, articulation, body);
       carry_up(J, way_.data(), way_.size(), Y_.data() + row, stride);
     }
   }
-  reach_.clear();
-  for (std::size_t i = 0; i < members.size(); ++i)
-    reach_.push_back(write_columns(topology, all[members[i]], static_cast<std::size_t>(offset[i]), stride, G.data()));
+  reach_.resize(members.size());
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const Constraint& c = all[members[i]];
+    const auto meets_new = [&](int body) { return body >= 0 && is_new(topology.tree_of_body[body]); };
+    if (meets_new(c.a.body) || meets_new(c.b.body) || (since && since->diagonals[i] != 0))
+      reach_[i] = write_columns(topology, c, static_cast<std::size_t>(offset[i]), stride, G.data());
+  }
   for (const int link : marked_) {
     first_[link] = -1;
     rows_[topology.links[link].tree] = kNoRows;

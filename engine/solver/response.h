@@ -18,13 +18,20 @@ namespace engine {
 
 class Response {
  public:
+  /// What is not as it was when G was written.
+  struct Changed {
+    const std::vector<char>& trees;        // not 0: factorised since
+    const std::vector<double>& diagonals;  // per member, not 0: its diagonal was changed
+  };
+
   /// Buffers for the links there are and so many constraints.
   void reset(const Topology&, std::size_t constraints);
 
   /// Writes G [1/kg] of the constraints named: `size` columns, each of `stride` rows (whole_rows(size)); the rows of constraint
-  /// members[i] begin at offset[i]. Beyond `size` they are zero.
+  /// members[i] begin at offset[i]. Beyond `size` they are zero. With `since` G is the last one, of the same constraints, and
+  /// only what has changed is written.
   void compute(const Topology&, const Articulation&, const std::vector<Constraint>&, const std::vector<int>& members,
-               const std::vector<int>& offset, std::size_t stride, AlignedVector& G);
+               const std::vector<int>& offset, std::size_t stride, AlignedVector& G, const Changed* since = nullptr);
 
   /// Of the last G: outside of these rows the columns of members[i] are zero.
   Rows reach(std::size_t i) const { return reach_[i]; }

@@ -62,7 +62,11 @@ void build_islands(StepContext& s) {
     if (islands.members[root].empty()) islands.roots.push_back(root);
     islands.members[root].push_back(static_cast<int>(i));
   }
-  std::sort(islands.roots.begin(), islands.roots.end());
+  // the largest last: what the solver knows of it serves a second pass
+  std::sort(islands.roots.begin(), islands.roots.end(), [&](int a, int b) {
+    const std::size_t of_a = islands.members[a].size(), of_b = islands.members[b].size();
+    return of_a != of_b ? of_a < of_b : a < b;
+  });
   for (const int root : islands.roots) order_by_neighbours(s, islands.members[root]);
 }
 

@@ -32,26 +32,40 @@ void warm_start(Constraint& c, const std::vector<WarmStart>& warm) {
 /// From the impulses of the last step, or from those the conditions have by an earlier pass.
 enum class From { last_step, last_pass };
 
-void solve_islands(StepContext& s, From from) {
+/// Does a tree of the island have other dampers than in the pass before?
+bool is_loosened(const StepContext& s, const std::vector<int>& island) {
+  return std::any_of(island.begin(), island.end(), [&s](int i) {
+    const auto [a, b] = s.buffers.islands.ends[i];
+    return s.buffers.loosened[a] || s.buffers.loosened[b];
+  });
+}
+
+void solve_island(StepContext& s, int root, From from) {
   World& world = s.world;
+  const std::vector<int>& island = s.buffers.islands.members[root];
+  if (from == From::last_step)
+    for (const int i : island) warm_start(s.constraints[i], s.state.warm);
+  world.solver.assemble(world.topology, world.impulse, s.constraints, island,
+                        from == From::last_pass ? &s.buffers.loosened : nullptr);
+  const auto solve = [&] {
+    SolveReport& report = s.buffers.islands.reports[root];
+    report = world.solver.solve(s.constraints, island, world.model.settings.solver_tolerance);
+    world.log.diagnostics.contact_sweeps += report.sweeps;
+    world.log.diagnostics.newton_steps += report.newton_steps;
+  };
+  solve();
+  if (wake_struck_springs(s, root)) solve();
+  if (hold_spent_springs(s, root)) solve();
+  correct_positions(s, island);
+}
+
+void solve_islands(StepContext& s, From from) {
   s.residual = 0;
   s.unsettled = -1;
   for (const int root : s.buffers.islands.roots) {
-    const std::vector<int>& island = s.buffers.islands.members[root];
-    if (from == From::last_step)
-      for (const int i : island) warm_start(s.constraints[i], s.state.warm);
-    world.solver.assemble(world.topology, world.impulse, s.constraints, island);
-    SolveReport report;
-    const auto solve = [&] {
-      report = world.solver.solve(s.constraints, island, world.model.settings.solver_tolerance);
-      world.log.diagnostics.contact_sweeps += report.sweeps;
-      world.log.diagnostics.newton_steps += report.newton_steps;
-    };
-    solve();
-    if (wake_struck_springs(s, root)) solve();
-    if (hold_spent_springs(s, root)) solve();
+    if (is_loosened(s, s.buffers.islands.members[root])) solve_island(s, root, from);
+    const SolveReport& report = s.buffers.islands.reports[root];
     if (report.residual > s.residual) s.residual = report.residual, s.unsettled = report.worst;
-    correct_positions(s, island);
   }
 }
 

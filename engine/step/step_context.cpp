@@ -21,6 +21,7 @@ StepBuffers::StepBuffers(const World& world) {
   islands.roots.reserve(trees);
   islands.of_tree.reserve(trees);
   islands.by_whole.reserve(trees);
+  islands.reports.resize(trees);
   for (auto* list : {&islands.rise, &islands.left}) list->reserve(trees);
   for (auto* list : {&islands.line, &islands.place}) list->reserve(trees);
   for (auto* list : {&weight, &allowed, &targets}) list->reserve(kRoom);
