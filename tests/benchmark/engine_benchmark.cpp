@@ -137,7 +137,8 @@ void common_scenes(const std::vector<Peer>& peers) {
     std::printf("%-8s %9.0f %9.0f %9.1e %10.4f %10.4f %9.1e %8.2f %8.3f", scene.c_str(), t.steps_per_s(), tilted_rate(scene),
                 d.max_joint_gap, d.max_joint_angle_error * 180 / std::numbers::pi, d.max_penetration * 1e3, d.max_solver_residual,
                 static_cast<double>(d.contact_sweeps) / static_cast<double>(t.run.steps), centre_of_figure(model, t.run).x());
-    for (const double ratio : over_peers) std::printf(" %14.2f", ratio);
+    for (const double ratio : over_peers)
+      std::printf(" %14s", std::isfinite(ratio) ? fmt::format("{:.2f}", ratio).c_str() : "no such scene");
     std::printf("\n");
     std::fflush(stdout);
   }
