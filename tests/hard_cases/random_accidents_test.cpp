@@ -106,8 +106,8 @@ TEST(RandomAccident, HoldsWhereItOnceDidNot) {
     expect_right(seed, kLaws[0], seen);
 }
 
-// Those that go beyond the bounds above: what steps mislay where persons yield, two trunks in vehicles, a child's arm turned too far
-// by a bus.
+// Those that go beyond the bounds above: what steps mislay where persons yield, two trunks in vehicles, a child's arm turned too
+// far by a bus.
 TEST(RandomAccident, SaysWhereItFallsShort) {
   const struct {
     unsigned seed;
