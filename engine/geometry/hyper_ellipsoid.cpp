@@ -14,7 +14,8 @@ namespace {
 /// Curvature radii are infinite on the flat faces of n > 2; capped at this many times the size they do no harm to Newton's method.
 constexpr double kLargestRadius = 1e3;
 
-/// base^exponent of three bases >= 0. One of them is mostly 1, where all are shares of the largest.
+/// base^exponent of three bases >= 0. One of them is mostly 1, where all are shares of the largest. Inline, as `unscaled`: called,
+/// they pass vectors through memory, which takes as long as a logarithm that is spared.
 [[gnu::always_inline]] inline Vec3 powers(const Vec3& bases, double exponent) {
   const int alone = bases[0] == 1 ? 0 : bases[1] == 1 ? 1 : 2;
   const int i = (alone + 1) % 3, j = (alone + 2) % 3;

@@ -29,13 +29,16 @@ struct Support {
 /// d in body axes, need not be unit; zero asserts.
 Support support(const HyperEllipsoid&, const Vec3& direction);
 
-/// A support but for its scale sum^(-1/n): two scales cost no more than one.
+/// A support but for its scale sum^(-1/n) [-]: those of two bodies take no more time than that of one.
 struct UnscaledSupport {
   Support of;
   double sum = 1, n = 2;
 };
 
+/// d as of support().
 UnscaledSupport unscaled_support(const HyperEllipsoid&, const Vec3& direction);
+
+/// Of two bodies what support() says of each, to the last bit.
 std::array<Support, 2> scaled(const UnscaledSupport&, const UnscaledSupport&);
 
 /// Value alone; zero for no direction.

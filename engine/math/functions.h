@@ -13,6 +13,7 @@ double tan(double);
 double acos(double);
 double atan(double);
 double atan2(double y, double x);
+/// Two at once in the time of one, with the bits of one by one.
 Eigen::Vector2d two_atan2(const Eigen::Vector2d& y, const Eigen::Vector2d& x);
 double exp(double);
 double pow(double base, double exponent);

@@ -17,6 +17,7 @@ namespace {
 /// where it grips, and by its slide where that is more: so a wheel goes from the one to the other without a jump.
 template <class Bound>
 Eigen::Vector2d slip_impulse(const Eigen::Matrix2d& S, const Eigen::Vector2d& q, double y, double soft, const Bound& most) {
+  constexpr double kTight = 1e-12, kNewtonSquares = 1e-6;  // [-] Newton squares what is missing: from there its step is the last
   math::Bracket bracket{0, std::numeric_limits<double>::infinity()};
   const double &low = bracket.low, &high = bracket.high;
   Eigen::Vector2d t = Eigen::Vector2d::Zero();
@@ -27,16 +28,15 @@ Eigen::Vector2d slip_impulse(const Eigen::Matrix2d& S, const Eigen::Vector2d& q,
     const Eigen::Vector2d slope(-(s22 * t[0] - S(0, 1) * across) / det, -(s11 * across - S(0, 1) * t[0]) / det);
     const auto [bound, bound_rate] = most(t, slope);
     const double length = t.norm();
-    if (std::abs(length - bound) <= 1e-12 * length) break;
+    if (std::abs(length - bound) <= kTight * length) break;
     (length > bound ? bracket.low : bracket.high) = y;
     double next = -1;
     if (bound > 0 && length > 0) {
       const double value = 1 / length - 1 / bound;
       const double rate = -t.dot(slope) / (length * length * length) + bound_rate / (bound * bound);
       if (rate > 0) next = y - value / rate;
-      // Newton squares what is missing: the last step needs no look at where it leads
-      const bool kink = (y < soft) != (next < soft);
-      if (bracket.contains(next) && !kink && std::abs(length - bound) <= 1e-6 * length) return t + (next - y) * slope;
+      const bool smooth = (y < soft) == (next < soft);
+      if (std::abs(length - bound) <= kNewtonSquares * length && bracket.contains(next) && smooth) return t + (next - y) * slope;
     }
     if (!bracket.contains(next))
       next = std::isfinite(high) ? std::sqrt(std::max(low, 1e-9 * high) * high) : 4 * std::max(y, S.trace());
