@@ -21,6 +21,8 @@ double fastest_turning(const World& world, std::span<const int> trees, const Mot
 }
 
 Integration::Integration(World& world, StepBuffers& buffers) : world_(world), buffers_(buffers), smooth_(world.model) {
+  for (const Body& body : world.model.bodies)
+    middle_inertia_.push_back(Eigen::SelfAdjointEigenSolver<Mat3>(body.inertia_B, Eigen::EigenvaluesOnly).eigenvalues()[1]);
   if (contacts_in_stages(world.model.settings)) compliant.emplace(world);
 }
 
@@ -49,17 +51,32 @@ void Integration::note_touched(const StepContext& s) {
   }
 }
 
+/// How fast axes turn [rad/s], of the body where they do so fastest: L over the middle principal moment of inertia. A slim limb
+/// that spins about its length has hardly any, a disc twice its spin, a ball its spin.
+double Integration::fastest_precession(std::span<const int> trees, const Motion& at) const {
+  double fastest = 0;
+  for_bodies_of(world_, trees, [&](int b) {
+    const Vec3 w_B = at.X_WB[b].q.conjugate() * at.V_WB[b].w;
+    fastest = std::max(fastest, (world_.model.bodies[b].inertia_B * w_B).norm() / middle_inertia_[static_cast<std::size_t>(b)]);
+  });
+  return fastest;
+}
+
 Integration::Pace Integration::pace(std::span<const int> trees, const State& state, double length) const {
   constexpr double kTurn = 0.1;  // [rad] of any body in a part
-  // Verlet bears a swing of 2, and is off by a twelfth of the square of either; the swing is the fastest of all trees
-  constexpr double kTurnByTwo = 0.05, kSwingByTwo = 0.5;  // [rad], [-]
+  // Verlet turns a body about a fixed axis exactly. It bears a swing of 2, and is off by a twelfth of the square of that or of the
+  // precession. The swing is the fastest of all trees
+  constexpr double kPrecessionByTwo = 0.05, kSwingByTwo = 0.5;  // [rad], [-]
+  const auto whole = [](double parts) { return static_cast<int>(std::clamp(std::ceil(parts), 1.0, kMostParts)); };
   const double turn = fastest_turning(world_, trees, state) * length, swings = state.pace.swing.rate * length;
   // the error a second of turning leaves goes with w (w h)^4: parts in number with w^(5/4) would keep it what it is at the bound
-  const double wanted = std::max(turn / kTurn * (turn / kTurn), swings / kSmoothSwing);
+  const Pace by_four{whole(std::max(turn / kTurn * (turn / kTurn), swings / kSmoothSwing)), Stages::four};
   const auto touched = [this](int tree) { return touched_[static_cast<std::size_t>(tree)] != 0; };
-  const bool by_two = world_.plan.integrated_by == Scheme::stepping && turn < kTurnByTwo && swings < kSwingByTwo &&
-                      std::all_of(trees.begin(), trees.end(), touched);
-  return {static_cast<int>(std::clamp(std::ceil(wanted), 1.0, kMostParts)), by_two ? Stages::two : Stages::four};
+  if (world_.plan.integrated_by != Scheme::stepping || !std::all_of(trees.begin(), trees.end(), touched)) return by_four;
+  const double precession =
+      2 * turn < kPrecessionByTwo ? turn : fastest_precession(trees, state) * length;  // at most twice the turn
+  const Pace by_two{whole(std::max(precession / kPrecessionByTwo, swings / kSwingByTwo)), Stages::two};
+  return by_two.parts <= 2 * by_four.parts ? by_two : by_four;
 }
 
 /// A way of the step, from StepBuffers::end.

@@ -42,6 +42,7 @@ class Integration {
     int parts;
     Stages stages;
   };
+  double fastest_precession(std::span<const int> trees, const Motion&) const;
   Pace pace(std::span<const int> trees, const State&, double length) const;
   void advance_over(const State&, double way, double length, FirstStage);
   double difference() const;
@@ -49,8 +50,9 @@ class Integration {
   World& world_;
   StepBuffers& buffers_;
   SmoothMotion smooth_;
-  std::vector<char> touched_;  // per tree
-  long copied_ = 0;            // StillBodies::changes when all bodies were taken over
+  std::vector<double> middle_inertia_;  // [kg m^2] per body
+  std::vector<char> touched_;           // per tree
+  long copied_ = 0;                     // StillBodies::changes when all bodies were taken over
 };
 
 }  // namespace engine

@@ -118,7 +118,8 @@ void SmoothMotion::advance_by_two(World& world, const Trees& trees, Motion& moti
   for_bodies_of(world, trees.list, [&](int b) {
     const Twist& at_start = start.V[b];
     const auto a = start.a[b].head<3>(), turning = start.a[b].tail<3>();
-    const Vec3 turn = h * (at_start.w + 0.5 * h * turning);
+    // rotations do not commute (Magnus): without the last term what spins by 0.15 rad a step gains a hundredth of L in 0.2 s
+    const Vec3 turn = h * (at_start.w + 0.5 * h * turning + h * h / 12 * turning.cross(at_start.w));
     displace(X_[b], h * (at_start.v + 0.5 * h * a), (1 + turn.squaredNorm() / 12) * turn);  // the tangent of half the angle
     end.V[b].v = at_start.v + h * a;
     end.V[b].w = at_start.w + h * turning;

@@ -222,6 +222,35 @@ TEST(JointedBodies, MoveAsByThemselvesBesideWhatSpinsFast) {
   }
 }
 
+// A ball on ice is touched and turns as if it were not. Inertia of a rod or of a disc makes its axis turn about L at |L| / I.
+TEST(BallOnIce, PrecessesAtTheRateOfTheClosedForm) {
+  constexpr double kStep = 1e-3, kEnd = 0.2;  // [s]
+  const struct {
+    double I, I3;                         // [kg m^2]
+    Vec3 w;                               // [rad/s]
+  } all[] = {{0.01, 0.001, {5, 0, 150}},  // axis at 16 rad/s: two stages, though it turns by 0.15 rad a step
+             {0.01, 0.02, {10, 0, 24}},   // 49 rad/s: two stages
+             {0.01, 0.02, {20, 0, 60}}};  // 122 rad/s: four stages
+  for (const auto& [I, I3, w] : all) {
+    Model model = on_ground(kEnd, kStep);
+    model.bodies = {ball(0.2, 5, {0, 0, 0.2})};
+    model.bodies[0].surface.friction_ground = 0;
+    model.bodies[0].inertia_B = Vec3(I, I, I3).asDiagonal();
+    model.bodies[0].V_WB.w = w;
+    const Recording run = simulate(model);
+    const Snapshot &first = run.snapshots.front(), &last = run.snapshots.back();
+    const Vec3 L(I * w.x(), 0, I3 * w.z());
+    const double rate = L.norm() / I, aside = L.x() / L.norm();  // [-] of the axis from L
+    const Vec3 axis = Eigen::AngleAxisd(rate * kEnd, L.normalized()) * Vec3::UnitZ();
+    // the trapezium rule is off by a twelfth of the square of what a step turns, spin or axis, of each turn of the axis
+    const double turned = std::max(w.norm(), rate) * kStep, bound = rate * kEnd * aside * turned * turned / 12;
+    EXPECT_LT((last.bodies[0].X_WB.q * Vec3::UnitZ() - axis).norm(), bound);
+    EXPECT_LT((angular_momentum(model, last) - L).norm(), bound * L.norm());
+    // what Heun's rule gains at 0.05 rad a step is 0.05^4 / 8 each, of the part that is aside
+    EXPECT_NEAR(mechanical_energy(last) / mechanical_energy(first), 1, kEnd / kStep * 7.8e-7 * aside);
+  }
+}
+
 TEST(JointedBodies, KeepEnergyMomentumAndJoints) {
   const Model model = mixed_tree(1e-3);
   const Recording run = simulate(model);
