@@ -64,8 +64,8 @@ double Integration::fastest_precession(std::span<const int> trees, const Motion&
 
 Integration::Pace Integration::pace(std::span<const int> trees, const State& state, double length) const {
   constexpr double kTurn = 0.1;  // [rad] of any body in a part
-  // Verlet turns a body about a fixed axis exactly. It bears a swing of 2, and is off by a twelfth of the square of that or of the
-  // precession. The swing is the fastest of all trees
+  // Verlet turns a body about a fixed axis to the fifth order of its turn. It bears a swing of 2, and is off by a twelfth of the
+  // square of that or of the precession. The swing is the fastest of all trees
   constexpr double kPrecessionByTwo = 0.05, kSwingByTwo = 0.5;  // [rad], [-]
   const auto whole = [](double parts) { return static_cast<int>(std::clamp(std::ceil(parts), 1.0, kMostParts)); };
   const double turn = fastest_turning(world_, trees, state) * length, swings = state.pace.swing.rate * length;
