@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
+
 #include "engine/math/roots.h"
 #include "engine/step/bounds.h"
 
