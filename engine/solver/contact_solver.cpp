@@ -32,7 +32,7 @@ void ContactSolver::reserve(const Topology& topology, std::size_t constraints) {
   for (std::vector<double>* list : {&L_, &L_kept_, &softened_}) list->reserve(rows);
   for (Answer& answer : answers_) answer.rows.reserve(rows);
   for (AlignedVector* list : {&u_, &u_kept_}) list->reserve(rows);
-  for (std::vector<int>* list : {&assembled_, &offset_, &unknown_, &opens_}) list->reserve(rows);
+  for (std::vector<int>* list : {&assembled_, &offset_, &unknown_, &opens_, &met_picks_}) list->reserve(rows);
   picks_.reserve(rows);
 }
 

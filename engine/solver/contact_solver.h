@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "engine/solver/constraint.h"
@@ -91,12 +92,14 @@ class ContactSolver {
     double by_impulse;   // [1/kg]
   };
   static Slip slipping(const Constraint&, double rho, const Eigen::Vector2d& x);
-  /// Rows of a column of G: `length` neighbours, or none and the weighed sum of two.
+  /// Rows of a column of G: `length` neighbours, or none and the weighed sum of two. They are `at` in the unknowns' column.
   struct Pick {
-    int first, length;
+    int first, length, at;
+    std::uint64_t trees;  // EliminationOrder::trees
     Eigen::Vector2d weights;
   };
   void choose_rows();
+  void leave_zeros_out(std::uint64_t trees);
   void pick(const std::array<const double*, 2>& from, const std::array<double*, 2>& to) const;
   /// Of an unknown that slides, in all rows of G.
   struct Answer {
@@ -124,6 +127,7 @@ class ContactSolver {
   std::vector<Slip> slips_;         // per member, of those that slide
   std::vector<int> opens_;          // members whose impulse goes to zero
   std::vector<Pick> picks_;         // of a column of G
+  std::vector<int> met_picks_;      // those of them that the trees of the columns in hand have a part in
   std::array<Answer, 2> answers_;   // of two neighbours
   std::vector<double> L_, L_kept_;
   AlignedVector u_kept_;

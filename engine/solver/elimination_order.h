@@ -1,6 +1,7 @@
 // In which order the conditions of an island are eliminated, so that what is zero stays zero.
 #pragma once
 
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,12 @@ class EliminationOrder {
   void find(const Topology& topology, const std::vector<Constraint>& all, const std::vector<int>& members);
   /// Positions in `members`, first to last.
   const std::vector<int>& order() const { return order_; }
+
+  /// A bit for each tree of a member, the same for trees 64 apart: members without a common bit do not answer each other.
+  std::uint64_t trees(int member) const {
+    const auto [a, b] = trees_[static_cast<std::size_t>(member)];
+    return std::uint64_t{1} << (a % 64) | std::uint64_t{1} << (b % 64);
+  }
 
  private:
   /// Trees that there are conditions between, or twice the same where they hold one.
