@@ -109,8 +109,7 @@ void ContactSolver::choose_rows() {
   }
 }
 
-/// Of the rows that the unknowns ask for, those of conditions that share one of these trees: in a heap of ten three in ten. What is
-/// taken beyond them is zero.
+/// Of the rows that the unknowns ask for, those of conditions that share one of these trees: few in a heap. The others are zero.
 void ContactSolver::leave_zeros_out(std::uint64_t trees) {
   met_picks_.resize(picks_.size());
   std::size_t met = 0;

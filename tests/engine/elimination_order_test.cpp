@@ -67,6 +67,25 @@ TEST(EliminationOrder, LeavesOneTreeAndTwoAsTheyStand) {
   EXPECT_EQ(island.elimination_order(), island.as_they_stand());
 }
 
+// Newton leaves zeros out by these bits: none may be missing, whatever the number of trees, and of up to 64 none is too many.
+TEST(EliminationOrder, HasACommonBitWhereTwoAnswerEachOther) {
+  for (const int trees : {64, 100}) {
+    Island island(trees);
+    for (int t = 0; t < trees; ++t) {
+      island.add(t, -1);
+      island.add((7 * t + 3) % trees, t);
+    }
+    EliminationOrder order;
+    order.find(island.topology, island.all, island.members);
+    for (int i = 0; i < 2 * trees; ++i)
+      for (int j = 0; j < 2 * trees; ++j) {
+        const bool common = (order.trees(i) & order.trees(j)) != 0;
+        EXPECT_TRUE(common || !island.answer(i, j)) << i << " " << j;
+        EXPECT_TRUE(!common || island.answer(i, j) || trees > 64) << i << " " << j;
+      }
+  }
+}
+
 TEST(EliminationOrder, AddsNoNumberWhereNoneIsNeeded) {
   // a chain and a star of persons, written down from the middle: an order that fills nothing exists, theirs fills much
   for (const bool star : {false, true}) {
