@@ -99,6 +99,7 @@ State start(World& world) {
   size_contact_memory(world.pairs, state.contact_memory);
   state.pace.last = world.model.settings.step;
   state.pace.heads.resize(world.model.persons.size());
+  state.pace.in_vain.resize(world.topology.trees.size());
   state.energy.dissipated.assign(world.plan.active.size(), 0);
   for (const EffectKind* effect : world.plan.active) state.memory.push_back(effect->first_memory());
   call(world, Hook::begin, &Effect::begin, world, state);

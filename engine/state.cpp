@@ -5,7 +5,7 @@
 namespace engine {
 namespace {
 
-constexpr std::uint64_t kMark = 0x3430455441545343;  // "CSTATE04"
+constexpr std::uint64_t kMark = 0x3530455441545343;  // "CSTATE05"
 
 /// All but the motion and what effects keep to themselves.
 template <class S>
@@ -19,7 +19,7 @@ bool same_model(const State& a, const State& b) {
   return a.X_WB.size() == b.X_WB.size() && a.V_WB.size() == b.V_WB.size() && a.released.size() == b.released.size() &&
          a.broken.size() == b.broken.size() && a.asleep.size() == b.asleep.size() && a.wheel_spin.size() == b.wheel_spin.size() &&
          a.wheels.size() == b.wheels.size() && a.pace.heads.size() == b.pace.heads.size() &&
-         a.contact_memory.mesh.size() == b.contact_memory.mesh.size() &&
+         a.pace.in_vain.size() == b.pace.in_vain.size() && a.contact_memory.mesh.size() == b.contact_memory.mesh.size() &&
          a.contact_memory.round.size() == b.contact_memory.round.size() &&
          a.contact_memory.bodywork.size() == b.contact_memory.bodywork.size() &&
          a.energy.dissipated.size() == b.energy.dissipated.size();

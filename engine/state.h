@@ -112,10 +112,11 @@ struct StepPace {
   Swing swing;                  // of the last step
   double next_instant = -1;     // [s] at which a step must end, negative: none
   std::vector<HeadPace> heads;  // per person
+  std::vector<int> in_vain;     // per tree: solves in a row of its island that Newton brought no nearer
 
   template <class S>
   static auto fields(S& s) {
-    return std::tie(s.last, s.next, s.cuts, s.events, s.swing.rate, s.swing.body, s.next_instant, s.heads);
+    return std::tie(s.last, s.next, s.cuts, s.events, s.swing.rate, s.swing.body, s.next_instant, s.heads, s.in_vain);
   }
 };
 

@@ -19,7 +19,8 @@ constexpr double kTinyImpulse = 1e-14;  // [N s]
 // own response is added, which falls with every step that succeeds. Chosen by the time that all solves of a person coming to rest
 // (up to 17 contacts on 43 freedoms) take together.
 constexpr int kQuickSteps = 8, kQuickPatience = 4;
-constexpr double kFalls = 0.3;  // [-]
+constexpr double kFalls = 0.3;       // [-]
+constexpr double kNearEnough = 0.1;  // [-] of the tolerance: from there a step that leads away is the last
 constexpr int kNewtonSteps = 20, kPatience = 6;
 constexpr double kRegularQuick = 1e-3;  // [-]
 constexpr double kRegularFirst = 1e-2;  // [-]
@@ -282,9 +283,8 @@ void ContactSolver::go_back(std::vector<Constraint>& all, const std::vector<int>
 }
 
 /// Newton steps at full length: the set of open, sticking and slipping contacts settles on the way, so the residual may rise for a
-/// while; the best of them is kept.
-void ContactSolver::newton(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance, Care care,
-                           SolveReport& report) {
+/// while; the best of them is kept. Was it the last?
+bool ContactSolver::newton(std::vector<Constraint>& all, const std::vector<int>& members, Aim aim, Care care, SolveReport& report) {
   keep(all, members);
   double best = report.residual;
   bool at_best = true;
@@ -293,7 +293,7 @@ void ContactSolver::newton(std::vector<Constraint>& all, const std::vector<int>&
   regular_ = quick ? kRegularQuick : care == Care::redundant ? kRegularFirst : kRegularJammed;
   factored_rule_.clear();
   bool falling = true;  // fast enough for the matrix to be kept
-  for (int k = 0; k < (quick ? kQuickSteps : kNewtonSteps) && report.residual > tolerance; ++k) {
+  for (int k = 0; k < (quick ? kQuickSteps : kNewtonSteps) && report.residual > aim.wanted; ++k) {
     ++report.newton_steps;
     const double before = report.residual;
     if (!newton_step(all, members, quick && falling)) break;
@@ -306,6 +306,7 @@ void ContactSolver::newton(std::vector<Constraint>& all, const std::vector<int>&
     falling = report.residual < kFalls * before;
     if (!std::isfinite(report.residual)) break;
     if (!quick) regular_ = std::max(kRegularLast, (at_best ? kRegularFalls : 1.0) * regular_);
+    if (!at_best && best <= kNearEnough * aim.tolerated) break;
     if (!at_best && ++worse == (quick ? kQuickPatience : kPatience)) break;
     if (!at_best) continue;
     best = report.residual;
@@ -313,6 +314,7 @@ void ContactSolver::newton(std::vector<Constraint>& all, const std::vector<int>&
   }
   if (!at_best) go_back(all, members);
   report.residual = best;
+  return at_best;
 }
 
 }  // namespace engine

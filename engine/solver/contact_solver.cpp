@@ -12,6 +12,9 @@ namespace {
 
 constexpr double kLeastResponse = 0.003;          // [-] of the free response of a contact's bodies
 constexpr int kFirstSweeps = 1;                   // before Newton is tried; twice as many before it is tried again, and so on
+constexpr int kSweepsAfter = 20;                  // a quick round of Newton that has not helped
+constexpr int kSweepsFirst = 100;                 // where Newton has not helped for long
+constexpr int kManyRows = 64;                     // of an island: with fewer a step of Newton's costs no more than a few sweeps
 constexpr double kFirstGoal = 1e-3;               // [-] of the tolerance
 constexpr int kPlainSweeps = 50;                  // before the conditions are smoothed
 constexpr double kSharper[] = {0.8, 0.95, 0.99};  // [-] from step to step there: slowly where it fails quickly
@@ -29,7 +32,7 @@ void ContactSolver::reserve(const Topology& topology, std::size_t constraints) {
   slips_.reserve(constraints);
   for (std::vector<Vec3>* list : {&L_start_, &L_nothing_, &L_best_}) list->reserve(constraints);
   own_.reserve(constraints);
-  for (std::vector<double>* list : {&L_, &L_kept_, &softened_}) list->reserve(rows);
+  for (std::vector<double>* list : {&L_, &L_kept_, &softened_, &L_along_, &u_along_}) list->reserve(rows);
   for (Answer& answer : answers_) answer.rows.reserve(rows);
   for (AlignedVector* list : {&u_, &u_kept_}) list->reserve(rows);
   for (std::vector<int>* list : {&assembled_, &offset_, &unknown_, &opens_, &met_picks_}) list->reserve(rows);
@@ -169,18 +172,19 @@ void ContactSolver::iterate(std::vector<Constraint>& all, const std::vector<int>
   int round = kFirstSweeps;
   Care care = Care::none;
   // the first rounds ask for more than the tolerance: Newton gives it for a step or two, and resting bodies creep by what is left
-  double goal = kFirstGoal * tolerance;
-  while (report.residual > goal && report.sweeps < last) {
+  Aim aim{kFirstGoal * tolerance, tolerance};
+  while (report.residual > aim.wanted && report.sweeps < last) {
     double change = 0;
     for (int k = 0; k < round; ++k) {
       ++report.sweeps;
       change = sweep(all, members);
-      if (change < 0.1 * goal) break;
+      if (change < 0.1 * aim.wanted) break;
     }
     report.residual = residual(all, members);
-    if (report.residual > goal) newton(all, members, goal, care, report);
+    const bool closing_in = report.residual <= aim.wanted || newton(all, members, aim, care, report);
     if (change == 0) break;
     if (care == Care::none) {
+      if (report.residual > tolerance && !closing_in) sweep_on(all, members, aim, kSweepsAfter, report);
       if (report.residual <= tolerance) return;
       care = Care::redundant;
       continue;
@@ -188,7 +192,7 @@ void ContactSolver::iterate(std::vector<Constraint>& all, const std::vector<int>
     // redundant or jammed: the two ask for different care, and one cannot tell before
     care = care == Care::redundant ? Care::jammed : Care::redundant;
     round = std::min(2 * round, sweeps);  // a round that ends early doubles it too: one went on for minutes
-    goal = tolerance;
+    aim.wanted = tolerance;
   }
 }
 
@@ -230,14 +234,16 @@ void ContactSolver::solve_smoothed(std::vector<Constraint>& all, const std::vect
   report.residual = best;
 }
 
-SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance) {
+SolveReport ContactSolver::solve(std::vector<Constraint>& all, const std::vector<int>& members, double tolerance, Begin by) {
   const int count = static_cast<int>(members.size());
   L_start_.clear();
   for (const int m : members) L_start_.push_back(all[m].impulse);
   SolveReport report;
   begin(all, members, L_start_);
   report.residual = residual(all, members);
-  iterate(all, members, tolerance, kPlainSweeps, report);
+  const bool sweeps_first = by == Begin::sweeps && size_ >= kManyRows;
+  if (sweeps_first) sweep_on(all, members, {kFirstGoal * tolerance, tolerance}, kSweepsFirst, report);
+  if (!(sweeps_first && report.residual <= tolerance)) iterate(all, members, tolerance, kPlainSweeps, report);
   if (!(report.residual <= tolerance)) solve_smoothed(all, members, tolerance, report);
   if (!(report.residual <= tolerance)) report.worst = largest_miss(all, members).constraint;
   for (int i = 0; i < count; ++i) {

@@ -6,8 +6,9 @@
 // Block Gauss-Seidel, each contact solved exactly for given others: open, stick, or slip along the direction c that its own slip
 // then has (Newton on c, no trigonometry). It finds who is open, who sticks, who slips in a few sweeps, but closes in on the
 // impulses slowly where light limbs are pressed between heavy things. So it alternates with Newton on all conditions at once
-// (semi-smooth, after Alart and Curnier 1991), at full length: the best of some steps is kept, then more sweeps follow. Islands in
-// which the two go round in circles, where limbs jam, are followed from smoothed conditions instead (smoothed_newton.cpp).
+// (semi-smooth, after Alart and Curnier 1991), at full length: the best of some steps is kept, then more sweeps follow, along
+// conjugate directions (conjugate_sweeps.cpp). Islands in which the two go round in circles, where limbs jam, are followed from
+// smoothed conditions instead (smoothed_newton.cpp).
 #pragma once
 
 #include <array>
@@ -28,6 +29,9 @@ struct SolveReport {
   int worst = -1;       // the constraint that has it, if the tolerance is not met
 };
 
+/// What an island is solved by first. Sweeps are where it is large: a small one costs Newton little.
+enum class Begin { newton, sweeps };
+
 class ContactSolver {
  public:
   /// Buffers for so many constraints, so that no step allocates.
@@ -39,7 +43,7 @@ class ContactSolver {
                 const std::vector<char>* anew = nullptr);
 
   /// Solves; impulses of the constraints are start value and result, u_after is set. `tolerance` [m/s].
-  SolveReport solve(std::vector<Constraint>&, const std::vector<int>& members, double tolerance);
+  SolveReport solve(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, Begin = Begin::newton);
 
   /// Displaces along the normals alone, none pulled: G push + displacement wanted >= 0. Sets Constraint::push.
   void push_apart(std::vector<Constraint>&, const std::vector<int>& members, const std::vector<double>& wanted);
@@ -52,6 +56,12 @@ class ContactSolver {
   void soften_dead_centres(const std::vector<Constraint>&, const std::vector<int>& members);
   void add_to_velocity(int member, int rows, const Vec3& change);
   double sweep(std::vector<Constraint>&, const std::vector<int>& members);
+  /// Residual [m/s] that is asked for, and one that will do.
+  struct Aim {
+    double wanted, tolerated;
+  };
+  void sweep_on(std::vector<Constraint>&, const std::vector<int>& members, Aim, int most, SolveReport&);
+  double move_along(std::vector<Constraint>&, const std::vector<int>& members, double last);
   void iterate(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, int sweeps, SolveReport&);
   void begin(std::vector<Constraint>&, const std::vector<int>& members, const std::vector<Vec3>& impulses);
   bool push_who_must(std::vector<Constraint>&, const std::vector<int>& members, const std::vector<double>& wanted, double tight);
@@ -65,7 +75,7 @@ class ContactSolver {
   double residual(const std::vector<Constraint>&, const std::vector<int>& members) const;
   /// What Newton takes care of: nothing, contacts more than the bodies have freedoms, chains of contacts that jam each other.
   enum class Care { none, redundant, jammed };
-  void newton(std::vector<Constraint>&, const std::vector<int>& members, double tolerance, Care, SolveReport&);
+  bool newton(std::vector<Constraint>&, const std::vector<int>& members, Aim, Care, SolveReport&);
   bool newton_step(std::vector<Constraint>&, const std::vector<int>& members, bool again);
   void write_linearised(const std::vector<Constraint>&, const std::vector<int>& members);
   bool factor_linearised(const std::vector<Constraint>&, const std::vector<int>& members);
@@ -131,6 +141,7 @@ class ContactSolver {
   std::array<Answer, 2> answers_;   // of two neighbours
   std::vector<double> L_, L_kept_;
   AlignedVector u_kept_;
+  std::vector<double> L_along_, u_along_;  // the direction of conjugate sweeps
   std::vector<Vec3> L_start_, L_nothing_, L_best_;
 };
 

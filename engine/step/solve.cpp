@@ -16,6 +16,15 @@ namespace {
 
 constexpr int kMostPasses = 6;  // through the impulses of one step, while joints are torn loose
 
+/// Solves in a row that Newton has not brought near, after one more. From kInVain on an island is solved by sweeps first, until
+/// Newton is tried again.
+constexpr double kNear = 0.1;  // [-] of the tolerance
+constexpr int kInVain = 5, kTriedAgain = 100;
+int count_in_vain(int so_far, bool near) {
+  if (so_far < kInVain) return near ? 0 : so_far + 1;
+  return so_far < kInVain + kTriedAgain ? so_far + 1 : kInVain - 1;
+}
+
 /// The impulse of the last step, found by its key and taken into the cone.
 void warm_start(Constraint& c, const std::vector<WarmStart>& warm) {
   const auto found =
@@ -49,7 +58,10 @@ void solve_island(StepContext& s, int root, From from) {
                         from == From::last_pass ? &s.buffers.loosened : nullptr);
   const auto solve = [&] {
     SolveReport& report = s.buffers.islands.reports[root];
-    report = world.solver.solve(s.constraints, island, world.model.settings.solver_tolerance);
+    int& in_vain = s.state.pace.in_vain[root];
+    const double tolerance = world.model.settings.solver_tolerance;
+    report = world.solver.solve(s.constraints, island, tolerance, in_vain < kInVain ? Begin::newton : Begin::sweeps);
+    in_vain = count_in_vain(in_vain, report.residual < kNear * tolerance);
     world.log.diagnostics.contact_sweeps += report.sweeps;
     world.log.diagnostics.newton_steps += report.newton_steps;
   };
