@@ -30,8 +30,10 @@ struct Islands {
   std::vector<int> roots;                 // trees that have members, the smallest island first: no loop goes over who has none
   std::vector<int> of_tree;               // a tree of the same island, or itself at its root
   std::vector<char> by_whole;             // per tree: all impulses displace by their whole
+  std::vector<char> to_end;               // per tree: and all else by the velocities at the end of the step
   std::vector<SolveReport> reports;       // per tree
   std::vector<double> rise, left;         // [J] per tree: gained, explained by no condition
+  std::vector<double> moved;              // [J] per tree: by which moving it to the end of the step raised it
   std::vector<int> line, place;           // trees of one island side by side, and per tree where
   std::vector<std::pair<int, int>> ends;  // per condition: the trees it joins; twice the same where it holds one
 };

@@ -199,8 +199,10 @@ void ContactSolver::iterate(std::vector<Constraint>& all, const std::vector<int>
 /// The velocities that the impulses given leave.
 void ContactSolver::begin(std::vector<Constraint>& all, const std::vector<int>& members, const std::vector<Vec3>& impulses) {
   const int count = static_cast<int>(members.size());
-  for (int i = 0; i < count; ++i)
-    for (int r = 0; r < all[members[i]].rows; ++r) u_[static_cast<std::size_t>(offset_[i] + r)] = all[members[i]].u.free[r];
+  for (int i = 0; i < count; ++i) {
+    const Constraint& c = all[members[i]];
+    for (int r = 0; r < c.rows; ++r) u_[static_cast<std::size_t>(offset_[i] + r)] = c.u.free[r];
+  }
   for (int i = 0; i < count; ++i) {
     all[members[i]].impulse = impulses[i];
     add_to_velocity(i, all[members[i]].rows, impulses[i]);

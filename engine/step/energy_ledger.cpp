@@ -69,9 +69,22 @@ double unexplained(StepContext& s) {
       left[math::representative(islands.of_tree, tree)] += change_since(s, l, s.buffers.smooth);
   for (const int root : islands.roots)
     for (const int i : islands.members[root]) left[root] -= work_of(s, static_cast<std::size_t>(i));
+  for (const int tree : s.world.active_trees) left[math::representative(islands.of_tree, tree)] -= islands.moved[tree];
   double most = 0;
   for (const int tree : s.world.active_trees) most = std::max(most, std::abs(left[tree]));
   return most;
+}
+
+/// Trees are moved to the end of the step for the springs that squeeze them: it counts with their work.
+void book_moved(StepContext& s) {
+  Islands& islands = s.buffers.islands;
+  if (!s.impulses) return;
+  for (const int tree : s.world.active_trees) {
+    if (islands.moved[tree] == 0) continue;
+    const std::vector<int>& island = islands.members[math::representative(islands.of_tree, tree)];
+    const auto squeezes = [&s](int i) { return is_compliant(s.constraints[i]); };
+    s.state.energy.dissipated[s.constraints[*std::find_if(island.begin(), island.end(), squeezes)].effect] -= islands.moved[tree];
+  }
 }
 
 /// The most [J] that the hard contacts and stops of one effect gave which has none to give.
@@ -133,6 +146,7 @@ void book(StepContext& s) {
     double& deepest = is_angular_limit(c) ? diagnostics.max_joint_angle_error : diagnostics.max_penetration;
     deepest = std::max(deepest, -c.gap);
   }
+  book_moved(s);
   if (!s.any_damper) return;
   for (const int tree : world.active_trees)
     for (int l = world.topology.trees[tree].begin; l < world.topology.trees[tree].end; ++l) {

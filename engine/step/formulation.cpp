@@ -220,13 +220,15 @@ void take_spring(StepContext& s, int i, bool whole) {
 void formulate(StepContext& s) {
   Islands& islands = s.buffers.islands;
   s.buffers.weight.assign(s.constraints.size(), 0.5);
-  islands.by_whole.assign(islands.members.size(), 0);
+  for (auto* by : {&islands.by_whole, &islands.to_end}) by->assign(islands.members.size(), 0);
+  islands.moved.assign(islands.members.size(), 0);
   for (const int k : islands.roots) {
     const std::vector<int>& island = islands.members[k];
     const bool stands = std::any_of(island.begin(), island.end(), [&](int i) { return stands_on_body(s.constraints[i]); });
     formulate_island(s, island, stands);
     islands.by_whole[k] = stands || squeezes_by_unequal_shares(s, island);
-    if (islands.by_whole[k] && !stands) formulate_island(s, island, true);
+    islands.to_end[k] = islands.by_whole[k] && !stands;
+    if (islands.to_end[k]) formulate_island(s, island, true);
     for (const int i : island) take_spring(s, i, islands.by_whole[k]);
   }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/disjoint_sets.h"
 #include "engine/solver/one_contact.h"
 #include "engine/step/formulation.h"
 #include "engine/step/islands.h"
@@ -91,6 +92,20 @@ Vec3 carried_on(const Body& body, const Quat& q, const Quat& turned, const Vec3&
   return after > 0 ? Vec3(w_turned * std::sqrt(before / after)) : w;
 }
 
+/// Of a tree in a squeezed island, before the impulses displace it: what the smooth motion gained in speed displaces by its whole,
+/// as impulses do there. Else friction and joints that hold still at the end of the step are moved by half of it, against the pull:
+/// a person slid off a heap at 1.6 cm/s at 2 ms.
+void move_to_end(StepContext& s, int tree) {
+  const Topology::Tree& range = s.world.topology.trees[tree];
+  for (int l = range.begin; l < range.end; ++l) {
+    const int b = s.world.topology.links[l].body;
+    const Twist &now = s.end.V_WB[b], &then = s.state.V_WB[b];
+    const Vec3 by = 0.5 * s.length * (now.v - then.v);
+    displace(s.end.X_WB[b], by, 0.5 * s.length * (now.w - then.w));
+    s.buffers.islands.moved[tree] -= s.world.model.bodies[b].mass * s.world.model.settings.gravity.dot(by);
+  }
+}
+
 constexpr double kNoShare = -1, kSeveralShares = -2;
 
 /// J^T L of all conditions: velocities take the whole impulse, displacements its weighted share. Notes by tree which share all of
@@ -136,6 +151,7 @@ void apply(StepContext& s) {
     if (share == kNoShare) continue;
     const Topology::Tree& range = topology.trees[tree];
     const bool free = range.end - range.begin == 1 && topology.links[range.begin].joint < 0;
+    if (s.buffers.islands.to_end[math::representative(s.buffers.islands.of_tree, tree)]) move_to_end(s, tree);
     s.world.impulse.solve(topology, tree, s.buffers.force, result, Articulation::Bias::zero);
     for (int l = range.begin; l < range.end; ++l) {
       const int b = topology.links[l].body;

@@ -20,9 +20,10 @@ StepBuffers::StepBuffers(const World& world) {
   islands.ends.reserve(kRoom);
   islands.roots.reserve(trees);
   islands.of_tree.reserve(trees);
-  islands.by_whole.reserve(trees);
+  for (auto* by : {&islands.by_whole, &islands.to_end}) by->reserve(trees);
   islands.reports.resize(trees);
   for (auto* list : {&islands.rise, &islands.left}) list->reserve(trees);
+  islands.moved.assign(trees, 0);
   for (auto* list : {&islands.line, &islands.place}) list->reserve(trees);
   for (auto* list : {&weight, &allowed, &targets}) list->reserve(kRoom);
   share.reserve(trees);

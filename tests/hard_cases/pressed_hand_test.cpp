@@ -89,19 +89,20 @@ TEST_P(HeapOfPersons, ComesToRestWithoutMuchAdo) {
 }
 
 /// Contacts of who has come to rest stand on the edges of their cones: Newton, which goes to and fro there, leaves them to sweeps.
-TEST(HeapOfPersonsAtRest, IsLeftToSweeps) {
-  const Outcome it = run("heap_of_three", Setting{"1 ms", "stepping"}, {"simulation.duration=8 s"});
+/// And friction holds them where all impulses displace by their whole, as at 2 ms: one slid 10 cm meanwhile.
+TEST_P(HeapOfPersons, LiesOn) {
+  const Outcome it = run("heap_of_three", GetParam(), {"simulation.duration=12 s"});
   const auto& d = it.diagnostics();
   const auto per_step = [&it](auto count) { return static_cast<double>(count) / static_cast<double>(it.recording.steps); };
   double crept = 0;
   const auto& snapshots = it.recording.snapshots;
-  const auto from = std::find_if(snapshots.begin(), snapshots.end(), [](const auto& s) { return s.time >= 5; });
+  const auto from = std::find_if(snapshots.begin(), snapshots.end(), [](const auto& s) { return s.time >= 8; });
   for (std::size_t i = 0; i < from->bodies.size(); ++i)
     crept = std::max(crept, (snapshots.back().bodies[i].X_WB.p - from->bodies[i].X_WB.p).norm());
-  row("three persons lie on", it, "%.1f sweeps and %.1f Newton steps a step, creep %.1e m from 5 to 8 s, residual %.1e m/s",
+  row("three persons lie on", it, "%.1f sweeps and %.1f Newton steps a step, creep %.1e m from 8 to 12 s, residual %.1e m/s",
       per_step(d.contact_sweeps), per_step(d.newton_steps), crept, d.max_solver_residual);
-  EXPECT_LT(per_step(d.newton_steps), 3);  // it took 10 when all was left to it
-  EXPECT_LT(crept, 1e-3);
+  EXPECT_LT(per_step(d.newton_steps), 5);  // it took 10 at 1 ms when all was left to it
+  EXPECT_LT(crept, 5e-4);                  // as of one who lies alone, for 60 s
   EXPECT_LT(d.max_solver_residual, 1e-4);
 }
 

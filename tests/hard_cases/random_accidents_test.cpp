@@ -98,21 +98,22 @@ TEST_P(RandomAccidents, SayThatTheyAreRight) {
 // of which the last halving was unsolved, or ran through a stop, where a longer one had mislaid some 10 J; pushes that ran a foot
 // through its stop, and a bicycle into the road, which had been let go as open; trunks that wheels pressed up to 10 mm into the
 // person's own forearm, by contacts at a dead centre that yielded, and a limb that turned 2 or 4 degrees beyond its stop; trunks
-// inside vehicles by edges of meshes that were not found.
+// inside vehicles by edges of meshes that were not found; 0.18 % of the energy mislaid where a forearm was pressed from both sides.
 TEST(RandomAccident, HoldsWhereItOnceDidNot) {
   Seen seen;
   for (const unsigned seed :
        {955u, 1166u, 1779u, 2355u, 2479u, 2506u, 3977u, 4120u, 4157u, 5072u, 5088u, 5669u, 5976u, 6053u, 9098u, 9233u, 9567u})
     expect_right(seed, kLaws[0], seen);
+  expect_right(179, kLaws[1], seen);
 }
 
-// Those that go beyond the bounds above: what steps mislay where persons yield, a trunk in a vehicle.
+// That goes beyond the bounds above: a trunk in a vehicle.
 TEST(RandomAccident, SaysWhereItFallsShort) {
   const struct {
     unsigned seed;
     const Law& law;
     const char* warning;
-  } all[] = {{179, kLaws[1], "J at 1500 ms that no effect explains"}, {7547, kLaws[0], "one/torso stood 2.8 mm inside other"}};
+  } all[] = {{7547, kLaws[0], "one/torso stood 2.8 mm inside other"}};
   for (const auto& [seed, law, warning] : all) {
     const scenes::testing::SceneFolder folder;
     const engine::Recording it = engine::simulate(folder.load(accident(seed, law.name)).model);
