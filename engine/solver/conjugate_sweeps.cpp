@@ -1,5 +1,6 @@
 // Sweeps along conjugate directions (Silcowitz, Niebe and Erleben 2010): what a sweep changes stands for the gradient, and the way
-// of the sweeps before is gone on along it. The norm is the energy of the change. Against plain sweeps: half as many, or fewer.
+// of the sweeps before is gone on along it. The norm is the energy of the change. Against plain sweeps a third fewer are asked for
+// where persons lie on each other.
 #include "engine/solver/contact_solver.h"
 
 namespace engine {

@@ -89,7 +89,7 @@ TEST_P(HeapOfPersons, ComesToRestWithoutMuchAdo) {
 }
 
 /// Contacts of who has come to rest stand on the edges of their cones: Newton, which goes to and fro there, leaves them to sweeps.
-/// And friction holds them where all impulses displace by their whole, as at 2 ms: one slid 10 cm meanwhile.
+/// And friction holds them where all impulses displace by their whole, as at 2 ms: one slid 8 cm meanwhile.
 TEST_P(HeapOfPersons, LiesOn) {
   const Outcome it = run("heap_of_three", GetParam(), {"simulation.duration=12 s"});
   const auto& d = it.diagnostics();
